@@ -1,0 +1,68 @@
+// What the world tells its caller.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "kinesphere/body.hpp"
+
+namespace kinesphere {
+
+/// In the order in which events of one instant are delivered.
+enum class EventKind : std::uint8_t {
+  /// A probe answered with a state that contradicts the body's own promise. The world goes on from
+  /// the new report; what it certified since the last one may have been wrong.
+  bound_violation,
+  /// Two bodies touch: their gap has come down to at most the contact tolerance.
+  contact_begin,
+  /// Two bodies that touched are apart: their gap has grown to the separation distance.
+  contact_end,
+  /// A body touches a wall of the box.
+  wall_begin,
+  /// A body that touched a wall is clear of it.
+  wall_end,
+  /// Time would have stood still at a contact, so the Zeno guard moved it on by the smallest step:
+  /// this pair may overlap by more than the contact tolerance.
+  zeno_guard,
+};
+inline constexpr int event_kind_count = 6;
+
+/// The walls of the box, by the axis and side on which they stand.
+enum class Wall : std::uint8_t { none, x_lower, x_upper, y_lower, y_upper, z_lower, z_upper };
+inline constexpr int wall_count = 6;
+
+/// "contact_begin" and so on: the names used in logs, summaries and messages.
+std::string_view name_of(EventKind kind);
+/// "x_lower" and so on; "none" for Wall::none.
+std::string_view name_of(Wall wall);
+
+struct Event {
+  EventKind kind = EventKind::contact_begin;
+  double time = 0.0;
+  /// The body, or the one of the two with the smaller id.
+  BodyId first = no_body;
+  /// The other body; no_body for wall events and bound violations.
+  BodyId second = no_body;
+  /// The wall of a wall event, else Wall::none.
+  Wall wall = Wall::none;
+  /// True when one of the two bodies touched something less than its Zeno interval ago
+  /// (WorldDefinition::zeno_interval): a response that loses energy should lose none here.
+  bool repeated = false;
+  /// States at `time`. Those of a wall or of no_body are zero.
+  State first_state;
+  State second_state;
+  /// The middle of the gap between the two surfaces (for a wall: the point of it that is nearest).
+  Vec3 point;
+  /// Unit vector from `first` towards `second`, or towards the wall.
+  Vec3 normal;
+  /// Distance between the surfaces (length); negative when they overlap.
+  double gap = 0.0;
+  /// Speed at which the gap closes (length / time); negative when it opens.
+  double approach_speed = 0.0;
+  /// bound_violation: how far the reported position lies outside the bound (length), and by how much
+  /// the velocity changed more than promised (length / time); each zero when it is within the promise.
+  double position_excess = 0.0;
+  double velocity_excess = 0.0;
+};
+
+}  // namespace kinesphere

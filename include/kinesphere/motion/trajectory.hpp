@@ -1,0 +1,28 @@
+// Exact motion: cubic pieces, one after the other.
+#pragma once
+
+#include <vector>
+
+#include "kinesphere/body.hpp"
+
+namespace kinesphere {
+
+/// Motion during [begin, end]: with s = t - begin,
+///   x(t) = position + velocity s + 1/2 acceleration s^2 + 1/6 jerk s^3.
+struct Segment {
+  double begin = 0.0;
+  double end = 0.0;
+  Vec3 position;
+  Vec3 velocity;
+  Vec3 acceleration;
+  Vec3 jerk;
+
+  State state_at(double t) const;
+  /// Acceleration at time t.
+  Vec3 acceleration_at(double t) const { return acceleration + jerk * (t - begin); }
+};
+
+/// Consecutive segments: each begins where the one before it ends.
+using Trajectory = std::vector<Segment>;
+
+}  // namespace kinesphere

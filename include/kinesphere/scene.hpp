@@ -1,0 +1,101 @@
+// Scenes: bodies, their motion and what they do on contact. One set of scenes serves the program, the tests
+// and the benchmarks.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kinesphere/detector.hpp"
+#include "kinesphere/motion/motion.hpp"
+#include "kinesphere/world.hpp"
+
+namespace kinesphere {
+
+enum class Response {
+  pass_through,  ///< nobody reacts: the contacts are a fixed truth
+  bounce,        ///< bodies bounce off each other and the walls, mass ~ radius^3
+};
+
+struct SceneBody {
+  double radius = 1.0;
+  double appears = 0.0;                                       ///< when it is added
+  double vanishes = std::numeric_limits<double>::infinity();  ///< when it is removed
+};
+
+struct Scene {
+  std::string name;
+  WorldDefinition world;
+  std::vector<SceneBody> bodies;  ///< by their number in the motion
+  std::unique_ptr<const Motion> motion;
+  Response response = Response::pass_through;
+  double restitution = 1.0;
+  double end_time = 1.0;
+};
+
+/// What simulate() hands out while it runs. Each may be empty.
+struct SimulationObserver {
+  /// Called for every event, in order.
+  std::function<void(const Event&)> on_event;
+  /// Called at start_time + k * frame_interval, and with the final time.
+  std::function<void(const Detector&, const Motion&, double time)> on_frame;
+  double frame_interval = std::numeric_limits<double>::infinity();
+  /// Called with the detector before every advance (tests audit here).
+  std::function<void(const Detector&)> between_events;
+};
+
+struct SimulationResult {
+  Counters counters;
+  double simulated_time = 0.0;
+  double body_time = 0.0;          ///< sum over bodies of the time they were there
+  std::uint64_t contact_hash = 0;  ///< of all events, in order; see EventHash
+};
+
+/// Runs a scene under a detector that `make` creates: adds and removes bodies when their time comes, answers
+/// contacts as the scene's response says.
+Result<SimulationResult> simulate(
+    const Scene& scene,
+    const std::function<Result<std::unique_ptr<Detector>>(const WorldDefinition&, const Motion&)>& make,
+    const SimulationObserver& observer = {});
+
+/// A hash of events that any change of a bit in time, kind, ids or wall changes (64-bit FNV-1a).
+class EventHash {
+ public:
+  void add(const Event& event);
+  std::uint64_t value() const { return value_; }
+
+ private:
+  void mix(std::uint64_t word);
+  std::uint64_t value_ = 0xcbf29ce484222325u;
+};
+
+/// The parameters of the paper's experiments; scene files and the built-in scenes are made of these.
+struct SceneParameters {
+  std::string name = "custom";
+  enum class MotionKind { random_forces, velocity_field, ballistic } motion = MotionKind::random_forces;
+  std::uint32_t bodies = 1000;
+  double radius_min = 0.1, radius_max = 10.0;
+  double speed_min = 4.3301270189221932, speed_max = 43.301270189221931;  ///< 2.5 sqrt 3, 25 sqrt 3
+  double limit_min = 10.0, limit_max = 20.0;                              ///< acceleration
+  Vec3 gravity;                                                           ///< planned acceleration
+  Box box{{0, 0, 0}, {200, 200, 200}};
+  bool walls = true;
+  double redraw_interval = 0.2;  ///< how long a random force lasts
+  Response response = Response::bounce;
+  double restitution = 1.0;
+  double contact_tolerance = 1e-6;
+  double seconds = 15.0;
+  std::uint64_t seed = 1;
+};
+
+/// Places the bodies without overlap and makes the scene. Errors: out_of_range naming the parameter, also
+/// when so many bodies do not fit into the box.
+Result<Scene> make_scene(const SceneParameters& parameters);
+
+/// The built-in scenes, by name.
+const std::vector<SceneParameters>& built_in_scenes();
+
+}  // namespace kinesphere

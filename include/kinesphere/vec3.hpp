@@ -1,0 +1,52 @@
+// A vector of three doubles, and the axis-aligned box between two of them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinesphere {
+
+struct Vec3 {
+  double x = 0.0;
+  double y = 0.0;
+  double z = 0.0;
+
+  constexpr double& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
+  constexpr double operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+
+  constexpr Vec3& operator+=(const Vec3& other) { return *this = {x + other.x, y + other.y, z + other.z}; }
+  constexpr Vec3& operator-=(const Vec3& other) { return *this = {x - other.x, y - other.y, z - other.z}; }
+  constexpr Vec3& operator*=(double factor) { return *this = {x * factor, y * factor, z * factor}; }
+
+  friend constexpr bool operator==(const Vec3&, const Vec3&) = default;
+};
+
+constexpr Vec3 operator+(Vec3 a, const Vec3& b) { return a += b; }
+constexpr Vec3 operator-(Vec3 a, const Vec3& b) { return a -= b; }
+constexpr Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
+constexpr Vec3 operator*(Vec3 a, double factor) { return a *= factor; }
+constexpr Vec3 operator*(double factor, Vec3 a) { return a *= factor; }
+constexpr Vec3 operator/(const Vec3& a, double divisor) {
+  return {a.x / divisor, a.y / divisor, a.z / divisor};
+}
+
+constexpr double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+constexpr double norm_squared(const Vec3& a) { return dot(a, a); }
+inline double norm(const Vec3& a) { return std::sqrt(norm_squared(a)); }
+
+/// |x| + |y| + |z|: the cheap size that rounding margins are taken from.
+inline double norm_one(const Vec3& a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
+
+inline bool is_finite(const Vec3& a) {
+  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
+
+/// All points p with lower <= p <= upper on every axis.
+struct Box {
+  Vec3 lower;
+  Vec3 upper;
+
+  friend constexpr bool operator==(const Box&, const Box&) = default;
+};
+
+}  // namespace kinesphere

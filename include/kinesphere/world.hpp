@@ -1,0 +1,142 @@
+// The world: moving spheres with unknown trajectories, and every contact among them, in time order.
+//
+//   #include <kinesphere/world.hpp>
+//   using namespace kinesphere;
+//
+//   World world = World::create({.box = Box{{0, 0, 0}, {100, 100, 100}}}).value();
+//   BodyId ball = world.add({.radius = 1, .acceleration_limit = 10,
+//                            .position = {50, 50, 50}, .velocity = {5, 0, 0}}).value();
+//   // ... more bodies
+//
+//   auto probe = [&](std::span<const BodyId> ids, double time, std::span<State> states) {
+//     for (std::size_t k = 0; k < ids.size(); ++k) states[k] = my_simulation.state(ids[k], time);
+//   };
+//   while (auto event = world.advance(60.0, probe).value()) {
+//     if (event->kind == EventKind::contact_begin) {
+//       Vec3 bounced = ...;
+//       my_simulation.set_velocity(event->first, event->time, bounced);
+//       world.kick(event->first, bounced).value();
+//     }
+//   }
+//   // now world.time() == 60
+//
+// The caller moves the bodies and the world watches them: it asks the probe for the state of a body
+// only when that can matter, and stops at each event. Between stops bodies may be kicked, added and
+// removed. The guarantee: as long as bodies keep their promises (BodyDefinition), no two of them
+// overlap by more than the contact tolerance unreported. docs/guarantee.md has the proof.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kinesphere/body.hpp"
+#include "kinesphere/bound.hpp"
+#include "kinesphere/counters.hpp"
+#include "kinesphere/event.hpp"
+#include "kinesphere/probe.hpp"
+#include "kinesphere/result.hpp"
+
+namespace kinesphere {
+
+/// Which contacts are reported.
+enum class ContactMode {
+  /// Each contact has a begin and an end.
+  begin_and_end,
+  /// For bodies that bounce: a begin whenever two bodies touch and approach, and no ends. Once a kick
+  /// has turned them apart the next approach is a new contact, however small the gap was in between.
+  impacts,
+};
+
+struct WorldDefinition {
+  /// The walls. Without a box the world is unbounded.
+  std::optional<Box> box;
+  /// eps > 0 (length): a contact begins at a time when the true gap is at most eps, and no gap
+  /// ever falls below -eps unreported.
+  double contact_tolerance = 1e-6;
+  /// > contact_tolerance (length): a contact ends at a time when the gap is between this and this plus
+  /// eps. Default (NaN): 4 eps.
+  double separation_distance = std::numeric_limits<double>::quiet_NaN();
+  ContactMode contacts = ContactMode::begin_and_end;
+  /// When false, add() refuses a body that certainly overlaps another or a wall.
+  bool allow_overlap = true;
+  /// >= 0 (time): a contact that comes less than this after the previous one of the same body is
+  /// marked as repeated. The time sqrt(eps / (A + |g|)) in which a body cannot leave the tolerance counts
+  /// too.
+  double zeno_interval = 0.0;
+  double start_time = 0.0;
+};
+
+/// Where a body's promise stands now.
+struct BodyView {
+  BodyDefinition definition;  ///< with the state of the last report
+  Bound bound;                ///< since the last report
+  Box box;                    ///< which holds the body until box_end
+  double box_end;
+};
+
+/// The first thing that audit() found wrong.
+struct AuditFinding {
+  std::string where;  ///< "registration", "certificate", "contact", "wall" or "queue"
+  std::string what;   ///< which bodies, what is recorded, what it should be
+};
+
+class World {
+ public:
+  /// Errors: not_finite or out_of_range, naming the field.
+  static Result<World> create(const WorldDefinition& definition);
+
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+  ~World();
+
+  /// Adds a body at the current time. Errors: not_finite; out_of_range (a negative radius, limit or
+  /// error; a coordinate beyond 2^44 contact tolerances, where doubles could no longer keep
+  /// the promise); outside_domain; overlapping. Cost: O(1) here, a grid search at the next advance.
+  Result<BodyId> add(const BodyDefinition& body);
+  /// Adds all of them or, on an error, none.
+  Result<std::vector<BodyId>> add(std::span<const BodyDefinition> bodies);
+
+  /// Removes a body. Its contacts end: the end events come at the next advance, with its last state.
+  /// Errors: unknown_body, stale_body. Cost: O(log n + contacts).
+  Result<void> remove(BodyId body);
+
+  /// Tells the world that the velocity of this body is `velocity` from the current time on; the probe
+  /// must answer accordingly. Everything certified about the body so far is void. If it has not been
+  /// probed at this very time (both bodies of a contact have) the next advance does so first.
+  /// Errors: unknown_body, stale_body, not_finite. Cost: O(1) here, a grid search at the next advance.
+  Result<void> kick(BodyId body, const Vec3& velocity);
+
+  /// Goes on to the next event, at most to time `until`. Returns the event, with time() at its time, or
+  /// nothing, with time() == until. Events come in the order of (time, kind, first, second, wall);
+  /// those that a kick causes at the same instant follow in a new round of that order.
+  /// Errors: time_backwards or not_finite for `until`; not_finite or out_of_range naming the body when
+  /// the probe answers with such a state: that answer is dropped, the world stays where it was, and the
+  /// call may be repeated.
+  Result<std::optional<Event>> advance(double until, Probe probe);
+
+  double time() const;
+  std::size_t size() const;
+  const WorldDefinition& definition() const;
+  bool contains(BodyId body) const;
+  /// Errors: unknown_body, stale_body.
+  Result<BodyView> body(BodyId body) const;
+  /// The living bodies, by index.
+  std::vector<BodyId> bodies() const;
+  const Counters& counters() const;
+
+  /// Rebuilds from scratch what should be true now (every registration, certificate and scheduled time)
+  /// and returns the first difference. Meant for tests: O(n^2).
+  std::optional<AuditFinding> audit() const;
+
+ private:
+  class Engine;
+  explicit World(std::unique_ptr<Engine> engine);
+  std::unique_ptr<Engine> engine_;
+};
+
+}  // namespace kinesphere
