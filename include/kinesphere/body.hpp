@@ -23,8 +23,8 @@ inline constexpr BodyId no_body{};
 
 /// Position and velocity at one instant, as a probe reports them.
 struct State {
-  Vec3 position;
-  Vec3 velocity;
+  Vec3 position{};
+  Vec3 velocity{};
 
   friend constexpr bool operator==(const State&, const State&) = default;
 };
@@ -37,15 +37,15 @@ struct BodyDefinition {
   /// A >= 0 (length / time^2): the largest deviation from the planned acceleration. 0 is ballistic.
   double acceleration_limit = 0.0;
   /// g (length / time^2): gravity, a flight plan; zero when nothing is known.
-  Vec3 planned_acceleration;
+  Vec3 planned_acceleration{};
   /// e0 >= 0 (length): every reported position is within e0 of the true one. The body counts as a
   /// sphere of radius r + e0 around its reported position, so contacts come early, never late.
   double position_error = 0.0;
   /// e1 >= 0 (length / time): every reported velocity is within e1 of the true one.
   double velocity_error = 0.0;
   /// State at the world's current time.
-  Vec3 position;
-  Vec3 velocity;
+  Vec3 position{};
+  Vec3 velocity{};
 };
 
 }  // namespace kinesphere

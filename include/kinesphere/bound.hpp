@@ -26,9 +26,9 @@ namespace kinesphere {
 /// (paper, eqs 3-6, which are the case of zero plan and zero growth_speed).
 struct Bound {
   double time = 0.0;  ///< of the report
-  Vec3 position;
-  Vec3 velocity;
-  Vec3 planned_acceleration;
+  Vec3 position{};
+  Vec3 velocity{};
+  Vec3 planned_acceleration{};
   double radius = 0.0;               ///< r + e0
   double growth_speed = 0.0;         ///< e1
   double growth_acceleration = 0.0;  ///< A
@@ -45,7 +45,7 @@ Bound bound_of(const BodyDefinition& body, const State& state, double time);
 
 /// The points p with dot(normal, p) >= offset: where bodies may be; the plane is the wall.
 struct HalfSpace {
-  Vec3 normal;  ///< of unit length
+  Vec3 normal{};  ///< of unit length
   double offset = 0.0;
 };
 

@@ -25,6 +25,8 @@ struct Counters {
   std::uint64_t candidates = 0;
   /// Pair certificates computed (for other detectors: pair tests).
   std::uint64_t certificates = 0;
+  /// Looks at a contact that the Zeno guard put off to the smallest step.
+  std::uint64_t zeno_steps = 0;
   /// Contacts that came within the Zeno interval of an earlier one of the same body.
   std::uint64_t repeated_contacts = 0;
 

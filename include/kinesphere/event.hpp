@@ -49,12 +49,12 @@ struct Event {
   /// (WorldDefinition::zeno_interval): a response that loses energy should lose none here.
   bool repeated = false;
   /// States at `time`. Those of a wall or of no_body are zero.
-  State first_state;
-  State second_state;
+  State first_state{};
+  State second_state{};
   /// The middle of the gap between the two surfaces (for a wall: the point of it that is nearest).
-  Vec3 point;
+  Vec3 point{};
   /// Unit vector from `first` towards `second`, or towards the wall.
-  Vec3 normal;
+  Vec3 normal{};
   /// Distance between the surfaces (length); negative when they overlap.
   double gap = 0.0;
   /// Speed at which the gap closes (length / time); negative when it opens.

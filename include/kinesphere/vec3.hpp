@@ -43,8 +43,8 @@ inline bool is_finite(const Vec3& a) {
 
 /// All points p with lower <= p <= upper on every axis.
 struct Box {
-  Vec3 lower;
-  Vec3 upper;
+  Vec3 lower{};
+  Vec3 upper{};
 
   friend constexpr bool operator==(const Box&, const Box&) = default;
 };

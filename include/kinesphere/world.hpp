@@ -32,6 +32,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kinesphere/body.hpp"
@@ -54,7 +55,7 @@ enum class ContactMode {
 
 struct WorldDefinition {
   /// The walls. Without a box the world is unbounded.
-  std::optional<Box> box;
+  std::optional<Box> box{};
   /// eps > 0 (length): a contact begins at a time when the true gap is at most eps, and no gap
   /// ever falls below -eps unreported.
   double contact_tolerance = 1e-6;
@@ -73,9 +74,9 @@ struct WorldDefinition {
 
 /// Where a body's promise stands now.
 struct BodyView {
-  BodyDefinition definition;  ///< with the state of the last report
-  Bound bound;                ///< since the last report
-  Box box;                    ///< which holds the body until box_end
+  BodyDefinition definition{};  ///< with the state of the last report
+  Bound bound{};                ///< since the last report
+  Box box{};                    ///< which holds the body until box_end
   double box_end;
 };
 
@@ -136,6 +137,8 @@ class World {
  private:
   class Engine;
   explicit World(std::unique_ptr<Engine> engine);
+  Result<BodyId> add_as(const BodyDefinition& body, std::string_view call);
+  Result<void> check_alive(BodyId body, std::string_view call) const;
   std::unique_ptr<Engine> engine_;
 };
 

@@ -20,16 +20,17 @@ class Motion {
   virtual ~Motion() = default;
 
   virtual std::size_t size() const = 0;
-  /// The body's promise (limit, plan, errors) and its state at time t; the radius is left at 0.
+  /// The body's promise (limit, plan, errors) and its state at time t; the radius is left at its default.
   virtual BodyDefinition promise(std::uint32_t body, double t) const = 0;
-  /// State at time t, which may not lie before the body's last kick. The answer does not depend on
-  /// which times were asked for before.
+  /// State at time t, which may not lie before the body's last kick (or its start). The answer does not
+  /// depend on which times were asked for before. It may be cached, so threads need clones of their own.
   virtual State state(std::uint32_t body, double t) const = 0;
   /// The exact motion during [begin, end], begin not before the last kick, as it will be if nobody kicks.
-  /// The first segment begins at or before `begin`, the last one ends at or after `end`.
+  /// The first segment begins at or before `begin`, the last one ends at `end`. Its states are those that
+  /// state() gives, to the last bit.
   virtual Trajectory trajectory(std::uint32_t body, double begin, double end) const = 0;
-  /// Gives the body a new velocity at time t, which may not lie before its last kick. Motions that
-  /// cannot be changed (recordings) ignore it and return false.
+  /// Gives the body a new velocity at time t. Returns false, and changes nothing, when t lies before its last
+  /// kick, when a number is not finite, and for motions that cannot be changed (recordings).
   virtual bool kick(std::uint32_t body, double t, const Vec3& velocity) = 0;
   /// An independent copy, kicks included.
   virtual std::unique_ptr<Motion> clone() const = 0;

@@ -12,10 +12,10 @@ namespace kinesphere {
 struct Segment {
   double begin = 0.0;
   double end = 0.0;
-  Vec3 position;
-  Vec3 velocity;
-  Vec3 acceleration;
-  Vec3 jerk;
+  Vec3 position{};
+  Vec3 velocity{};
+  Vec3 acceleration{};
+  Vec3 jerk{};
 
   State state_at(double t) const;
   /// Acceleration at time t.

@@ -1,0 +1,37 @@
+// Bodies that fly freely under a common gravity.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "kinesphere/motion/piecewise_acceleration.hpp"
+#include "kinesphere/result.hpp"
+
+namespace kinesphere {
+
+struct BallisticDefinition {
+  /// States at start_time, by body.
+  std::vector<State> start;
+  /// Of all bodies (length / time^2).
+  Vec3 gravity;
+  double start_time = 0.0;
+};
+
+/// Gravity is the planned acceleration, and nothing deviates from it: the limit is 0.
+class Ballistic final : public PiecewiseAcceleration {
+ public:
+  /// Errors: not_finite, naming the field and the body.
+  static Result<Ballistic> create(const BallisticDefinition& definition);
+
+  BodyDefinition promise(std::uint32_t body, double t) const override;
+  std::unique_ptr<Motion> clone() const override;
+
+ private:
+  explicit Ballistic(const BallisticDefinition& definition);
+  Vec3 acceleration(std::uint32_t, std::int64_t, const State&) const override { return gravity_; }
+
+  Vec3 gravity_;
+};
+
+}  // namespace kinesphere

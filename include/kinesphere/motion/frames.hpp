@@ -1,0 +1,85 @@
+// The motion of a game that moves its bodies in fixed steps: straight lines between its last two frames.
+//
+//   Frames frames = Frames::create({.start = positions, .acceleration_limits = limits, .interval = 1.0 /
+//   60}).value();
+//   // frames.push() once before the bodies are added to the world; then, each frame:
+//   frames.push(positions).value();
+//   while (auto event = world.advance(frames.latest_time(), frames.probe()).value()) { ... }
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "kinesphere/motion/motion.hpp"
+#include "kinesphere/result.hpp"
+
+namespace kinesphere {
+
+struct FramesDefinition {
+  /// Positions in frame 0, by body.
+  std::vector<Vec3> start;
+  /// A >= 0 (length / time^2), by body, gravity included. See Frames for what exactly it limits.
+  std::vector<double> acceleration_limits;
+  /// dt > 0 (time): frame k shows the bodies at start_time + k dt.
+  double interval = 1.0 / 60.0;
+  /// e >= 0 (length): how far off the game's positions may be, such as half a unit in the last place of
+  /// single precision.
+  double position_error = 0.0;
+  double start_time = 0.0;
+};
+
+/// A body's velocity is that of the chord between the two frames, so it jumps at each frame; still the body
+/// keeps a promise. If its true acceleration is at most A (or the game itself steps velocities by at most A
+/// dt) then chord velocities differ by at most A dt from frame to frame, that is, positions p of the game
+/// satisfy |p_(k+1) - 2 p_k + p_(k-1)| <= A dt^2. After a time s from any moment on, the jumps add up to at
+/// most
+///   sum over frames in between of A dt (s - their time) <= A dt s + 1/2 A s^2,
+/// which is the general bound with velocity error A dt and acceleration limit A. Positions that are off by e
+/// make chord velocities off by 2 e / dt, which is added to the velocity error.
+///
+/// States are known from the last frame but one to the last, so a game looks at the world one frame late.
+/// kick() returns false: the game itself decides where its next frame shows a body. When it makes a velocity
+/// jump, for a bounce say, the promise does not cover that, and the world must be told: with the world's time
+/// at latest_time(), push the frame, then call
+///   world.kick(id, frames.state(body, world.time()).velocity);
+/// for each such body before going on (and again a frame later if the jump fell between two frames, as then
+/// two chords differ from the one before).
+class Frames final : public Motion {
+ public:
+  /// Errors: not_finite or out_of_range, naming the field and the body.
+  static Result<Frames> create(FramesDefinition definition);
+
+  /// The next frame: the position of every body. Errors, which leave everything as it was: out_of_range for a
+  /// wrong number of positions; not_finite, naming the body.
+  Result<void> push(std::span<const Vec3> positions);
+
+  /// States can be asked for from previous_time() to latest_time(), once there are two frames; before that
+  /// both are start_time, and all velocities zero. Beyond, an answer is the extrapolation of the chord.
+  double previous_time() const { return time_of(latest_frame_ == 0 ? 0 : latest_frame_ - 1); }
+  double latest_time() const { return time_of(latest_frame_); }
+
+  std::size_t size() const override { return latest_.size(); }
+  BodyDefinition promise(std::uint32_t body, double t) const override;
+  State state(std::uint32_t body, double t) const override;
+  /// One segment.
+  Trajectory trajectory(std::uint32_t body, double begin, double end) const override;
+  bool kick(std::uint32_t body, double t, const Vec3& velocity) override;
+  std::unique_ptr<Motion> clone() const override;
+
+ private:
+  explicit Frames(FramesDefinition definition);
+  double time_of(std::uint64_t frame) const { return start_time_ + static_cast<double>(frame) * interval_; }
+  Segment chord(std::uint32_t body) const;
+
+  std::vector<Vec3> previous_;
+  std::vector<Vec3> latest_;
+  std::vector<double> limits_;
+  double interval_;
+  double position_error_;
+  double start_time_;
+  std::uint64_t latest_frame_ = 0;
+};
+
+}  // namespace kinesphere

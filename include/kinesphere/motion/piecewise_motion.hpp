@@ -1,0 +1,48 @@
+// Motion along ready-made trajectories.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "kinesphere/motion/motion.hpp"
+#include "kinesphere/result.hpp"
+
+namespace kinesphere {
+
+/// Each body follows a smooth trajectory of its own and cannot be kicked. After its last time it coasts on
+/// with the velocity it had there. Before its first time it comes in on a straight line with the velocity it
+/// has there; only in that part trajectory() and state() may differ by a rounding.
+class PiecewiseMotion : public Motion {
+ public:
+  /// One trajectory for each body. Errors, naming body and segment: out_of_range when a trajectory is empty,
+  /// a segment does not end after it begins, does not begin when the one before it ends, or does not go on
+  /// from its position and velocity there (up to a relative 1e-12); not_finite.
+  static Result<PiecewiseMotion> create(std::vector<Trajectory> trajectories);
+
+  std::size_t size() const final { return trajectories_.size(); }
+  /// The limit is the largest acceleration of the whole trajectory, plus a relative 1e-12 for rounding. It is
+  /// exact, and found at an end of a segment, because the length of a linear function is convex.
+  BodyDefinition promise(std::uint32_t body, double t) const final;
+  /// Cost: O(log segments).
+  State state(std::uint32_t body, double t) const final;
+  Trajectory trajectory(std::uint32_t body, double begin, double end) const final;
+  /// Returns false.
+  bool kick(std::uint32_t body, double t, const Vec3& velocity) final;
+  std::unique_ptr<Motion> clone() const override;
+
+  double first_time(std::uint32_t body) const { return trajectories_[body].front().begin; }
+  double last_time(std::uint32_t body) const { return trajectories_[body].back().begin; }
+
+ protected:
+  /// Takes trajectories that create() would accept.
+  explicit PiecewiseMotion(std::vector<Trajectory> trajectories);
+
+ private:
+  Segment lead_in(std::uint32_t body, double t) const;
+
+  std::vector<Trajectory> trajectories_;  ///< each with an endless segment added, for coasting
+  std::vector<double> limits_;
+};
+
+}  // namespace kinesphere

@@ -1,0 +1,43 @@
+// Bodies pushed around by random forces that change at fixed times (the first experiment of the paper).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "kinesphere/motion/piecewise_acceleration.hpp"
+#include "kinesphere/result.hpp"
+
+namespace kinesphere {
+
+struct RandomForcesDefinition {
+  /// States at start_time, by body.
+  std::vector<State> start;
+  /// A >= 0 (length / time^2), by body.
+  std::vector<double> acceleration_limits;
+  /// > 0 (time): forces change at its multiples.
+  double interval = 0.2;
+  std::uint64_t seed = 1;
+  double start_time = 0.0;
+};
+
+/// During each interval a body has a constant acceleration, drawn uniformly from the ball of radius A. The
+/// draw depends on nothing but (seed, body, interval), so a kick leaves the force as it is.
+class RandomForces final : public PiecewiseAcceleration {
+ public:
+  /// Errors: not_finite or out_of_range, naming the field and the body.
+  static Result<RandomForces> create(RandomForcesDefinition definition);
+
+  BodyDefinition promise(std::uint32_t body, double t) const override;
+  std::unique_ptr<Motion> clone() const override;
+
+ private:
+  explicit RandomForces(RandomForcesDefinition definition);
+  Vec3 acceleration(std::uint32_t body, std::int64_t k, const State& state) const override;
+
+  std::vector<double> limits_;
+  std::uint64_t seed_;
+};
+
+}  // namespace kinesphere

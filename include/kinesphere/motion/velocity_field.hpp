@@ -1,0 +1,63 @@
+// Bodies that follow a velocity field as well as a limited acceleration lets them (paper, section 4.3).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "kinesphere/motion/piecewise_acceleration.hpp"
+#include "kinesphere/result.hpp"
+
+namespace kinesphere {
+
+/// The field of the paper's example: up along the centre line of a box, out under the top, down the sides, in
+/// along the bottom. With x', y' in [-1, 1] across the box of half widths a and b, z' in [0, 1] up its height
+/// H, and h(z) = 4 z (1 - z), q(s) = 1 - 3 s^2, Q(s) = s - s^3 (so Q' = q),
+///   w =  speed h(z') (q(x') + q(y')) / 2
+///   u = -speed h'(z') Q(x') a / (2 H),    v = -speed h'(z') Q(y') b / (2 H).
+/// It has no divergence, no flow through the walls, and w = speed in the middle. Outside the box it is that
+/// of the nearest point of the box.
+struct Circulation {
+  Box box;             ///< with lower < upper on every axis
+  double speed = 0.0;  ///< (length / time)
+
+  Vec3 operator()(const Vec3& position) const;
+};
+
+struct VelocityFieldDefinition {
+  /// Velocity by position: a Circulation, or a function of your own, which must always give the same finite
+  /// answer to the same question.
+  std::function<Vec3(const Vec3&)> field;
+  /// States at start_time, by body.
+  std::vector<State> start;
+  /// A >= 0 (length / time^2), by body.
+  std::vector<double> acceleration_limits;
+  /// > 0 (time): bodies look at the field at its multiples, and when they have been kicked.
+  double interval = 0.1;
+  /// > 0 (time): in which a body would reach the velocity of the field, if its limit lets it. Less than half
+  /// the interval makes it overshoot more and more.
+  double response_time = 0.5;
+  double start_time = 0.0;
+};
+
+/// During each interval the acceleration is constant: (field(x) - v) / response_time with x and v at the
+/// interval's beginning, shortened to the body's limit where it is longer.
+class VelocityField final : public PiecewiseAcceleration {
+ public:
+  /// Errors: not_finite or out_of_range, naming the field of the definition and the body.
+  static Result<VelocityField> create(VelocityFieldDefinition definition);
+
+  BodyDefinition promise(std::uint32_t body, double t) const override;
+  std::unique_ptr<Motion> clone() const override;
+
+ private:
+  explicit VelocityField(VelocityFieldDefinition definition);
+  Vec3 acceleration(std::uint32_t body, std::int64_t k, const State& state) const override;
+
+  std::function<Vec3(const Vec3&)> field_;
+  std::vector<double> limits_;
+  double response_time_;
+};
+
+}  // namespace kinesphere

@@ -1,0 +1,60 @@
+// Random numbers that are the same on every machine: splitmix64 (Steele, Lea and Flood 2014), and vectors
+// drawn by rejection. A draw never depends on the order of questions when each question has a generator of
+// its own:
+//   Vec3 force = Random::at(seed, body, interval).point_in_ball();
+#pragma once
+
+#include <cstdint>
+
+#include "kinesphere/vec3.hpp"
+
+namespace kinesphere {
+
+class Random {
+ public:
+  explicit constexpr Random(std::uint64_t seed) : counter_(seed) {}
+
+  /// The generator that belongs to (seed, stream, index) alone; all of them are independent.
+  static constexpr Random at(std::uint64_t seed, std::uint64_t stream, std::uint64_t index) {
+    return Random(mixed(mixed(mixed(seed) ^ stream) ^ index));
+  }
+
+  /// 64 random bits.
+  constexpr std::uint64_t bits() { return mixed(counter_ += step); }
+
+  /// In [0, 1), a multiple of 2^-53.
+  constexpr double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+
+  /// In [lower, upper] (rounding may give `upper` itself).
+  constexpr double uniform(double lower, double upper) { return lower + (upper - lower) * uniform(); }
+
+  /// Uniform in the ball of radius 1 around the origin. Takes about 2 tries.
+  constexpr Vec3 point_in_ball() {
+    for (;;) {
+      const Vec3 point{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
+      if (norm_squared(point) <= 1.0) return point;
+    }
+  }
+
+  /// Uniform on the sphere of radius 1 around the origin.
+  Vec3 unit_vector() {
+    for (;;) {
+      const Vec3 point = point_in_ball();
+      const double length = norm(point);
+      if (length > 0x1p-20) return point / length;  // nearer the origin the direction has few bits
+    }
+  }
+
+ private:
+  static constexpr std::uint64_t step = 0x9e3779b97f4a7c15u;  // 2^64 / golden ratio
+
+  static constexpr std::uint64_t mixed(std::uint64_t word) {
+    word = (word ^ (word >> 30)) * 0xbf58476d1ce4e5b9u;
+    word = (word ^ (word >> 27)) * 0x94d049bb133111ebu;
+    return word ^ (word >> 31);
+  }
+
+  std::uint64_t counter_;
+};
+
+}  // namespace kinesphere

@@ -1,0 +1,175 @@
+// Certified earliest times. The method, and why no answer is late: bound.hpp.
+#include <limits>
+
+#include "bound/relative_motion.hpp"
+#include "bound/rounding.hpp"
+#include "kinesphere/bound.hpp"
+
+namespace kinesphere {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double margin = rounding::margin;
+
+/// Any number of rounds is safe; more are only nearer to the truth.
+constexpr int max_rounds = 16;
+/// A round that gains less than this part of the whole is the last.
+constexpr double negligible_gain = 0x1p-24;
+
+/// Adds up the safe steps that `step(d)` offers at d after `from`.
+template <class Step>
+double advance_by_safe_steps(double from, double horizon, Step step) {
+  double d = 0.0;
+  double time = from;
+  for (int round = 0; round < max_rounds; ++round) {
+    const double gain = step(d);
+    d = rounding::sum_down(d, gain);
+    time = rounding::sum_down(from, d);
+    if (time > horizon) return infinity;
+    if (!(gain > d * negligible_gain)) break;
+  }
+  return time > from ? time : from;
+}
+
+/// For the certificates that are one quadratic: c + b d + 1/2 a d^2 > 0 is what holds now.
+double time_of_crossing(double from, double horizon, double c, double b, double a) {
+  const double time = rounding::sum_down(from, rounding::first_crossing(c, b, a));
+  if (time > horizon) return infinity;
+  return time > from ? time : from;
+}
+
+/// Position, velocity and acceleration of a bound along one direction, moved on to `from`.
+struct Projection {
+  Projection(const Bound& bound, const Vec3& normal, double from)
+      : Projection(from - bound.time, dot(normal, bound.position), dot(normal, bound.velocity),
+                   dot(normal, bound.planned_acceleration), bound) {
+    // The products of a dot product may cancel, so the sizes come from the vectors.
+    acceleration_size = norm_one(bound.planned_acceleration) + bound.growth_acceleration;
+    velocity_size = norm_one(bound.velocity) + bound.growth_speed + acceleration_size * s;
+    position_size = norm_one(bound.position) + bound.radius + velocity_size * s;
+  }
+
+  /// Along one coordinate axis.
+  Projection(const Bound& bound, int axis, double from)
+      : Projection(from - bound.time, bound.position[axis], bound.velocity[axis],
+                   bound.planned_acceleration[axis], bound) {
+    acceleration_size = std::abs(acceleration) + bound.growth_acceleration;
+    velocity_size = std::abs(bound.velocity[axis]) + bound.growth_speed + acceleration_size * s;
+    position_size = std::abs(bound.position[axis]) + bound.radius + velocity_size * s;
+  }
+
+  double s;
+  double position, velocity, acceleration;
+  double growth, growth_speed;
+  double position_size = 0.0, velocity_size = 0.0, acceleration_size = 0.0;
+
+ private:
+  Projection(double elapsed, double p, double v, double a, const Bound& bound)
+      : s(elapsed),
+        position(p + (v + 0.5 * a * elapsed) * elapsed),
+        velocity(v + a * elapsed),
+        acceleration(a),
+        growth((bound.growth_speed + 0.5 * bound.growth_acceleration * elapsed) * elapsed),
+        growth_speed(bound.growth_speed + bound.growth_acceleration * elapsed) {}
+};
+
+}  // namespace
+
+double earliest_meeting(const Bound& a, const Bound& b, double from, double horizon, double distance) {
+  const RelativeMotion motion(a, b, from);
+  const double reach = motion.radii + distance;
+  return advance_by_safe_steps(from, horizon, [&](double d) {
+    const Vec3 centre = motion.centre_at(d);
+    const double length = norm(centre);
+    const Vec3 n = length > 0.0 ? centre / length : Vec3{1.0, 0.0, 0.0};
+    const double c =
+        (length - reach) - motion.growth_at(d) - margin * (motion.size_at(d) + std::abs(distance));
+    const double speed = dot(n, motion.velocity_at(d)) - motion.growth_speed_at(d) -
+                         margin * (motion.velocity_size + motion.acceleration_size * d);
+    const double acceleration =
+        dot(n, motion.acceleration) - motion.growth_acceleration - margin * motion.acceleration_size;
+    return rounding::first_crossing(c, speed, acceleration);
+  });
+}
+
+double earliest_separation(const Bound& a, const Bound& b, double from, double horizon, double distance) {
+  const RelativeMotion motion(a, b, from);
+  const double reach = motion.radii + distance;
+  return advance_by_safe_steps(from, horizon, [&](double d) {
+    const Vec3 centre = motion.centre_at(d);
+    const Vec3 velocity = motion.velocity_at(d);
+    const Vec3& acceleration = motion.acceleration;
+    const double size = motion.size_at(d) + std::abs(distance);
+    const double velocity_size = motion.velocity_size + motion.acceleration_size * d;
+    const double slack = reach - motion.growth_at(d);  // S(d)
+    if (!(slack > margin * size)) return 0.0;
+    const double shrinking = motion.growth_speed_at(d);  // -S'(d)
+    const double alpha = motion.growth_acceleration;
+    const double length = norm(centre) + margin * size;
+
+    // p(d + e) = q0 + q1 e + q2 e^2 + q3 e^3 + q4 e^4, each lowered by what it may be wrong.
+    const double wrong = 4.0 * margin;
+    const double q0 = (slack - length) * (slack + length) - wrong * (slack + length) * size;
+    const double q1 =
+        -2.0 * (slack * shrinking + dot(centre, velocity)) - wrong * (slack + length + size) * velocity_size;
+    const double q2 = shrinking * shrinking - slack * alpha - norm_squared(velocity) -
+                      dot(centre, acceleration) -
+                      wrong * (velocity_size * velocity_size + size * motion.acceleration_size);
+    const double q3 =
+        shrinking * alpha - dot(velocity, acceleration) - wrong * velocity_size * motion.acceleration_size;
+    const double q4 = 0.25 * (alpha * alpha - norm_squared(acceleration)) -
+                      wrong * motion.acceleration_size * motion.acceleration_size;
+
+    // Replace the cubic and quartic terms by their least values over a range: the one that the quadratic
+    // part asks for or, where that never reaches zero, the one in which they cannot outweigh its q2.
+    const double fall3 = std::max(0.0, -q3);
+    const double fall4 = std::max(0.0, -q4);
+    double range = 2.0 * rounding::first_crossing(q0, q1, 2.0 * q2);
+    if (range == infinity) range = std::min(0.5 * q2 / fall3, std::sqrt(0.5 * q2 / fall4));
+    if (!(range < infinity)) return infinity;
+    const double higher = -(fall3 + fall4 * range) * range;
+    return std::min(range, rounding::first_crossing(q0, q1, 2.0 * (q2 + higher)));
+  });
+}
+
+double earliest_meeting(const Bound& bound, const HalfSpace& wall, double from, double horizon,
+                        double distance) {
+  const Projection p(bound, wall.normal, from);
+  const double size = p.position_size + std::abs(wall.offset) + std::abs(distance);
+  return time_of_crossing(from, horizon,
+                          (p.position - wall.offset) - bound.radius - p.growth - distance - margin * size,
+                          p.velocity - p.growth_speed - margin * p.velocity_size,
+                          p.acceleration - bound.growth_acceleration - margin * p.acceleration_size);
+}
+
+double earliest_separation(const Bound& bound, const HalfSpace& wall, double from, double horizon,
+                           double distance) {
+  const Projection p(bound, wall.normal, from);
+  const double size = p.position_size + std::abs(wall.offset) + std::abs(distance);
+  return time_of_crossing(from, horizon,
+                          (wall.offset - p.position) + bound.radius - p.growth + distance - margin * size,
+                          -p.velocity - p.growth_speed - margin * p.velocity_size,
+                          -p.acceleration - bound.growth_acceleration - margin * p.acceleration_size);
+}
+
+double earliest_exit(const Bound& bound, const Box& box, double from, double horizon) {
+  double first = infinity;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Projection p(bound, axis, from);
+    const double speed_margin = p.growth_speed + margin * p.velocity_size;
+    const double acceleration_margin = bound.growth_acceleration + margin * p.acceleration_size;
+    const auto crossing = [&](double room, double wall, double velocity, double acceleration) {
+      const double c = room - bound.radius - p.growth - margin * (p.position_size + std::abs(wall));
+      return rounding::first_crossing(c, velocity - speed_margin, acceleration - acceleration_margin);
+    };
+    first = std::min(first,
+                     crossing(box.upper[axis] - p.position, box.upper[axis], -p.velocity, -p.acceleration));
+    first =
+        std::min(first, crossing(p.position - box.lower[axis], box.lower[axis], p.velocity, p.acceleration));
+  }
+  const double time = rounding::sum_down(from, first);
+  if (time > horizon) return infinity;
+  return time > from ? time : from;
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,64 @@
+// Two bounds seen from one instant: their relative motion, their radii, and the sizes of all that
+// went into these, from which rounding margins are taken.
+#pragma once
+
+#include "kinesphere/bound.hpp"
+
+namespace kinesphere {
+
+/// Relative to `from`, with d = t - from >= 0:
+///   centre difference  C(d) = offset + velocity d + 1/2 acceleration d^2
+///   growth             Gamma(d) = growth + growth_speed d + 1/2 growth_acceleration d^2
+/// where growth is what has been added to the radii since the reports. The sizes bound the sums of the
+/// magnitudes of the terms of each coefficient.
+struct RelativeMotion {
+  Vec3 offset, velocity, acceleration;
+  double radii;  ///< r + e0 of both
+  double growth, growth_speed, growth_acceleration;
+  double offset_size, velocity_size, acceleration_size;
+
+  RelativeMotion(const Bound& a, const Bound& b, double from)
+      : RelativeMotion(Part(a, from), Part(b, from)) {}
+
+  Vec3 centre_at(double d) const { return offset + (velocity + acceleration * (0.5 * d)) * d; }
+  Vec3 velocity_at(double d) const { return velocity + acceleration * d; }
+  double growth_at(double d) const { return growth + (growth_speed + 0.5 * growth_acceleration * d) * d; }
+  double growth_speed_at(double d) const { return growth_speed + growth_acceleration * d; }
+  double size_at(double d) const { return offset_size + (velocity_size + 0.5 * acceleration_size * d) * d; }
+
+ private:
+  /// One bound, moved on to `from`.
+  struct Part {
+    Part(const Bound& bound, double from)
+        : s(from - bound.time),
+          centre(bound.position + (bound.velocity + bound.planned_acceleration * (0.5 * s)) * s),
+          velocity(bound.velocity + bound.planned_acceleration * s),
+          acceleration(bound.planned_acceleration),
+          radius(bound.radius),
+          growth((bound.growth_speed + 0.5 * bound.growth_acceleration * s) * s),
+          growth_speed(bound.growth_speed + bound.growth_acceleration * s),
+          growth_acceleration(bound.growth_acceleration),
+          acceleration_size(norm_one(acceleration) + growth_acceleration),
+          velocity_size(norm_one(bound.velocity) + bound.growth_speed + acceleration_size * s),
+          offset_size(norm_one(bound.position) + radius + velocity_size * s) {}
+
+    double s;
+    Vec3 centre, velocity, acceleration;
+    double radius, growth, growth_speed, growth_acceleration;
+    double acceleration_size, velocity_size, offset_size;
+  };
+
+  RelativeMotion(const Part& a, const Part& b)
+      : offset(a.centre - b.centre),
+        velocity(a.velocity - b.velocity),
+        acceleration(a.acceleration - b.acceleration),
+        radii(a.radius + b.radius),
+        growth(a.growth + b.growth),
+        growth_speed(a.growth_speed + b.growth_speed),
+        growth_acceleration(a.growth_acceleration + b.growth_acceleration),
+        offset_size(a.offset_size + b.offset_size),
+        velocity_size(a.velocity_size + b.velocity_size),
+        acceleration_size(a.acceleration_size + b.acceleration_size) {}
+};
+
+}  // namespace kinesphere

@@ -1,0 +1,43 @@
+// Rounding to the safe side without changing the rounding mode. bound.hpp explains the method.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+namespace kinesphere::rounding {
+
+/// Relative margin, 2^-47 = 64 unit roundoffs: more than all the roundings behind one coefficient.
+inline constexpr double margin = 0x1p-47;
+
+/// A lower bound of the exact sum a + b.
+inline double sum_down(double a, double b) {
+  const double sum = a + b;
+  return sum - std::abs(sum) * 0x1p-52;
+}
+
+/// An upper bound of the exact sum a + b.
+inline double sum_up(double a, double b) { return -sum_down(-a, -b); }
+
+/// Lower bound of the first d >= 0 with c + b d + 1/2 a d^2 <= 0: +infinity when there certainly is none,
+/// and 0 when c <= 0 or a number on the way is not finite. The coefficients are taken as they are: the caller
+/// has lowered them by what they may be wrong.
+inline double first_crossing(double c, double b, double a) {
+  if (!(c > 0.0)) return 0.0;
+  if (b >= 0.0 && a >= 0.0) return std::numeric_limits<double>::infinity();
+  // Underflow is an absolute error, which the relative margin does not cover.
+  constexpr double underflow = std::numeric_limits<double>::min();
+  const double product = 2.0 * a * c;
+  double root;
+  if (b >= 0.0) {
+    const double discriminant = (b * b - product) - underflow;
+    root = (b + std::sqrt(discriminant > 0.0 ? discriminant : 0.0)) / -a;
+  } else {
+    const double discriminant = (b * b - product) + (margin * (b * b + std::abs(product)) + underflow);
+    if (discriminant < 0.0) return std::numeric_limits<double>::infinity();
+    root = 2.0 * c / (std::sqrt(discriminant) - b);
+  }
+  root -= root * margin;
+  return root > 0.0 ? root : 0.0;
+}
+
+}  // namespace kinesphere::rounding

@@ -1,0 +1,73 @@
+// Checks of what a user hands to a motion.
+#include "motion/definition_check.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <utility>
+
+namespace kinesphere {
+
+std::string text_of(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", number);
+  return text;
+}
+
+std::string text_of(std::size_t number) { return std::to_string(number); }
+
+std::string text_of(const Vec3& vector) {
+  return "(" + text_of(vector.x) + ", " + text_of(vector.y) + ", " + text_of(vector.z) + ")";
+}
+
+std::string text_of(const State& state) {
+  return text_of(state.position) + " moving " + text_of(state.velocity);
+}
+
+DefinitionCheck& DefinitionCheck::finite(const Subject& subject, double value) {
+  return require(std::isfinite(value), ErrorCode::not_finite, subject, "must be finite", value);
+}
+
+DefinitionCheck& DefinitionCheck::finite(const Subject& subject, const Vec3& value) {
+  return require(is_finite(value), ErrorCode::not_finite, subject, "must be finite", value);
+}
+
+DefinitionCheck& DefinitionCheck::positive(const Subject& subject, double value) {
+  return finite(subject, value).require(value > 0, ErrorCode::out_of_range, subject, "must be > 0", value);
+}
+
+DefinitionCheck& DefinitionCheck::not_negative(const Subject& subject, double value) {
+  return finite(subject, value).require(value >= 0, ErrorCode::out_of_range, subject, "must be >= 0", value);
+}
+
+DefinitionCheck& DefinitionCheck::start(const std::vector<State>& states, double start_time) {
+  finite({"start_time"}, start_time);
+  for (std::uint32_t body = 0; body < states.size(); ++body) {
+    finite({"start", {body, 0}, "position"}, states[body].position);
+    finite({"start", {body, 0}, "velocity"}, states[body].velocity);
+  }
+  return *this;
+}
+
+DefinitionCheck& DefinitionCheck::acceleration_limits(const std::vector<double>& limits, std::size_t bodies) {
+  constexpr std::string_view argument = "acceleration_limits";
+  require(limits.size() == bodies, ErrorCode::out_of_range, {argument}, "must have one entry per body,",
+          bodies, limits.size());
+  for (std::uint32_t body = 0; body < limits.size(); ++body)
+    not_negative({argument, {body, 0}}, limits[body]);
+  return *this;
+}
+
+void DefinitionCheck::fail(ErrorCode code, const Subject& subject, std::string_view expectation,
+                           const std::string& came) {
+  const std::string argument(subject.argument);
+  std::string message = std::string(call_) + ": " + argument;
+  if (subject.body != no_body) message += " of body " + std::to_string(subject.body.index);
+  if (!subject.part.empty()) message += ", " + std::string(subject.part);
+  if (subject.part_number) message += " " + std::to_string(*subject.part_number);
+  if (!subject.part.empty()) message += ",";
+  message += " " + std::string(expectation) + ", but is " + came;
+  error_ = Error{code, argument, subject.body, std::move(message)};
+}
+
+}  // namespace kinesphere

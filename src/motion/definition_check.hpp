@@ -1,0 +1,70 @@
+// Checks of what a user hands to a motion: the first thing that is wrong becomes the error.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinesphere/body.hpp"
+#include "kinesphere/result.hpp"
+
+namespace kinesphere {
+
+std::string text_of(double number);
+std::string text_of(std::size_t number);
+std::string text_of(const Vec3& vector);
+std::string text_of(const State& state);
+
+/// What is checked: "start of body 3, velocity" or "trajectories of body 3, segment 2".
+struct Subject {
+  std::string_view argument;
+  BodyId body = no_body;
+  std::string_view part = {};
+  std::optional<std::size_t> part_number = {};
+};
+
+/// Every check returns *this, so that checks read as one sentence:
+///   const auto check = DefinitionCheck("Steered::create").start(states, time).positive({"interval"},
+///   interval); if (check.error()) return *check.error();
+class DefinitionCheck {
+ public:
+  /// `call` begins the message.
+  explicit DefinitionCheck(std::string_view call) : call_(call) {}
+
+  DefinitionCheck& finite(const Subject& subject, double value);
+  DefinitionCheck& finite(const Subject& subject, const Vec3& value);
+  DefinitionCheck& positive(const Subject& subject, double value);
+  DefinitionCheck& not_negative(const Subject& subject, double value);
+  DefinitionCheck& start(const std::vector<State>& states, double start_time);
+  /// As many as there are bodies, each finite and >= 0.
+  DefinitionCheck& acceleration_limits(const std::vector<double>& limits, std::size_t bodies);
+
+  /// Any other condition: "<call>: <subject> <expectation>, but is <came>".
+  template <class Value>
+  DefinitionCheck& require(bool condition, ErrorCode code, const Subject& subject,
+                           std::string_view expectation, const Value& came) {
+    if (!condition && !error_) fail(code, subject, expectation, text_of(came));
+    return *this;
+  }
+
+  /// The same, with a value that belongs to the expectation: "..., <expectation> <value>, but is <came>".
+  template <class Expected, class Value>
+  DefinitionCheck& require(bool condition, ErrorCode code, const Subject& subject,
+                           std::string_view expectation, const Expected& value, const Value& came) {
+    if (!condition && !error_)
+      fail(code, subject, std::string(expectation) + " " + text_of(value), text_of(came));
+    return *this;
+  }
+
+  const std::optional<Error>& error() const { return error_; }
+
+ private:
+  void fail(ErrorCode code, const Subject& subject, std::string_view expectation, const std::string& came);
+
+  std::string_view call_;
+  std::optional<Error> error_;
+};
+
+}  // namespace kinesphere

@@ -1,0 +1,135 @@
+// Motion along ready-made trajectories.
+#include "kinesphere/motion/piecewise_motion.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <utility>
+
+#include "motion/definition_check.hpp"
+#include "motion/limit_rounding.hpp"
+
+namespace kinesphere {
+
+namespace {
+
+/// The segment that holds t; the first one if t lies before it.
+Trajectory::const_iterator segment_at(const Trajectory& trajectory, double t) {
+  const auto begins_after = [](double time, const Segment& segment) { return time < segment.begin; };
+  return std::upper_bound(trajectory.begin() + 1, trajectory.end(), t, begins_after) - 1;
+}
+
+double largest_acceleration(const Trajectory& trajectory) {
+  double largest = 0.0;
+  for (const Segment& segment : trajectory) {
+    largest = std::max({largest, norm(segment.acceleration), norm(segment.acceleration_at(segment.end))});
+  }
+  return largest;
+}
+
+/// Equal up to the rounding of values of the given size.
+bool nearly_equal(const Vec3& a, const Vec3& b, double size) { return norm_one(a - b) <= 1e-12 * size; }
+
+bool goes_on(const Segment& before, const Segment& after) {
+  const double duration = before.end - before.begin;
+  const double acceleration = norm_one(before.acceleration) + norm_one(before.jerk) * duration;
+  const double speed = norm_one(before.velocity) + acceleration * duration;
+  const double distance = norm_one(before.position) + speed * duration;
+  const State state = before.state_at(before.end);
+  return nearly_equal(after.position, state.position, distance) &&
+         nearly_equal(after.velocity, state.velocity, speed);
+}
+
+void check_segment(DefinitionCheck& check, const Subject& subject, const Segment& segment) {
+  for (const double time : {segment.begin, segment.end}) check.finite(subject, time);
+  for (const Vec3& vector : {segment.position, segment.velocity, segment.acceleration, segment.jerk}) {
+    check.finite(subject, vector);
+  }
+  check.require(segment.begin < segment.end, ErrorCode::out_of_range, subject, "must have an end later than",
+                segment.begin, segment.end);
+}
+
+void check_transition(DefinitionCheck& check, const Subject& subject, const Segment& before,
+                      const Segment& after) {
+  check.require(after.begin == before.end, ErrorCode::out_of_range, subject,
+                "must begin when the one before it ends,", before.end, after.begin);
+  check.require(goes_on(before, after), ErrorCode::out_of_range, subject,
+                "must have the position and velocity with which the one before it ends,",
+                before.state_at(before.end), State{after.position, after.velocity});
+}
+
+}  // namespace
+
+Result<PiecewiseMotion> PiecewiseMotion::create(std::vector<Trajectory> trajectories) {
+  DefinitionCheck check("PiecewiseMotion::create");
+  for (std::uint32_t body = 0; body < trajectories.size(); ++body) {
+    const Trajectory& trajectory = trajectories[body];
+    Subject subject{"trajectories", {body, 0}};
+    check.require(!trajectory.empty(), ErrorCode::out_of_range, subject, "must have at least 1 segment",
+                  trajectory.size());
+    subject.part = "segment";
+    for (std::size_t k = 0; k < trajectory.size(); ++k) {
+      subject.part_number = k;
+      check_segment(check, subject, trajectory[k]);
+      if (k > 0) check_transition(check, subject, trajectory[k - 1], trajectory[k]);
+    }
+    if (check.error()) return *check.error();
+  }
+  return PiecewiseMotion(std::move(trajectories));
+}
+
+PiecewiseMotion::PiecewiseMotion(std::vector<Trajectory> trajectories)
+    : trajectories_(std::move(trajectories)) {
+  limits_.reserve(trajectories_.size());
+  for (Trajectory& trajectory : trajectories_) {
+    limits_.push_back(slightly_more * largest_acceleration(trajectory));
+    const double last_time = trajectory.back().end;
+    const State last = trajectory.back().state_at(last_time);
+    trajectory.push_back({.begin = last_time,
+                          .end = std::numeric_limits<double>::infinity(),
+                          .position = last.position,
+                          .velocity = last.velocity,
+                          .acceleration = {},
+                          .jerk = {}});
+  }
+}
+
+BodyDefinition PiecewiseMotion::promise(std::uint32_t body, double t) const {
+  const State now = state(body, t);
+  return {.acceleration_limit = limits_[body],
+          .planned_acceleration = {},
+          .position = now.position,
+          .velocity = now.velocity};
+}
+
+State PiecewiseMotion::state(std::uint32_t body, double t) const {
+  if (t < first_time(body)) return lead_in(body, t).state_at(t);
+  return segment_at(trajectories_[body], t)->state_at(t);
+}
+
+Trajectory PiecewiseMotion::trajectory(std::uint32_t body, double begin, double end) const {
+  assert(begin <= end);
+  Trajectory result;
+  if (begin < first_time(body)) result.push_back(lead_in(body, begin));
+  auto segment = segment_at(trajectories_[body], begin);
+  while (result.empty() || result.back().end < end) result.push_back(*segment++);
+  result.back().end = end;
+  return result;
+}
+
+bool PiecewiseMotion::kick(std::uint32_t, double, const Vec3&) { return false; }
+
+std::unique_ptr<Motion> PiecewiseMotion::clone() const { return std::make_unique<PiecewiseMotion>(*this); }
+
+/// The straight way from time t to the first segment.
+Segment PiecewiseMotion::lead_in(std::uint32_t body, double t) const {
+  const Segment& first = trajectories_[body].front();
+  return {.begin = t,
+          .end = first.begin,
+          .position = first.position + (t - first.begin) * first.velocity,
+          .velocity = first.velocity,
+          .acceleration = {},
+          .jerk = {}};
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,35 @@
+// Bodies pushed around by random forces.
+#include "kinesphere/motion/random_forces.hpp"
+
+#include "kinesphere/random.hpp"
+#include "motion/definition_check.hpp"
+#include "motion/limit_rounding.hpp"
+
+namespace kinesphere {
+
+Result<RandomForces> RandomForces::create(RandomForcesDefinition definition) {
+  const auto check = DefinitionCheck("RandomForces::create")
+                         .start(definition.start, definition.start_time)
+                         .acceleration_limits(definition.acceleration_limits, definition.start.size())
+                         .positive({"interval"}, definition.interval);
+  if (check.error()) return *check.error();
+  return RandomForces(std::move(definition));
+}
+
+RandomForces::RandomForces(RandomForcesDefinition definition)
+    : PiecewiseAcceleration(definition.start, definition.start_time, definition.interval),
+      limits_(std::move(definition.acceleration_limits)),
+      seed_(definition.seed) {}
+
+BodyDefinition RandomForces::promise(std::uint32_t body, double t) const {
+  return promise_with(body, t, limits_[body]);
+}
+
+std::unique_ptr<Motion> RandomForces::clone() const { return std::make_unique<RandomForces>(*this); }
+
+Vec3 RandomForces::acceleration(std::uint32_t body, std::int64_t k, const State&) const {
+  const double length = limits_[body] * slightly_less;
+  return length * Random::at(seed_, body, static_cast<std::uint64_t>(k)).point_in_ball();
+}
+
+}  // namespace kinesphere

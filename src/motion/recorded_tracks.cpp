@@ -1,0 +1,102 @@
+// Natural cubic splines through recorded samples.
+#include "kinesphere/motion/recorded_tracks.hpp"
+
+#include <cstdint>
+#include <utility>
+
+#include "motion/definition_check.hpp"
+
+namespace kinesphere {
+
+namespace {
+
+void check_track(DefinitionCheck& check, BodyId body, const Track& track) {
+  check.require(track.size() >= 2, ErrorCode::out_of_range, {"tracks", body}, "must have at least 2 samples",
+                track.size());
+  for (std::size_t k = 0; k < track.size(); ++k) {
+    const Subject sample{"tracks", body, "sample", k};
+    check.finite(sample, track[k].time).finite(sample, track[k].position);
+    if (k == 0) continue;
+    const double before = track[k - 1].time;
+    check.require(track[k].time > before, ErrorCode::out_of_range, sample,
+                  "must be later than the one before it,", before, track[k].time);
+  }
+}
+
+/// The step from sample k to the next one.
+struct Step {
+  double duration;
+  Vec3 velocity;  ///< of the chord
+};
+
+Step step_from(const Track& track, std::size_t k) {
+  const double duration = track[k + 1].time - track[k].time;
+  return {duration, (track[k + 1].position - track[k].position) / duration};
+}
+
+/// The accelerations M of the spline at its samples. With step k of duration h_k and chord velocity c_k,
+///   h_(k-1) M_(k-1) + 2 (h_(k-1) + h_k) M_k + h_k M_(k+1) = 6 (c_k - c_(k-1)),   M_first = M_last = 0,
+/// which the elimination without pivoting solves accurately, as the diagonal dominates.
+std::vector<Vec3> spline_accelerations(const Track& track) {
+  const std::size_t last = track.size() - 1;
+  std::vector<Vec3> result(track.size());
+  std::vector<double> next_factor(track.size(), 0.0);  // M_k = result[k] - next_factor[k] M_(k+1)
+  Step before = step_from(track, 0);
+  for (std::size_t k = 1; k < last; ++k) {
+    const Step after = step_from(track, k);
+    const double pivot = 2.0 * (before.duration + after.duration) - before.duration * next_factor[k - 1];
+    next_factor[k] = after.duration / pivot;
+    result[k] = (6.0 * (after.velocity - before.velocity) - before.duration * result[k - 1]) / pivot;
+    before = after;
+  }
+  for (std::size_t k = last; k-- > 1;) result[k] -= next_factor[k] * result[k + 1];
+  return result;
+}
+
+Trajectory spline(const Track& track) {
+  const std::vector<Vec3> accelerations = spline_accelerations(track);
+  Trajectory result;
+  result.reserve(track.size());
+  for (std::size_t k = 0; k + 1 < track.size(); ++k) {
+    const Step step = step_from(track, k);
+    const Vec3& here = accelerations[k];
+    const Vec3& there = accelerations[k + 1];
+    result.push_back({.begin = track[k].time,
+                      .end = track[k + 1].time,
+                      .position = track[k].position,
+                      .velocity = step.velocity - step.duration / 6.0 * (2.0 * here + there),
+                      .acceleration = here,
+                      .jerk = (there - here) / step.duration});
+  }
+  return result;
+}
+
+bool is_finite(const Segment& segment) {
+  const State last = segment.state_at(segment.end);
+  return kinesphere::is_finite(last.position) && kinesphere::is_finite(last.velocity) &&
+         std::isfinite(norm(segment.acceleration_at(segment.end)));
+}
+
+}  // namespace
+
+Result<RecordedTracks> RecordedTracks::create(const std::vector<Track>& tracks) {
+  DefinitionCheck check("RecordedTracks::create");
+  std::vector<Trajectory> trajectories;
+  trajectories.reserve(tracks.size());
+  for (std::uint32_t body = 0; body < tracks.size(); ++body) {
+    const BodyId id{body, 0};
+    check_track(check, id, tracks[body]);
+    if (check.error()) return *check.error();
+    trajectories.push_back(spline(tracks[body]));
+    for (std::size_t k = 0; k < trajectories.back().size(); ++k) {
+      check.require(is_finite(trajectories.back()[k]), ErrorCode::out_of_range, {"tracks", id, "sample", k},
+                    "must give a curve that does not overflow", tracks[body][k].position);
+    }
+    if (check.error()) return *check.error();
+  }
+  return RecordedTracks(std::move(trajectories));
+}
+
+std::unique_ptr<Motion> RecordedTracks::clone() const { return std::make_unique<RecordedTracks>(*this); }
+
+}  // namespace kinesphere

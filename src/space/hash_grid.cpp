@@ -1,0 +1,213 @@
+// Registration in the hierarchical hash grid.
+#include "space/hash_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace kinesphere {
+namespace {
+
+constexpr float float_infinity = std::numeric_limits<float>::infinity();
+
+float rounded_down(double value) {
+  const float nearest = static_cast<float>(value);
+  return static_cast<double>(nearest) <= value ? nearest : std::nextafter(nearest, -float_infinity);
+}
+
+float rounded_up(double value) { return -rounded_down(-value); }
+
+/// Cell edges differ by this power of two from level to level.
+constexpr int exponent_step = 2;
+/// The finest cells are 2^this as large as the typical box.
+constexpr int finest_above_mean = 1;
+/// Cell coordinates stay within 32 bits: a float box at distance X is at least X * 2^-24 wide, and so are its
+/// cells.
+constexpr double coordinate_limit = 2147483000.0;
+
+std::int32_t cell_coordinate(float position, double cells_per_length) {
+  const double cell = std::floor(static_cast<double>(position) * cells_per_length);
+  return static_cast<std::int32_t>(std::clamp(cell, -coordinate_limit, coordinate_limit));
+}
+
+}  // namespace
+
+FloatBox::FloatBox(const Box& box)
+    : lower{rounded_down(box.lower.x), rounded_down(box.lower.y), rounded_down(box.lower.z)},
+      upper{rounded_up(box.upper.x), rounded_up(box.upper.y), rounded_up(box.upper.z)} {}
+
+float FloatBox::extent() const {
+  return std::max({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]});
+}
+
+double HashGrid::CellRange::count() const {
+  const auto length = [](std::int32_t a, std::int32_t b) { return static_cast<double>(b) - a + 1.0; };
+  return length(first.x, last.x) * length(first.y, last.y) * length(first.z, last.z);
+}
+
+HashGrid::CellRange HashGrid::Level::range_of(const FloatBox& box) const {
+  const auto index = [this](const std::array<float, 3>& corner) {
+    return CellIndex{cell_coordinate(corner[0], cells_per_length),
+                     cell_coordinate(corner[1], cells_per_length),
+                     cell_coordinate(corner[2], cells_per_length)};
+  };
+  return {index(box.lower), index(box.upper)};
+}
+
+std::size_t HashGrid::hash(const CellIndex& index) {
+  std::uint64_t h = static_cast<std::uint32_t>(index.x) * 0x9e3779b97f4a7c15u;
+  h = (h ^ static_cast<std::uint32_t>(index.y)) * 0xc2b2ae3d27d4eb4fu;
+  h = (h ^ (h >> 29) ^ static_cast<std::uint32_t>(index.z)) * 0x165667b19e3779f9u;
+  return static_cast<std::size_t>(h ^ (h >> 32));
+}
+
+const HashGrid::Cell* HashGrid::Level::find(const CellIndex& index) const {
+  const std::size_t mask = slots.size() - 1;
+  for (std::size_t slot = hash(index) & mask; slots[slot] != 0; slot = (slot + 1) & mask) {
+    const Cell& cell = cells[slots[slot] - 1];
+    if (cell.index == index) return &cell;
+  }
+  return nullptr;
+}
+
+HashGrid::Cell& HashGrid::Level::find_or_create(const CellIndex& index) {
+  if (const Cell* cell = find(index)) return const_cast<Cell&>(*cell);
+  if (2 * (cells.size() + 1) > slots.size()) rehash();
+  cells.push_back({index, {}});
+  ++empty_cells;
+  const std::size_t mask = slots.size() - 1;
+  std::size_t slot = hash(index) & mask;
+  while (slots[slot] != 0) slot = (slot + 1) & mask;
+  slots[slot] = static_cast<std::uint32_t>(cells.size());
+  return cells.back();
+}
+
+/// Drops the empty cells and makes room for twice as many as remain.
+void HashGrid::Level::rehash() {
+  std::erase_if(cells, [](const Cell& cell) { return cell.entries.empty(); });
+  empty_cells = 0;
+  std::size_t capacity = 64;
+  while (capacity < 4 * (cells.size() + 1)) capacity *= 2;
+  slots.assign(capacity, 0);
+  for (std::size_t number = 0; number < cells.size(); ++number) {
+    std::size_t slot = hash(cells[number].index) & (capacity - 1);
+    while (slots[slot] != 0) slot = (slot + 1) & (capacity - 1);
+    slots[slot] = static_cast<std::uint32_t>(number + 1);
+  }
+}
+
+int HashGrid::exponent_of(float extent) {
+  // The smallest e with extent <= 2^e; a point counts as the smallest normal float.
+  int exponent = 0;
+  const float fraction = std::frexp(std::max(extent, std::numeric_limits<float>::min()), &exponent);
+  return fraction == 0.5f ? exponent - 1 : exponent;
+}
+
+int HashGrid::level_for(float extent) const {
+  const int above = exponent_of(extent) - finest_exponent_;
+  return above <= 0 ? 0 : (above + exponent_step - 1) / exponent_step;
+}
+
+void HashGrid::insert(std::uint32_t body, const FloatBox& box) {
+  const int number = level_for(box.extent());
+  while (levels_.size() <= static_cast<std::size_t>(number)) {
+    Level level;
+    level.cells_per_length =
+        std::ldexp(1.0, -(finest_exponent_ + exponent_step * static_cast<int>(levels_.size())));
+    level.rehash();
+    levels_.push_back(std::move(level));
+  }
+  Level& level = levels_[static_cast<std::size_t>(number)];
+  const CellRange range = level.range_of(box);
+  for (std::int32_t z = range.first.z; z <= range.last.z; ++z)
+    for (std::int32_t y = range.first.y; y <= range.last.y; ++y)
+      for (std::int32_t x = range.first.x; x <= range.last.x; ++x) {
+        Cell& cell = level.find_or_create({x, y, z});
+        if (cell.entries.empty()) --level.empty_cells;
+        cell.entries.push_back({box, body});
+      }
+  ++level.bodies;
+  places_[body] = {number, box};
+}
+
+void HashGrid::erase(std::uint32_t body) {
+  Place& place = places_[body];
+  Level& level = levels_[static_cast<std::size_t>(place.level)];
+  const CellRange range = level.range_of(place.box);
+  for (std::int32_t z = range.first.z; z <= range.last.z; ++z)
+    for (std::int32_t y = range.first.y; y <= range.last.y; ++y)
+      for (std::int32_t x = range.first.x; x <= range.last.x; ++x) {
+        Cell& cell = const_cast<Cell&>(*level.find({x, y, z}));
+        const auto entry = std::find_if(cell.entries.begin(), cell.entries.end(),
+                                        [body](const Entry& e) { return e.body == body; });
+        *entry = cell.entries.back();
+        cell.entries.pop_back();
+        if (cell.entries.empty()) ++level.empty_cells;
+      }
+  --level.bodies;
+  place.level = -1;
+  if (level.empty_cells > 64 && level.empty_cells > level.cells.size() / 2) level.rehash();
+}
+
+void HashGrid::set(std::uint32_t body, const Box& box) {
+  if (body >= places_.size()) places_.resize(body + 1);
+  const FloatBox rounded(box);
+  if (contains(body)) {
+    exponent_sum_ -= exponent_of(places_[body].box.extent());
+    erase(body);
+  } else {
+    ++size_;
+  }
+  exponent_sum_ += exponent_of(rounded.extent());
+  insert(body, rounded);
+  retune_if_worthwhile();
+}
+
+void HashGrid::remove(std::uint32_t body) {
+  if (!contains(body)) return;
+  exponent_sum_ -= exponent_of(places_[body].box.extent());
+  erase(body);
+  --size_;
+}
+
+/// Fits the finest level to the typical box, at most once in as many changes as there are bodies.
+void HashGrid::retune_if_worthwhile() {
+  if (++changes_since_tuning_ < size_) return;
+  changes_since_tuning_ = 0;
+  const double mean = static_cast<double>(exponent_sum_) / static_cast<double>(size_);
+  const int wanted = static_cast<int>(std::floor(mean + 0.5)) + finest_above_mean;
+  if (std::abs(mean + finest_above_mean - finest_exponent_) < 0.75) return;
+  finest_exponent_ = wanted;
+  levels_.clear();
+  for (std::uint32_t body = 0; body < places_.size(); ++body)
+    if (places_[body].level >= 0) insert(body, FloatBox(places_[body].box));
+}
+
+std::optional<std::string> HashGrid::check(std::uint32_t body, const Box& box) const {
+  if (!contains(body)) return "is not registered";
+  const FloatBox rounded(box);
+  const Place& place = places_[body];
+  if (place.box.lower != rounded.lower || place.box.upper != rounded.upper)
+    return "is registered with another box";
+  for (std::size_t number = 0; number < levels_.size(); ++number) {
+    const Level& level = levels_[number];
+    const CellRange range = level.range_of(rounded);
+    double found = 0.0;
+    for (const Cell& cell : level.cells)
+      for (const Entry& entry : cell.entries) {
+        if (entry.body != body) continue;
+        const CellIndex& at = cell.index;
+        const bool inside = range.first.x <= at.x && at.x <= range.last.x && range.first.y <= at.y &&
+                            at.y <= range.last.y && range.first.z <= at.z && at.z <= range.last.z;
+        if (!inside || static_cast<int>(number) != place.level)
+          return "stands in a cell that its box does not meet";
+        if (level.find(at) != &cell) return "stands in a cell that the table does not find";
+        ++found;
+      }
+    if (static_cast<int>(number) == place.level && found != range.count())
+      return "is missing from a cell that its box meets";
+  }
+  return std::nullopt;
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,128 @@
+// A hierarchical hash grid: which registered boxes overlap a given one?
+//
+// Unbounded space: only cells that hold something exist. Each level has cells four times as large as the one
+// below; a box lies on the finest level whose cells are as large as the box, so it stands in at most eight of
+// them, and radii may differ by any ratio. Boxes are kept as floats, rounded outward.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinesphere/vec3.hpp"
+
+namespace kinesphere {
+
+/// A box in single precision that contains the double one it was made from.
+struct FloatBox {
+  std::array<float, 3> lower;
+  std::array<float, 3> upper;
+
+  FloatBox() = default;
+  explicit FloatBox(const Box& box);
+
+  bool overlaps(const FloatBox& other) const {
+    return lower[0] <= other.upper[0] && other.lower[0] <= upper[0] && lower[1] <= other.upper[1] &&
+           other.lower[1] <= upper[1] && lower[2] <= other.upper[2] && other.lower[2] <= upper[2];
+  }
+  float extent() const;
+};
+
+class HashGrid {
+ public:
+  /// Registers body number `body`, or moves it to a new box. Cost: O(1), amortised.
+  void set(std::uint32_t body, const Box& box);
+  void remove(std::uint32_t body);
+  bool contains(std::uint32_t body) const { return body < places_.size() && places_[body].level >= 0; }
+  std::size_t size() const { return size_; }
+
+  /// Calls visit(body) once for each registered body whose box overlaps `box`, touching included. `visit` may
+  /// not change the grid. Cost: the cells that the box meets, on each level in use, and what they hold.
+  template <class Visit>
+  void for_each_overlap(const Box& box, Visit visit) const;
+
+  /// What is wrong with the body's registration, if anything: it must stand, as `box`, in every cell that the
+  /// box meets and in no other. Cost: all cells.
+  std::optional<std::string> check(std::uint32_t body, const Box& box) const;
+
+ private:
+  struct CellIndex {
+    std::int32_t x, y, z;
+    friend bool operator==(const CellIndex&, const CellIndex&) = default;
+  };
+  struct CellRange {
+    CellIndex first, last;
+    friend bool operator==(const CellRange&, const CellRange&) = default;
+    double count() const;
+  };
+  struct Entry {
+    FloatBox box;
+    std::uint32_t body;
+  };
+  struct Cell {
+    CellIndex index;
+    std::vector<Entry> entries;
+  };
+  struct Level {
+    double cells_per_length = 0.0;  ///< 1 / edge, a power of two
+    std::size_t bodies = 0;
+    std::size_t empty_cells = 0;
+    std::vector<Cell> cells;
+    std::vector<std::uint32_t> slots;  ///< open addressing; cell number + 1, 0 is free
+
+    CellRange range_of(const FloatBox& box) const;
+    const Cell* find(const CellIndex& index) const;
+    Cell& find_or_create(const CellIndex& index);
+    void rehash();
+  };
+  struct Place {
+    int level = -1;
+    FloatBox box;
+  };
+
+  int level_for(float extent) const;
+  void insert(std::uint32_t body, const FloatBox& box);
+  void erase(std::uint32_t body);
+  void retune_if_worthwhile();
+
+  static std::size_t hash(const CellIndex& index);
+  static int exponent_of(float extent);
+
+  std::vector<Level> levels_;
+  std::vector<Place> places_;
+  std::size_t size_ = 0;
+  int finest_exponent_ = 0;        ///< log2 of the edge on level 0
+  std::int64_t exponent_sum_ = 0;  ///< of the extents of all registered boxes
+  std::size_t changes_since_tuning_ = 0;
+};
+
+template <class Visit>
+void HashGrid::for_each_overlap(const Box& box, Visit visit) const {
+  const FloatBox query(box);
+  for (const Level& level : levels_) {
+    if (level.bodies == 0) continue;
+    const CellRange range = level.range_of(query);
+    // A pair may share several cells: it counts in the one where the overlap of the two boxes begins.
+    const auto visit_cell = [&](const Cell& cell) {
+      for (const Entry& entry : cell.entries) {
+        if (!entry.box.overlaps(query)) continue;
+        const CellIndex first = level.range_of(entry.box).first;
+        const CellIndex home{std::max(first.x, range.first.x), std::max(first.y, range.first.y),
+                             std::max(first.z, range.first.z)};
+        if (home == cell.index) visit(entry.body);
+      }
+    };
+    if (range.count() > static_cast<double>(level.cells.size())) {
+      for (const Cell& cell : level.cells) visit_cell(cell);
+      continue;
+    }
+    for (std::int32_t z = range.first.z; z <= range.last.z; ++z)
+      for (std::int32_t y = range.first.y; y <= range.last.y; ++y)
+        for (std::int32_t x = range.first.x; x <= range.last.x; ++x)
+          if (const Cell* cell = level.find({x, y, z})) visit_cell(*cell);
+  }
+}
+
+}  // namespace kinesphere

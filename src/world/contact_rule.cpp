@@ -1,0 +1,40 @@
+#include "world/contact_rule.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinesphere {
+
+ContactRule::ContactRule(const WorldDefinition& definition)
+    : tolerance_(definition.contact_tolerance),
+      separation_distance_(std::isnan(definition.separation_distance) ? 4.0 * definition.contact_tolerance
+                                                                      : definition.separation_distance),
+      zeno_interval_(definition.zeno_interval),
+      impacts_only_(definition.contacts == ContactMode::impacts) {}
+
+ContactRule::Change ContactRule::decide(bool touching, double gap, double approach_speed) const {
+  if (!touching) {
+    if (gap > tolerance_) return Change::none;
+    return impacts_only_ && approach_speed <= 0.0 ? Change::none : Change::begin;
+  }
+  if (impacts_only_) {
+    return approach_speed <= 0.0 || gap >= separation_distance_ ? Change::release : Change::none;
+  }
+  return gap >= separation_distance_ ? Change::end : Change::none;
+}
+
+double ContactRule::guarded_gap(double gap) const {
+  if (gap > tolerance_) return 0.0;
+  return gap > -0.25 * tolerance_ ? -0.5 * tolerance_ : gap - 0x1p-20 * tolerance_;
+}
+
+double ContactRule::least_step(double gap, double acceleration) const {
+  if (gap > tolerance_ || !(acceleration > 0.0)) return 0.0;
+  return 0.25 * std::sqrt(tolerance_ / acceleration);
+}
+
+double ContactRule::zeno_interval(double acceleration) const {
+  return acceleration > 0.0 ? std::max(zeno_interval_, std::sqrt(tolerance_ / acceleration)) : zeno_interval_;
+}
+
+}  // namespace kinesphere

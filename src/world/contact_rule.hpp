@@ -1,0 +1,44 @@
+// When a contact begins and ends: the one place where distances and approach become a decision.
+#pragma once
+
+#include "kinesphere/world.hpp"
+
+namespace kinesphere {
+
+/// The lengths and times behind the promise, resolved from a WorldDefinition. "Pair" is two bodies, or a body
+/// and a wall, with fresh reports.
+class ContactRule {
+ public:
+  explicit ContactRule(const WorldDefinition& definition);
+
+  /// `release` is an end that nobody is told of: bouncing bodies that have been turned apart.
+  enum class Change { none, begin, end, release };
+  Change decide(bool touching, double gap, double approach_speed) const;
+
+  /// For a pair that touches: the gap that it cannot exceed before its certificate ends.
+  double release_gap() const { return separation_distance_ + tolerance_; }
+
+  /// For a pair that is apart: the gap that a certificate must guard, 0 outside the tolerance. Bouncing
+  /// bodies that leave each other within it may come back as far as half the tolerance inside or, when they
+  /// are nearly that deep, to where they are: so each bounce of a resting body starts where the last one did.
+  double guarded_gap(double gap) const;
+
+  /// The Zeno guard: the least time between two looks at a pair within the tolerance that does not approach,
+  /// with this sum of largest accelerations. In it the gap shrinks by at most 1/32 of the tolerance.
+  double least_step(double gap, double acceleration) const;
+
+  /// True when a least step from this gap may leave the tolerance, so that the caller must be told.
+  bool step_breaks_tolerance(double gap) const { return gap < -0.96 * tolerance_; }
+
+  /// A contact that comes sooner than this after the last one of a body with this largest acceleration (limit
+  /// and plan) is a repeated one.
+  double zeno_interval(double acceleration) const;
+
+ private:
+  double tolerance_;
+  double separation_distance_;
+  double zeno_interval_;
+  bool impacts_only_;
+};
+
+}  // namespace kinesphere

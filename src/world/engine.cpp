@@ -1,0 +1,142 @@
+// The clock: which body is due next, and the bodies' coming and going.
+#include "world/engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinesphere {
+
+World::Engine::Engine(const WorldDefinition& definition)
+    : definition_(definition), rule_(definition), time_(definition.start_time) {}
+
+BodyId World::Engine::add(const BodyDefinition& definition) {
+  std::uint32_t number;
+  if (free_.empty()) {
+    number = static_cast<std::uint32_t>(bodies_.size());
+    bodies_.emplace_back();
+  } else {
+    number = free_.back();
+    free_.pop_back();
+  }
+  Body& body = bodies_[number];
+  body.definition = definition;
+  body.bound = bound_of(definition, {definition.position, definition.velocity}, time_);
+  body.box = swept_box(body.bound, time_, time_);
+  body.box_end = time_;
+  body.alive = true;
+  grid_.set(number, body.box);
+  ++size_;
+  mark_dirty(number);
+  return id_of(number);
+}
+
+void World::Engine::remove(BodyId id) {
+  const std::uint32_t number = id.index;
+  Body& body = bodies_[number];
+  if (definition_.contacts == ContactMode::begin_and_end) {
+    for (const std::uint32_t partner : body.touching)
+      announce(contact(EventKind::contact_end, number, partner));
+    for (int wall = 1; wall <= wall_count; ++wall)
+      if (body.touching_walls & wall_bit(Wall(wall)))
+        announce(wall_contact(EventKind::wall_end, number, Wall(wall)));
+  }
+  withdraw(id);
+}
+
+void World::Engine::withdraw(BodyId id) {
+  const std::uint32_t number = id.index;
+  Body& body = bodies_[number];
+  release_all(number);
+  grid_.remove(number);
+  schedule_.remove(number);
+  std::erase(dirty_, number);
+  const std::uint32_t generation = body.generation + 1;
+  const std::uint32_t epoch = body.epoch + 1;
+  body = Body{};
+  body.generation = generation;
+  body.epoch = epoch;
+  free_.push_back(number);
+  --size_;
+}
+
+std::optional<BodyId> World::Engine::certain_overlap(const BodyDefinition& definition) const {
+  const Bound bound = bound_of(definition, {definition.position, definition.velocity}, time_);
+  std::optional<BodyId> found;
+  grid_.for_each_overlap(swept_box(bound, time_, time_), [&](std::uint32_t other) {
+    const bool certain =
+        gap_limits(bound, bodies_[other].bound, time_).upper < -definition_.contact_tolerance;
+    if (certain && (!found || other < found->index)) found = id_of(other);
+  });
+  return found;
+}
+
+void World::Engine::kick(BodyId id, const Vec3& velocity) {
+  Body& body = bodies_[id.index];
+  body.definition.velocity = velocity;
+  if (body.fresh(time_)) {
+    body.bound.velocity = velocity;
+  } else {
+    body.velocity_unknown = true;
+  }
+  if (definition_.contacts == ContactMode::impacts) release_all(id.index);
+  void_facts(id.index);
+}
+
+Result<std::optional<Event>> World::Engine::advance(double until, const Probe& probe) {
+  probe_ = &probe;
+  for (;;) {
+    if (std::optional<Event> event = deliver()) return event;
+    if (auto settled = settle_all(); !settled) return settled.error();
+    if (!pending_.empty()) continue;
+    if (schedule_.empty() || schedule_.earliest().time > until) {
+      time_ = until;
+      return std::optional<Event>();
+    }
+    time_ = schedule_.earliest().time;
+    while (!schedule_.empty() && schedule_.earliest().time <= time_) {
+      if (auto woken = wake(schedule_.earliest().body); !woken) return woken.error();
+    }
+    // Bodies whose boxes end at this instant may add to its events.
+    if (auto settled = settle_all(); !settled) return settled.error();
+  }
+}
+
+Result<void> World::Engine::wake(std::uint32_t number) {
+  ++counters_.wakes;
+  if (bodies_[number].box_end <= time_) {
+    ++counters_.box_ends;
+    mark_dirty(number);
+    return {};
+  }
+  const std::uint64_t checks_before = counters_.pair_checks + counters_.wall_checks;
+  if (bodies_[number].wall_time <= time_) {
+    ++counters_.wall_checks;
+    if (auto settled = settle_walls(number); !settled) return settled;
+  }
+  for (;;) {
+    auto& watches = bodies_[number].watches;
+    const auto due =
+        std::find_if(watches.begin(), watches.end(), [this](const Watch& w) { return w.time <= time_; });
+    if (due == watches.end()) break;
+    const std::uint32_t partner = due->partner;
+    if (due->epoch != bodies_[partner].epoch || bodies_[partner].dirty) {
+      unwatch(number, partner);
+      continue;
+    }
+    ++counters_.pair_checks;
+    if (auto probed = probe_staler(number, partner); !probed) return probed;
+    if (auto settled = settle_pair(number, partner); !settled) return settled;
+  }
+  if (counters_.pair_checks + counters_.wall_checks == checks_before) ++counters_.stale_wakes;
+  if (!bodies_[number].dirty) reschedule(number);
+  return {};
+}
+
+void World::Engine::reschedule(std::uint32_t number) {
+  const Body& body = bodies_[number];
+  double first = std::min(body.box_end, body.wall_time);
+  for (const Watch& watch : body.watches) first = std::min(first, watch.time);
+  schedule_.set(number, first);
+}
+
+}  // namespace kinesphere

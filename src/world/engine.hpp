@@ -1,0 +1,145 @@
+// The engine behind World: what it keeps, and what must always hold.
+//
+// For every pair of living bodies one of these facts is recorded whenever time moves on:
+//   - their boxes do not overlap, and each body stays in its box until its box_end; or
+//   - one of the two watches the other: whether they touch cannot change before the watch's time; or
+//   - both are apart until the earlier of the two box ends.
+// A fact is about the true bodies, so later probes leave it true. Only a discontinuity (a kick, a broken
+// promise, a removal) ends it: it raises the body's epoch, which voids the watches that others keep of it,
+// and makes the body dirty. A dirty body gets a new box and looks for its neighbours again before time moves
+// on; so does a body whose box has run out, which renews the first and the last kind of fact. Each body is
+// scheduled at the earliest of its box end, its wall time and its watches.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "kinesphere/world.hpp"
+#include "schedule/schedule.hpp"
+#include "space/hash_grid.hpp"
+#include "world/contact_rule.hpp"
+#include "world/horizon.hpp"
+
+namespace kinesphere {
+
+/// Whether the two touch cannot change before `time`, as long as the partner's epoch is still `epoch`.
+struct Watch {
+  double time;
+  std::uint32_t partner;
+  std::uint32_t epoch;
+};
+
+struct Body {
+  BodyDefinition definition;  ///< with the state of the last report
+  Bound bound;                ///< since the last report
+  Box box;                    ///< contains the body until box_end
+  double box_end = 0.0;
+  double wall_time = 0.0;  ///< no wall contact begins or ends before this or, if it is infinite, box_end
+  std::optional<Horizon> horizon;
+  std::vector<Watch> watches;
+  std::vector<std::uint32_t> touching;  ///< partners in contact
+  std::uint8_t touching_walls = 0;      ///< see wall_bit
+  std::uint32_t generation = 0;
+  std::uint32_t epoch = 0;
+  double last_contact = -std::numeric_limits<double>::infinity();
+  bool alive = false;
+  bool dirty = false;             ///< in the list of those to settle before time moves on
+  bool searched = false;          ///< settled in the present round
+  bool velocity_unknown = false;  ///< kicked without a fresh report
+
+  bool fresh(double time) const { return bound.time == time; }
+  double largest_acceleration() const {
+    return definition.acceleration_limit + norm(definition.planned_acceleration);
+  }
+};
+
+inline constexpr std::uint8_t wall_bit(Wall wall) {
+  return static_cast<std::uint8_t>(1u << (static_cast<unsigned>(wall) - 1u));
+}
+
+/// The half-space inside a wall of the box.
+HalfSpace half_space(const Box& box, Wall wall);
+
+class World::Engine {
+ public:
+  explicit Engine(const WorldDefinition& definition);
+
+  // Changes. Their input has been checked.
+  BodyId add(const BodyDefinition& body);
+  void withdraw(BodyId body);  ///< takes back an add() of this stop
+  void remove(BodyId body);
+  void kick(BodyId body, const Vec3& velocity);
+  Result<std::optional<Event>> advance(double until, const Probe& probe);
+
+  double time() const { return time_; }
+  std::size_t size() const { return size_; }
+  const WorldDefinition& definition() const { return definition_; }
+  const Counters& counters() const { return counters_; }
+  const std::vector<Body>& table() const { return bodies_; }
+  BodyId id_of(std::uint32_t body) const { return {body, bodies_[body].generation}; }
+  bool probing() const { return probing_; }
+  /// A living body that certainly overlaps one with this definition by more than the tolerance.
+  std::optional<BodyId> certain_overlap(const BodyDefinition& body) const;
+  std::optional<AuditFinding> audit() const;
+
+ private:
+  friend class Audit;
+
+  // engine.cpp: the clock.
+  Result<void> wake(std::uint32_t body);
+  void reschedule(std::uint32_t body);
+
+  // settling.cpp: facts.
+  void mark_dirty(std::uint32_t body);
+  void void_facts(std::uint32_t body);
+  Result<void> settle_all();
+  Result<void> settle_round(const std::vector<std::uint32_t>& round);
+  void choose_first_horizons(const std::vector<std::uint32_t>& round);
+  void register_box(std::uint32_t body);
+  Result<void> search(std::uint32_t body);
+  Result<void> settle_pair(std::uint32_t body, std::uint32_t partner);
+  Result<void> settle_walls(std::uint32_t body);
+  bool has_watch(std::uint32_t body, std::uint32_t partner) const;
+  void watch(std::uint32_t body, std::uint32_t partner, double time);
+  void unwatch(std::uint32_t body, std::uint32_t partner);
+  double guarded_step(double certificate, double gap, double acceleration, Event&& contact);
+
+  // probing.cpp: reports.
+  Result<void> probe(std::span<const std::uint32_t> bodies);
+  Result<void> probe_staler(std::uint32_t a, std::uint32_t b);
+  void apply_report(std::uint32_t body, const State& state);
+
+  // contacts.cpp: events.
+  Event contact(EventKind kind, std::uint32_t a, std::uint32_t b) const;
+  Event wall_contact(EventKind kind, std::uint32_t body, Wall wall) const;
+  bool is_touching(std::uint32_t a, std::uint32_t b) const;
+  void set_touching(std::uint32_t a, std::uint32_t b, bool touching);
+  void release_all(std::uint32_t body);
+  void announce(Event&& event);
+  std::optional<Event> deliver();
+  bool still_holds(const Event& event) const;
+  void take_effect(Event& event);
+  bool note_contact(std::uint32_t body);
+
+  WorldDefinition definition_;
+  ContactRule rule_;
+  double time_;
+  std::size_t size_ = 0;
+  std::vector<Body> bodies_;
+  std::vector<std::uint32_t> free_;
+  HashGrid grid_;
+  HeapSchedule schedule_;
+  std::vector<std::uint32_t> dirty_;
+  /// Pairs (a body and itself: its walls) whose contact has just changed, so that no fact holds.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> changed_;
+  std::vector<Event> pending_;  ///< events of this instant that are still to be delivered
+  Counters counters_;
+  const Probe* probe_ = nullptr;  ///< during advance()
+  bool probing_ = false;
+};
+
+}  // namespace kinesphere

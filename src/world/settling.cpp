@@ -1,0 +1,250 @@
+// Settling: after it, a fact is recorded for every pair that concerns a body.
+#include <algorithm>
+#include <cmath>
+
+#include "world/engine.hpp"
+
+namespace kinesphere {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double just_after(double time) { return std::nextafter(time, infinity); }
+
+}  // namespace
+
+/// The body must be settled before time moves on. Facts about it stay.
+void World::Engine::mark_dirty(std::uint32_t number) {
+  if (bodies_[number].dirty) return;
+  bodies_[number].dirty = true;
+  dirty_.push_back(number);
+  schedule_.set(number, infinity);
+}
+
+/// A discontinuity: nothing that was certified about the body holds any more.
+void World::Engine::void_facts(std::uint32_t number) {
+  ++bodies_[number].epoch;
+  bodies_[number].watches.clear();
+  mark_dirty(number);
+}
+
+Result<void> World::Engine::settle_all() {
+  while (!changed_.empty()) {
+    const auto [a, b] = changed_.back();
+    if (bodies_[a].alive && bodies_[b].alive && !bodies_[a].dirty && !bodies_[b].dirty) {
+      if (auto settled = a == b ? settle_walls(a) : settle_pair(a, b); !settled) return settled;
+      if (!bodies_[a].dirty) reschedule(a);
+    }
+    changed_.pop_back();
+  }
+  // Settling may find broken promises, which make further bodies dirty.
+  while (!dirty_.empty()) {
+    std::vector<std::uint32_t> round;
+    round.swap(dirty_);
+    std::sort(round.begin(), round.end());
+    if (auto settled = settle_round(round); !settled) {
+      for (const std::uint32_t number : round) {
+        bodies_[number].searched = false;
+        mark_dirty(number);
+      }
+      return settled;
+    }
+  }
+  return {};
+}
+
+Result<void> World::Engine::settle_round(const std::vector<std::uint32_t>& round) {
+  std::vector<std::uint32_t> stale;
+  for (const std::uint32_t number : round)
+    if (!bodies_[number].fresh(time_)) stale.push_back(number);
+  if (!stale.empty()) {
+    if (auto probed = probe(stale); !probed) return probed;
+  }
+  choose_first_horizons(round);
+  for (const std::uint32_t number : round) {
+    bodies_[number].dirty = false;
+    register_box(number);
+  }
+  for (const std::uint32_t number : round) {
+    if (auto searched = search(number); !searched) return searched;
+    bodies_[number].searched = true;
+  }
+  for (const std::uint32_t number : round) {
+    bodies_[number].searched = false;
+    if (!bodies_[number].dirty) reschedule(number);
+  }
+  return {};
+}
+
+/// New bodies begin with a horizon that lets them go about a quarter of the distance between them.
+void World::Engine::choose_first_horizons(const std::vector<std::uint32_t>& round) {
+  Vec3 lower{infinity, infinity, infinity};
+  Vec3 upper = -lower;
+  int count = 0;
+  for (const std::uint32_t number : round) {
+    if (bodies_[number].horizon) continue;
+    ++count;
+    for (int axis = 0; axis < 3; ++axis) {
+      lower[axis] = std::min(lower[axis], bodies_[number].box.lower[axis]);
+      upper[axis] = std::max(upper[axis], bodies_[number].box.upper[axis]);
+    }
+  }
+  if (count == 0) return;
+  const Vec3 size = upper - lower;
+  const double spacing = std::ldexp(std::max({size.x, size.y, size.z}), -std::ilogb(count) / 3);
+  const double way = spacing > 0.0 ? 0.25 * spacing : 1.0;
+  for (const std::uint32_t number : round)
+    if (!bodies_[number].horizon) bodies_[number].horizon.emplace(way);
+}
+
+void World::Engine::register_box(std::uint32_t number) {
+  Body& body = bodies_[number];
+  const double speed = norm(body.bound.velocity) + body.definition.velocity_error;
+  body.box_end = just_after(time_ + body.horizon->length(speed, body.largest_acceleration()));
+  body.box = swept_box(body.bound, time_, body.box_end);
+  grid_.set(number, body.box);
+}
+
+/// Records facts between a body whose box is new and everything that its box meets.
+Result<void> World::Engine::search(std::uint32_t number) {
+  ++counters_.searches;
+  std::erase_if(bodies_[number].watches,
+                [this](const Watch& w) { return w.epoch != bodies_[w.partner].epoch; });
+  std::vector<std::uint32_t> partners = bodies_[number].touching;
+  const std::size_t touching = partners.size();
+  grid_.for_each_overlap(bodies_[number].box, [&](std::uint32_t other) {
+    if (other != number) partners.push_back(other);
+  });
+  const std::size_t candidates = partners.size() - touching;
+  counters_.candidates += candidates;
+  for (const std::uint32_t partner : partners) {
+    // A dirty partner will search itself; one that has searched in this round has found this body.
+    const Body& other = bodies_[partner];
+    if (other.dirty || other.searched || has_watch(number, partner) || has_watch(partner, number)) continue;
+    if (auto settled = settle_pair(number, partner); !settled) return settled;
+    if (bodies_[number].dirty) return {};
+  }
+  Body& body = bodies_[number];
+  const Vec3 size = body.box.upper - body.box.lower;
+  body.horizon->learn(candidates, std::max({size.x, size.y, size.z}), 2.0 * body.bound.radius);
+  return settle_walls(number);
+}
+
+/// Records a fact about two bodies, probing them as far as that needs.
+Result<void> World::Engine::settle_pair(std::uint32_t number, std::uint32_t partner) {
+  for (;;) {
+    const Body& a = bodies_[number];
+    const Body& b = bodies_[partner];
+    if (a.dirty || b.dirty) return {};  // a broken promise came up: its body searches again
+    bool touching = is_touching(number, partner);
+    ++counters_.certificates;
+    if (!a.fresh(time_) || !b.fresh(time_)) {
+      const double time = touching
+                              ? earliest_separation(a.bound, b.bound, time_, infinity, rule_.release_gap())
+                              : earliest_meeting(a.bound, b.bound, time_, std::min(a.box_end, b.box_end));
+      if (time > time_) {
+        watch(number, partner, time);
+        return {};
+      }
+      const std::uint32_t stale = a.bound.time < b.bound.time ? number : partner;
+      if (auto probed = probe(std::span(&stale, 1)); !probed) return probed;
+      continue;
+    }
+    const Event now = contact(EventKind::zeno_guard, number, partner);
+    const ContactRule::Change change = rule_.decide(touching, now.gap, now.approach_speed);
+    if (change == ContactRule::Change::begin || change == ContactRule::Change::end) {
+      unwatch(number, partner);
+      announce(
+          contact(change == ContactRule::Change::begin ? EventKind::contact_begin : EventKind::contact_end,
+                  number, partner));
+      return {};
+    }
+    if (change == ContactRule::Change::release) {
+      set_touching(number, partner, false);
+      touching = false;
+    }
+    double time;
+    if (touching) {
+      time = earliest_separation(a.bound, b.bound, time_, infinity, rule_.release_gap());
+    } else {
+      time = earliest_meeting(a.bound, b.bound, time_, std::min(a.box_end, b.box_end),
+                              rule_.guarded_gap(now.gap));
+      time = guarded_step(time, now.gap, a.largest_acceleration() + b.largest_acceleration(), Event(now));
+    }
+    watch(number, partner, std::max(time, just_after(time_)));
+    return {};
+  }
+}
+
+/// The Zeno guard: makes sure that time moves on between two looks at a contact that does not approach.
+double World::Engine::guarded_step(double certificate, double gap, double acceleration, Event&& now) {
+  const double least = time_ + rule_.least_step(gap, acceleration);
+  if (certificate >= least) return certificate;
+  ++counters_.zeno_steps;
+  if (rule_.step_breaks_tolerance(gap)) announce(std::move(now));
+  return least;
+}
+
+/// Records how long no wall contact of the body can begin or end.
+Result<void> World::Engine::settle_walls(std::uint32_t number) {
+  if (!definition_.box) {
+    bodies_[number].wall_time = infinity;
+    return {};
+  }
+  for (;;) {
+    Body& body = bodies_[number];
+    if (body.dirty) return {};
+    body.wall_time =
+        body.touching_walls != 0 ? time_ : earliest_exit(body.bound, *definition_.box, time_, body.box_end);
+    if (body.wall_time > time_) return {};
+    if (body.fresh(time_)) break;
+    if (auto probed = probe(std::span(&number, 1)); !probed) return probed;
+  }
+  Body& body = bodies_[number];
+  double first = infinity;
+  for (int index = 1; index <= wall_count; ++index) {
+    const Wall wall{static_cast<std::uint8_t>(index)};
+    const HalfSpace inside = half_space(*definition_.box, wall);
+    bool touching = (body.touching_walls & wall_bit(wall)) != 0;
+    const Event now = wall_contact(EventKind::zeno_guard, number, wall);
+    const ContactRule::Change change = rule_.decide(touching, now.gap, now.approach_speed);
+    if (change == ContactRule::Change::begin || change == ContactRule::Change::end) {
+      announce(wall_contact(
+          change == ContactRule::Change::begin ? EventKind::wall_begin : EventKind::wall_end, number, wall));
+      continue;
+    }
+    if (change == ContactRule::Change::release) {
+      body.touching_walls &= static_cast<std::uint8_t>(~wall_bit(wall));
+      touching = false;
+    }
+    double time;
+    if (touching) {
+      time = earliest_separation(body.bound, inside, time_, body.box_end, rule_.release_gap());
+    } else {
+      time = earliest_meeting(body.bound, inside, time_, body.box_end, rule_.guarded_gap(now.gap));
+      time = guarded_step(time, now.gap, body.largest_acceleration(), Event(now));
+    }
+    first = std::min(first, std::max(time, just_after(time_)));
+  }
+  body.wall_time = first;
+  return {};
+}
+
+bool World::Engine::has_watch(std::uint32_t number, std::uint32_t partner) const {
+  const std::uint32_t epoch = bodies_[partner].epoch;
+  const auto& watches = bodies_[number].watches;
+  return std::any_of(watches.begin(), watches.end(),
+                     [=](const Watch& w) { return w.partner == partner && w.epoch == epoch; });
+}
+
+/// Records a watch in place of an earlier one; at +infinity there is nothing to watch.
+void World::Engine::watch(std::uint32_t number, std::uint32_t partner, double time) {
+  unwatch(number, partner);
+  if (time < infinity) bodies_[number].watches.push_back({time, partner, bodies_[partner].epoch});
+}
+
+void World::Engine::unwatch(std::uint32_t number, std::uint32_t partner) {
+  std::erase_if(bodies_[number].watches, [=](const Watch& w) { return w.partner == partner; });
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,20 @@
+// Is this input fit for the promise? The one place that says no.
+#pragma once
+
+#include <string_view>
+
+#include "kinesphere/world.hpp"
+
+namespace kinesphere {
+
+Result<void> check_world(const WorldDefinition& definition);
+/// `call` is the function that the caller used, for the message.
+Result<void> check_body(const BodyDefinition& body, const WorldDefinition& world, std::string_view call);
+Result<void> check_velocity(const Vec3& velocity, BodyId body, std::string_view call);
+Result<void> check_report(const State& state, BodyId body, double time, const WorldDefinition& world);
+Result<void> check_time(double until, double now);
+
+/// "body 7", or "body 7 (generation 2)".
+std::string text_of(BodyId body);
+
+}  // namespace kinesphere
