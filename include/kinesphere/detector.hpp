@@ -38,8 +38,7 @@ class Detector {
   virtual std::optional<AuditFinding> audit() const { return std::nullopt; }
 };
 
-/// Detectors read `motion` through state() alone, the oracle through trajectory() too; it must outlive them.
-using DetectorFactory = Result<std::unique_ptr<Detector>> (*)(const WorldDefinition&, const Motion& motion);
+// Detectors read `motion` through state() alone, the oracle through trajectory() too; it must outlive them.
 
 /// The default engine: a World.
 Result<std::unique_ptr<Detector>> make_world_detector(const WorldDefinition& definition,

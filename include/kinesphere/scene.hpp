@@ -54,12 +54,14 @@ struct SimulationResult {
   std::uint64_t contact_hash = 0;  ///< of all events, in order; see EventHash
 };
 
+/// Makes the detector that is to watch a scene.
+using DetectorMaker =
+    std::function<Result<std::unique_ptr<Detector>>(const WorldDefinition& definition, const Motion& motion)>;
+
 /// Runs a scene under a detector that `make` creates: adds and removes bodies when their time comes, answers
 /// contacts as the scene's response says.
-Result<SimulationResult> simulate(
-    const Scene& scene,
-    const std::function<Result<std::unique_ptr<Detector>>(const WorldDefinition&, const Motion&)>& make,
-    const SimulationObserver& observer = {});
+Result<SimulationResult> simulate(const Scene& scene, const DetectorMaker& make,
+                                  const SimulationObserver& observer = {});
 
 /// A hash of events that any change of a bit in time, kind, ids or wall changes (64-bit FNV-1a).
 class EventHash {
@@ -80,7 +82,7 @@ struct SceneParameters {
   double radius_min = 0.1, radius_max = 10.0;
   double speed_min = 4.3301270189221932, speed_max = 43.301270189221931;  ///< 2.5 sqrt 3, 25 sqrt 3
   double limit_min = 10.0, limit_max = 20.0;                              ///< acceleration
-  Vec3 gravity;                                                           ///< planned acceleration
+  Vec3 gravity{};                                                         ///< planned acceleration
   Box box{{0, 0, 0}, {200, 200, 200}};
   bool walls = true;
   double redraw_interval = 0.2;  ///< how long a random force lasts

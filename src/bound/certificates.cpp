@@ -81,7 +81,8 @@ double earliest_meeting(const Bound& a, const Bound& b, double from, double hori
   return advance_by_safe_steps(from, horizon, [&](double d) {
     const Vec3 centre = motion.centre_at(d);
     const double length = norm(centre);
-    const Vec3 n = length > 0.0 ? centre / length : Vec3{1.0, 0.0, 0.0};
+    // A length whose square underflows is inexact, and would not give a unit vector.
+    const Vec3 n = length > 0x1p-500 ? centre / length : Vec3{1.0, 0.0, 0.0};
     const double c =
         (length - reach) - motion.growth_at(d) - margin * (motion.size_at(d) + std::abs(distance));
     const double speed = dot(n, motion.velocity_at(d)) - motion.growth_speed_at(d) -
@@ -122,13 +123,24 @@ double earliest_separation(const Bound& a, const Bound& b, double from, double h
 
     // Replace the cubic and quartic terms by their least values over a range: the one that the quadratic
     // part asks for or, where that never reaches zero, the one in which they cannot outweigh its q2.
+    if (!std::isfinite(q3 + q4)) return 0.0;
     const double fall3 = std::max(0.0, -q3);
     const double fall4 = std::max(0.0, -q4);
     double range = 2.0 * rounding::first_crossing(q0, q1, 2.0 * q2);
-    if (range == infinity) range = std::min(0.5 * q2 / fall3, std::sqrt(0.5 * q2 / fall4));
+    if (range == infinity) {
+      if (fall3 == 0.0 && fall4 == 0.0) return infinity;
+      const double cubic_range = fall3 > 0.0 ? 0.5 * q2 / fall3 : infinity;
+      const double quartic_range = fall4 > 0.0 ? std::sqrt(0.5 * q2 / fall4) : infinity;
+      range = std::min(cubic_range, quartic_range);
+    }
     if (!(range < infinity)) return infinity;
-    const double higher = -(fall3 + fall4 * range) * range;
-    return std::min(range, rounding::first_crossing(q0, q1, 2.0 * (q2 + higher)));
+    const auto step_within = [&](double reach_of_step) {
+      const double higher = -(fall3 + fall4 * reach_of_step) * reach_of_step;
+      return std::min(reach_of_step, rounding::first_crossing(q0, q1, 2.0 * (q2 + higher)));
+    };
+    const double gain = step_within(range);
+    // Where the quadratic part hardly falls, its range is far too long, and the step far too short.
+    return std::max(gain, step_within(std::sqrt(range * gain)));
   });
 }
 

@@ -9,9 +9,10 @@ namespace kinesphere::rounding {
 /// Relative margin, 2^-47 = 64 unit roundoffs: more than all the roundings behind one coefficient.
 inline constexpr double margin = 0x1p-47;
 
-/// A lower bound of the exact sum a + b.
+/// A lower bound of the exact sum a + b; NaN where the sum of two finite numbers overflows.
 inline double sum_down(double a, double b) {
   const double sum = a + b;
+  if (std::isinf(a) || std::isinf(b)) return sum;
   return sum - std::abs(sum) * 0x1p-52;
 }
 

@@ -1,48 +1,21 @@
 // Contacts: what an event says, and when it is delivered.
 #include <algorithm>
-#include <tuple>
 
 #include "world/engine.hpp"
 
 namespace kinesphere {
 
-HalfSpace half_space(const Box& box, Wall wall) {
-  const int index = static_cast<int>(wall) - 1;
-  const int axis = index / 2;
-  const bool upper = index % 2 == 1;
-  HalfSpace inside;
-  inside.normal[axis] = upper ? -1.0 : 1.0;
-  inside.offset = upper ? -box.upper[axis] : box.lower[axis];
-  return inside;
+Sphere World::Engine::sphere(std::uint32_t number) const {
+  const Bound& bound = bodies_[number].bound;
+  return {id_of(number), bound.radius, {bound.centre_at(time_), bound.velocity_at(time_)}};
 }
 
 Event World::Engine::contact(EventKind kind, std::uint32_t a, std::uint32_t b) const {
-  const auto [first, second] = std::minmax(a, b);
-  const Bound& one = bodies_[first].bound;
-  const Bound& two = bodies_[second].bound;
-  Event event{.kind = kind, .time = time_, .first = id_of(first), .second = id_of(second)};
-  event.first_state = {one.centre_at(time_), one.velocity_at(time_)};
-  event.second_state = {two.centre_at(time_), two.velocity_at(time_)};
-  const Vec3 difference = event.second_state.position - event.first_state.position;
-  const double distance = norm(difference);
-  event.normal = distance > 0.0 ? difference / distance : Vec3{1.0, 0.0, 0.0};
-  event.gap = distance - (one.radius + two.radius);
-  event.approach_speed = dot(event.normal, event.first_state.velocity - event.second_state.velocity);
-  event.point = event.first_state.position + event.normal * (one.radius + 0.5 * event.gap);
-  return event;
+  return contact_event(kind, time_, sphere(a), sphere(b));
 }
 
 Event World::Engine::wall_contact(EventKind kind, std::uint32_t number, Wall wall) const {
-  const Bound& bound = bodies_[number].bound;
-  const HalfSpace inside = half_space(*definition_.box, wall);
-  Event event{.kind = kind, .time = time_, .first = id_of(number), .wall = wall};
-  event.first_state = {bound.centre_at(time_), bound.velocity_at(time_)};
-  event.normal = -inside.normal;
-  const double distance = dot(inside.normal, event.first_state.position) - inside.offset;
-  event.gap = distance - bound.radius;
-  event.approach_speed = dot(event.normal, event.first_state.velocity);
-  event.point = event.first_state.position + event.normal * distance;
-  return event;
+  return wall_event(kind, time_, sphere(number), *definition_.box, wall);
 }
 
 bool World::Engine::is_touching(std::uint32_t a, std::uint32_t b) const {
@@ -69,26 +42,16 @@ void World::Engine::release_all(std::uint32_t number) {
   bodies_[number].touching_walls = 0;
 }
 
-namespace {
-
-auto delivery_order(const Event& event) {
-  return std::tie(event.kind, event.first, event.second, event.wall);
-}
-
-}  // namespace
-
 /// Queues an event of this instant; the same event is not queued twice.
 void World::Engine::announce(Event&& event) {
-  const auto same = [&](const Event& other) { return delivery_order(other) == delivery_order(event); };
+  const auto same = [&](const Event& other) { return same_event(other, event); };
   if (std::none_of(pending_.begin(), pending_.end(), same)) pending_.push_back(std::move(event));
 }
 
 /// The next event of this instant that still holds after what the caller did at the ones before it.
 std::optional<Event> World::Engine::deliver() {
   while (!pending_.empty()) {
-    const auto next = std::min_element(pending_.begin(), pending_.end(), [](const Event& a, const Event& b) {
-      return delivery_order(a) < delivery_order(b);
-    });
+    const auto next = std::min_element(pending_.begin(), pending_.end(), delivered_before);
     Event event = *next;
     pending_.erase(next);
     if (!still_holds(event)) continue;

@@ -36,9 +36,8 @@ void World::Engine::remove(BodyId id) {
   if (definition_.contacts == ContactMode::begin_and_end) {
     for (const std::uint32_t partner : body.touching)
       announce(contact(EventKind::contact_end, number, partner));
-    for (int wall = 1; wall <= wall_count; ++wall)
-      if (body.touching_walls & wall_bit(Wall(wall)))
-        announce(wall_contact(EventKind::wall_end, number, Wall(wall)));
+    for (const Wall wall : walls)
+      if (body.touching_walls & wall_bit(wall)) announce(wall_contact(EventKind::wall_end, number, wall));
   }
   withdraw(id);
 }

@@ -18,10 +18,11 @@
 #include <utility>
 #include <vector>
 
+#include "contact/contact_event.hpp"
+#include "contact/contact_rule.hpp"
 #include "kinesphere/world.hpp"
 #include "schedule/schedule.hpp"
 #include "space/hash_grid.hpp"
-#include "world/contact_rule.hpp"
 #include "world/horizon.hpp"
 
 namespace kinesphere {
@@ -42,7 +43,7 @@ struct Body {
   std::optional<Horizon> horizon;
   std::vector<Watch> watches;
   std::vector<std::uint32_t> touching;  ///< partners in contact
-  std::uint8_t touching_walls = 0;      ///< see wall_bit
+  std::uint8_t touching_walls = 0;      ///< set of wall_bit()
   std::uint32_t generation = 0;
   std::uint32_t epoch = 0;
   double last_contact = -std::numeric_limits<double>::infinity();
@@ -56,13 +57,6 @@ struct Body {
     return definition.acceleration_limit + norm(definition.planned_acceleration);
   }
 };
-
-inline constexpr std::uint8_t wall_bit(Wall wall) {
-  return static_cast<std::uint8_t>(1u << (static_cast<unsigned>(wall) - 1u));
-}
-
-/// The half-space inside a wall of the box.
-HalfSpace half_space(const Box& box, Wall wall);
 
 class World::Engine {
  public:
@@ -87,7 +81,7 @@ class World::Engine {
   std::optional<AuditFinding> audit() const;
 
  private:
-  friend class Audit;
+  class Audit;
 
   // engine.cpp: the clock.
   Result<void> wake(std::uint32_t body);
@@ -114,6 +108,7 @@ class World::Engine {
   void apply_report(std::uint32_t body, const State& state);
 
   // contacts.cpp: events.
+  Sphere sphere(std::uint32_t body) const;
   Event contact(EventKind kind, std::uint32_t a, std::uint32_t b) const;
   Event wall_contact(EventKind kind, std::uint32_t body, Wall wall) const;
   bool is_touching(std::uint32_t a, std::uint32_t b) const;

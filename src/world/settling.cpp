@@ -202,8 +202,7 @@ Result<void> World::Engine::settle_walls(std::uint32_t number) {
   }
   Body& body = bodies_[number];
   double first = infinity;
-  for (int index = 1; index <= wall_count; ++index) {
-    const Wall wall{static_cast<std::uint8_t>(index)};
+  for (const Wall wall : walls) {
     const HalfSpace inside = half_space(*definition_.box, wall);
     bool touching = (body.touching_walls & wall_bit(wall)) != 0;
     const Event now = wall_contact(EventKind::zeno_guard, number, wall);

@@ -15,8 +15,13 @@ class ContactRule {
   enum class Change { none, begin, end, release };
   Change decide(bool touching, double gap, double approach_speed) const;
 
+  /// The gap at which a contact ends.
+  double separation_distance() const { return separation_distance_; }
+
   /// For a pair that touches: the gap that it cannot exceed before its certificate ends.
   double release_gap() const { return separation_distance_ + tolerance_; }
+
+  bool impacts_only() const { return impacts_only_; }
 
   /// For a pair that is apart: the gap that a certificate must guard, 0 outside the tolerance. Bouncing
   /// bodies that leave each other within it may come back as far as half the tolerance inside or, when they

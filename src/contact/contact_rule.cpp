@@ -1,4 +1,4 @@
-#include "world/contact_rule.hpp"
+#include "contact/contact_rule.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,36 @@
+// Is what a detector found the truth? Its begins and ends against the oracle's, one by one.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinesphere/scene.hpp"
+
+namespace kinesphere {
+
+struct ContactComparison {
+  /// Begins and ends that both report, with the true gap within the promise at the detector's time.
+  std::uint64_t matched = 0;
+  /// Those that one of the two reports and the promise leaves open: the gap only grazes the tolerance.
+  std::uint64_t grazing = 0;
+  /// What the detector should have reported and did not, and the reverse.
+  std::uint64_t missed = 0;
+  std::uint64_t invented = 0;
+  double largest_time_difference = 0.0;  ///< among the matched
+  std::optional<std::string> first_difference;
+
+  bool agrees() const { return missed == 0 && invented == 0; }
+};
+
+/// Compares the events of a run of `scene` with the truth. Only for scenes in which nobody bounces: with
+/// bounces two correct programs drift apart. Errors: unsupported otherwise, and whatever the oracle refuses.
+Result<ContactComparison> compare_with_oracle(const Scene& scene, const std::vector<Event>& events);
+
+/// Runs the scene under the detector and compares.
+Result<ContactComparison> verify(const Scene& scene, const DetectorMaker& make);
+
+}  // namespace kinesphere

@@ -1,0 +1,56 @@
+#include "contact/contact_event.hpp"
+
+#include <tuple>
+
+namespace kinesphere {
+
+Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& b) {
+  const Sphere& first = a.id < b.id ? a : b;
+  const Sphere& second = a.id < b.id ? b : a;
+  Event event{.kind = kind, .time = time, .first = first.id, .second = second.id};
+  event.first_state = first.state;
+  event.second_state = second.state;
+  const Vec3 difference = second.state.position - first.state.position;
+  const double distance = norm(difference);
+  event.normal = distance > 0.0 ? difference / distance : Vec3{1.0, 0.0, 0.0};
+  event.gap = distance - (first.radius + second.radius);
+  event.approach_speed = dot(event.normal, first.state.velocity - second.state.velocity);
+  event.point = first.state.position + event.normal * (first.radius + 0.5 * event.gap);
+  return event;
+}
+
+Event wall_event(EventKind kind, double time, const Sphere& sphere, const Box& box, Wall wall) {
+  const HalfSpace inside = half_space(box, wall);
+  Event event{.kind = kind, .time = time, .first = sphere.id, .wall = wall};
+  event.first_state = sphere.state;
+  event.normal = -inside.normal;
+  const double distance = dot(inside.normal, sphere.state.position) - inside.offset;
+  event.gap = distance - sphere.radius;
+  event.approach_speed = dot(event.normal, sphere.state.velocity);
+  event.point = sphere.state.position + event.normal * distance;
+  return event;
+}
+
+HalfSpace half_space(const Box& box, Wall wall) {
+  const int index = static_cast<int>(wall) - 1;
+  const int axis = index / 2;
+  const bool upper = index % 2 == 1;
+  HalfSpace inside;
+  inside.normal[axis] = upper ? -1.0 : 1.0;
+  inside.offset = upper ? -box.upper[axis] : box.lower[axis];
+  return inside;
+}
+
+namespace {
+
+auto delivery_order(const Event& event) {
+  return std::tie(event.kind, event.first, event.second, event.wall);
+}
+
+}  // namespace
+
+bool delivered_before(const Event& a, const Event& b) { return delivery_order(a) < delivery_order(b); }
+
+bool same_event(const Event& a, const Event& b) { return delivery_order(a) == delivery_order(b); }
+
+}  // namespace kinesphere

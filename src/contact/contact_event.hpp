@@ -1,0 +1,36 @@
+// What a contact event says, from the spheres as they are at that instant.
+#pragma once
+
+#include "kinesphere/bound.hpp"
+#include "kinesphere/event.hpp"
+
+namespace kinesphere {
+
+struct Sphere {
+  BodyId id;
+  double radius;
+  State state;
+};
+
+/// Event::first is the one with the smaller id, whichever comes first here.
+Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& b);
+Event wall_event(EventKind kind, double time, const Sphere& sphere, const Box& box, Wall wall);
+
+/// The half-space inside a wall of the box.
+HalfSpace half_space(const Box& box, Wall wall);
+
+/// The bit of a wall in a set of walls.
+inline constexpr std::uint8_t wall_bit(Wall wall) {
+  return static_cast<std::uint8_t>(1u << (static_cast<unsigned>(wall) - 1u));
+}
+
+/// All walls, for loops.
+inline constexpr Wall walls[] = {Wall::x_lower, Wall::x_upper, Wall::y_lower,
+                                 Wall::y_upper, Wall::z_lower, Wall::z_upper};
+
+/// The order in which events of one instant are delivered: kind, first, second, wall.
+bool delivered_before(const Event& a, const Event& b);
+/// True when neither is delivered before the other: at one instant they are the same event.
+bool same_event(const Event& a, const Event& b);
+
+}  // namespace kinesphere

@@ -1,0 +1,196 @@
+#include "detector/gap_course.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace kinesphere {
+namespace {
+
+constexpr int degree = 6;
+/// Power or Bernstein coefficients over [0, 1].
+using Coefficients = std::array<double, degree + 1>;
+
+Coefficients to_bernstein(const Coefficients& power) {
+  static constexpr std::array<std::array<double, degree + 1>, degree + 1> binomial{
+      {{1},
+       {1, 1},
+       {1, 2, 1},
+       {1, 3, 3, 1},
+       {1, 4, 6, 4, 1},
+       {1, 5, 10, 10, 5, 1},
+       {1, 6, 15, 20, 15, 6, 1}}};
+  Coefficients bernstein{};
+  for (std::size_t i = 0; i <= degree; ++i)
+    for (std::size_t k = 0; k <= i; ++k) bernstein[i] += binomial[i][k] / binomial[degree][k] * power[k];
+  return bernstein;
+}
+
+/// De Casteljau at 1/2: the coefficients over the left half stay, those over the right half are returned.
+Coefficients split(Coefficients& left) {
+  Coefficients right = left;
+  for (std::size_t level = 1; level <= degree; ++level) {
+    for (std::size_t i = 0; i + level <= degree; ++i) right[i] = 0.5 * (right[i] + right[i + 1]);
+    left[level] = right[0];
+  }
+  return right;
+}
+
+/// The motion of one piece, s = t - begin, with what is needed to find where the gap meets a level.
+struct Piece {
+  double begin, end;
+  std::array<Vec3, 4> centre;  ///< power coefficients of the position difference (pair) or position (wall)
+  bool is_pair;
+  HalfSpace wall;
+  double radius;
+
+  double gap(double s) const {
+    const Vec3 at = centre[0] + (centre[1] + (centre[2] + centre[3] * s) * s) * s;
+    return is_pair ? norm(at) - radius : dot(wall.normal, at) - wall.offset - radius;
+  }
+
+  /// A polynomial over [0, 1] (times end - begin) that is positive where the gap is larger than `level`, and
+  /// the error that rounding may have left in its coefficients.
+  Coefficients above(double level, double& error) const {
+    const double length = end - begin;
+    std::array<Vec3, 4> c = centre;
+    for (double scale = 1.0; Vec3 & coefficient : c) {
+      coefficient *= scale;
+      scale *= length;
+    }
+    Coefficients power{};
+    double size = 0.0;
+    if (is_pair) {
+      for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t k = 0; k < 4; ++k) {
+          power[i + k] += dot(c[i], c[k]);
+          size += std::abs(dot(c[i], c[k]));
+        }
+      const double reach = std::max(0.0, radius + level);
+      power[0] -= reach * reach;
+      size += reach * reach;
+    } else {
+      for (std::size_t i = 0; i < 4; ++i) power[i] = dot(wall.normal, c[i]);
+      for (const double p : power) size += std::abs(p);
+      power[0] -= wall.offset + radius + level;
+      size += std::abs(wall.offset) + radius + std::abs(level);
+    }
+    error = 0x1p-46 * size;
+    return power;
+  }
+};
+
+/// Finds the first root of one piece for one level.
+class RootSearch {
+ public:
+  RootSearch(const Piece& piece, Crossing crossing, double level)
+      : piece_(piece), level_(level), sign_(crossing == Crossing::falls_to ? 1.0 : -1.0) {}
+
+  /// The first s in [0, end - begin] at which the level is reached.
+  std::optional<double> first() const {
+    double error = 0.0;
+    Coefficients coefficients = to_bernstein(piece_.above(level_, error));
+    for (double& c : coefficients) c *= sign_;
+    return first_within(coefficients, error, 0.0, 1.0, 0);
+  }
+
+ private:
+  static constexpr int max_depth = 40;
+
+  /// Positive before the level is reached.
+  double room(double fraction) const {
+    return sign_ * (piece_.gap(fraction * (piece_.end - piece_.begin)) - level_);
+  }
+  double time_of(double fraction) const { return fraction * (piece_.end - piece_.begin); }
+
+  std::optional<double> first_within(const Coefficients& c, double error, double lower, double upper,
+                                     int depth) const {
+    if (std::all_of(c.begin(), c.end(), [=](double value) { return value > error; })) return std::nullopt;
+    if (room(lower) <= 0.0) return time_of(lower);
+    if (is_monotone(c, error)) {
+      if (room(upper) > 0.0) return std::nullopt;
+      return time_of(bisect(lower, upper));
+    }
+    // Where rounding hides what is left of the polynomial, its ends decide.
+    const bool hidden = *std::max_element(c.begin(), c.end()) <= 2.0 * error;
+    if (hidden || depth == max_depth)
+      return room(upper) <= 0.0 ? std::optional(time_of(upper)) : std::nullopt;
+    Coefficients left = c;
+    const Coefficients right = split(left);
+    const double middle = 0.5 * (lower + upper);
+    if (const auto found = first_within(left, error, lower, middle, depth + 1)) return found;
+    return first_within(right, error, middle, upper, depth + 1);
+  }
+
+  static bool is_monotone(const Coefficients& c, double error) {
+    bool rises = true;
+    bool falls = true;
+    for (std::size_t i = 0; i < degree; ++i) {
+      rises = rises && c[i + 1] - c[i] > 2.0 * error;
+      falls = falls && c[i] - c[i + 1] > 2.0 * error;
+    }
+    return rises || falls;
+  }
+
+  /// The least double found not to have room, between one that has and one that has not.
+  double bisect(double lower, double upper) const {
+    for (;;) {
+      const double middle = 0.5 * (lower + upper);
+      if (middle <= lower || middle >= upper) return upper;
+      (room(middle) > 0.0 ? lower : upper) = middle;
+    }
+  }
+
+  const Piece& piece_;
+  double level_;
+  double sign_;
+};
+
+/// The coefficients of a segment's position in powers of t - begin, for a later begin.
+std::array<Vec3, 4> position_from(const Segment& segment, double begin) {
+  const State state = segment.state_at(begin);
+  return {state.position, state.velocity, segment.acceleration_at(begin) * 0.5, segment.jerk / 6.0};
+}
+
+}  // namespace
+
+const Segment& segment_at(const Trajectory& trajectory, double t) {
+  auto after = std::upper_bound(trajectory.begin(), trajectory.end(), t,
+                                [](double time, const Segment& segment) { return time < segment.begin; });
+  return after == trajectory.begin() ? trajectory.front() : *(after - 1);
+}
+
+double GapCourse::gap_at(double t) const {
+  const Vec3 at = segment_at(*a_, t).state_at(t).position;
+  if (b_ == nullptr) return dot(wall_.normal, at) - wall_.offset - radius_;
+  return norm(at - segment_at(*b_, t).state_at(t).position) - radius_;
+}
+
+std::optional<double> GapCourse::first_time(Crossing crossing, double level, double from, double to) const {
+  const auto index_at = [&](const Trajectory& trajectory) {
+    return static_cast<std::size_t>(&segment_at(trajectory, from) - trajectory.data());
+  };
+  std::size_t ia = index_at(*a_);
+  std::size_t ib = b_ != nullptr ? index_at(*b_) : 0;
+  double begin = from;
+  for (;;) {
+    const Segment& a = (*a_)[ia];
+    const double a_end = ia + 1 < a_->size() ? a.end : to;
+    double end = std::min(a_end, to);
+    Piece piece{begin, end, position_from(a, begin), b_ != nullptr, wall_, radius_};
+    if (b_ != nullptr) {
+      const Segment& b = (*b_)[ib];
+      const double b_end = ib + 1 < b_->size() ? b.end : to;
+      piece.end = end = std::min(end, b_end);
+      const std::array<Vec3, 4> other = position_from(b, begin);
+      for (std::size_t k = 0; k < 4; ++k) piece.centre[k] -= other[k];
+      if (end >= b_end && ib + 1 < b_->size()) ++ib;
+    }
+    if (const auto s = RootSearch(piece, crossing, level).first()) return std::min(begin + *s, end);
+    if (end >= to) return std::nullopt;
+    if (end >= a_end && ia + 1 < a_->size()) ++ia;
+    begin = end;
+  }
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,93 @@
+// The default engine as a detector.
+#include <vector>
+
+#include "kinesphere/detector.hpp"
+
+namespace kinesphere {
+namespace {
+
+class WorldDetector final : public Detector {
+ public:
+  WorldDetector(World world, const Motion& motion)
+      : world_(std::move(world)), motion_(motion), ids_(motion.size(), no_body) {}
+
+  std::string_view name() const override { return "world"; }
+
+  Result<void> add(std::uint32_t number, const BodyDefinition& definition) override {
+    const auto id = world_.add(definition);
+    if (!id) return id.error();
+    ids_[number] = *id;
+    if (id->index >= numbers_.size()) numbers_.resize(id->index + 1);
+    numbers_[id->index] = number;
+    return {};
+  }
+
+  Result<void> remove(std::uint32_t number) override {
+    // Its events still come, under its number.
+    departed_.push_back({ids_[number], number});
+    return world_.remove(ids_[number]);
+  }
+
+  Result<void> kick(std::uint32_t number, const Vec3& velocity) override {
+    return world_.kick(ids_[number], velocity);
+  }
+
+  Result<std::optional<Event>> advance(double until) override {
+    const auto probe = [this](std::span<const BodyId> ids, double time, std::span<State> states) {
+      for (std::size_t k = 0; k < ids.size(); ++k) states[k] = motion_.state(numbers_[ids[k].index], time);
+    };
+    auto event = world_.advance(until, probe);
+    if (event && *event) return std::optional(by_number(**event));
+    if (event) departed_.clear();
+    return event;
+  }
+
+  double time() const override { return world_.time(); }
+  Counters counters() const override { return world_.counters(); }
+  double bound_radius(std::uint32_t number) const override {
+    return world_.body(ids_[number]).value().bound.radius_at(world_.time());
+  }
+  std::optional<AuditFinding> audit() const override { return world_.audit(); }
+
+ private:
+  struct Departed {
+    BodyId id;
+    std::uint32_t number;
+  };
+
+  BodyId number_of(BodyId id) const {
+    if (id == no_body) return id;
+    for (const Departed& departed : departed_)
+      if (departed.id == id) return {departed.number, 0};
+    return {numbers_[id.index], 0};
+  }
+
+  /// The event with numbers for ids, and the smaller number first.
+  Event by_number(Event event) const {
+    event.first = number_of(event.first);
+    event.second = number_of(event.second);
+    if (event.second != no_body && event.second < event.first) {
+      std::swap(event.first, event.second);
+      std::swap(event.first_state, event.second_state);
+      event.normal = -event.normal;
+    }
+    return event;
+  }
+
+  World world_;
+  const Motion& motion_;
+  std::vector<BodyId> ids_;             ///< by number
+  std::vector<std::uint32_t> numbers_;  ///< by the index of an id
+  std::vector<Departed> departed_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Detector>> make_world_detector(const WorldDefinition& definition,
+                                                      const Motion& motion) {
+  auto world = World::create(definition);
+  if (!world) return world.error();
+  return std::unique_ptr<Detector>(std::make_unique<WorldDetector>(std::move(*world), motion));
+}
+
+}  // namespace kinesphere

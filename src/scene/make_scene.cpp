@@ -1,0 +1,154 @@
+// Scenes from parameters, and the built-in ones.
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "kinesphere/motion/ballistic.hpp"
+#include "kinesphere/motion/random_forces.hpp"
+#include "kinesphere/motion/velocity_field.hpp"
+#include "kinesphere/random.hpp"
+#include "kinesphere/scene.hpp"
+#include "scene/placement.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// Independent streams of random numbers, one for each thing that is drawn.
+enum Stream : std::uint64_t { placement_stream, radius_stream, velocity_stream, limit_stream, force_stream };
+
+Error bad_parameter(const std::string& name, const std::string& expectation) {
+  return {ErrorCode::out_of_range, name, no_body, "make_scene: " + name + " " + expectation};
+}
+
+Result<void> check_range(const std::string& name, double least, double greatest) {
+  if (std::isfinite(greatest) && least >= 0.0 && least <= greatest) return {};
+  return bad_parameter(name, "must be a range [min, max] of finite numbers with 0 <= min <= max, but is [" +
+                                 std::to_string(least) + ", " + std::to_string(greatest) + "]");
+}
+
+Result<void> check(const SceneParameters& p) {
+  for (const auto& range :
+       {check_range("radius", p.radius_min, p.radius_max), check_range("speed", p.speed_min, p.speed_max),
+        check_range("limit", p.limit_min, p.limit_max)})
+    if (!range) return range;
+  if (!(p.seconds >= 0.0) || !std::isfinite(p.seconds))
+    return bad_parameter("seconds", "must be a finite number >= 0");
+  if (!(p.redraw_interval > 0.0)) return bad_parameter("redraw_interval", "must be > 0");
+  if (!(p.restitution >= 0.0 && p.restitution <= 1.0))
+    return bad_parameter("restitution", "must lie in [0, 1]");
+  if (!is_finite(p.gravity)) return bad_parameter("gravity", "must be finite");
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(p.box.lower[axis] < p.box.upper[axis]))
+      return bad_parameter("box", "must have lower < upper on every axis");
+  return {};
+}
+
+double drawn(const SceneParameters& p, Stream stream, std::uint32_t body, double least, double greatest) {
+  return Random::at(p.seed, stream, body).uniform(least, greatest);
+}
+
+Result<std::unique_ptr<const Motion>> make_motion(const SceneParameters& p, std::vector<State> start) {
+  std::vector<double> limits;
+  for (std::uint32_t body = 0; body < p.bodies; ++body)
+    limits.push_back(drawn(p, limit_stream, body, p.limit_min, p.limit_max));
+  const auto moved = [](auto&& motion) -> Result<std::unique_ptr<const Motion>> {
+    if (!motion) return motion.error();
+    using Kind = std::remove_cvref_t<decltype(*motion)>;
+    return std::unique_ptr<const Motion>(std::make_unique<Kind>(std::move(*motion)));
+  };
+  switch (p.motion) {
+    case SceneParameters::MotionKind::random_forces:
+      return moved(RandomForces::create({.start = std::move(start),
+                                         .acceleration_limits = std::move(limits),
+                                         .interval = p.redraw_interval,
+                                         .seed = Random::at(p.seed, force_stream, 0).bits()}));
+    case SceneParameters::MotionKind::velocity_field:
+      return moved(VelocityField::create({.field = Circulation{p.box, p.speed_max},
+                                          .start = std::move(start),
+                                          .acceleration_limits = std::move(limits),
+                                          .interval = p.redraw_interval}));
+    case SceneParameters::MotionKind::ballistic:
+      break;
+  }
+  return moved(Ballistic::create({.start = std::move(start), .gravity = p.gravity}));
+}
+
+SceneParameters with_name(std::string name, SceneParameters parameters) {
+  parameters.name = std::move(name);
+  return parameters;
+}
+
+}  // namespace
+
+Result<Scene> make_scene(const SceneParameters& p) {
+  if (auto valid = check(p); !valid) return valid.error();
+  Scene scene;
+  scene.name = p.name;
+  scene.response = p.response;
+  scene.restitution = p.restitution;
+  scene.end_time = p.seconds;
+  if (p.walls) scene.world.box = p.box;
+  scene.world.contact_tolerance = p.contact_tolerance;
+  scene.world.contacts = p.response == Response::bounce ? ContactMode::impacts : ContactMode::begin_and_end;
+
+  std::vector<double> radii;
+  for (std::uint32_t body = 0; body < p.bodies; ++body)
+    radii.push_back(drawn(p, radius_stream, body, p.radius_min, p.radius_max));
+  const auto centres =
+      place_spheres(radii, p.box, 4.0 * p.contact_tolerance, Random::at(p.seed, placement_stream, 0).bits());
+  if (!centres) {
+    return bad_parameter("bodies", "must fit into the box without overlap, and no room was found for " +
+                                       std::to_string(p.bodies) + " of these radii");
+  }
+  std::vector<State> start;
+  for (std::uint32_t body = 0; body < p.bodies; ++body) {
+    Random random = Random::at(p.seed, velocity_stream, body);
+    const double speed = random.uniform(p.speed_min, p.speed_max);
+    // In a velocity field bodies start at rest: the field sets them in motion.
+    const bool at_rest = p.motion == SceneParameters::MotionKind::velocity_field;
+    start.push_back({(*centres)[body], at_rest ? Vec3{} : random.unit_vector() * speed});
+    scene.bodies.push_back({.radius = radii[body]});
+  }
+  auto motion = make_motion(p, std::move(start));
+  if (!motion) return motion.error();
+  scene.motion = std::move(*motion);
+  return scene;
+}
+
+const std::vector<SceneParameters>& built_in_scenes() {
+  using Kind = SceneParameters::MotionKind;
+  static const std::vector<SceneParameters> scenes{
+      with_name("paper1", {}),
+      with_name("paper2", {.motion = Kind::velocity_field,
+                           .radius_min = 1.0,
+                           .speed_min = 0.0,
+                           .speed_max = 40.0,
+                           .limit_min = 30.0,
+                           .limit_max = 30.0,
+                           .redraw_interval = 0.1,
+                           .seconds = 7.0}),
+      with_name("gas", {.motion = Kind::ballistic,
+                        .bodies = 4000,
+                        .radius_min = 5.0,
+                        .radius_max = 5.0,
+                        .limit_min = 0.0,
+                        .limit_max = 0.0,
+                        .box = {{0, 0, 0}, {204, 204, 204}},
+                        .seconds = 5.0}),
+      with_name("rain", {.motion = Kind::ballistic,
+                         .bodies = 500,
+                         .radius_min = 0.5,
+                         .radius_max = 2.0,
+                         .speed_min = 0.0,
+                         .speed_max = 5.0,
+                         .limit_min = 0.0,
+                         .limit_max = 0.0,
+                         .gravity = {0, 0, -9.81},
+                         .box = {{0, 0, 0}, {100, 100, 100}},
+                         .restitution = 0.9,
+                         .seconds = 10.0}),
+  };
+  return scenes;
+}
+
+}  // namespace kinesphere

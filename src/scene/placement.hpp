@@ -1,0 +1,18 @@
+// Placing spheres in a box without overlap.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "kinesphere/vec3.hpp"
+
+namespace kinesphere {
+
+/// Centres for spheres of these radii, all inside the box and at least `clearance` from each other and its
+/// walls; nothing when no room is found. Random, largest first: the small ones fit into the gaps that the
+/// large ones leave.
+std::optional<std::vector<Vec3>> place_spheres(const std::vector<double>& radii, const Box& box,
+                                               double clearance, std::uint64_t seed);
+
+}  // namespace kinesphere

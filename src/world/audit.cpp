@@ -1,0 +1,157 @@
+// The audit: everything that should be true now, rebuilt from scratch.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "world/engine.hpp"
+#include "world/validation.hpp"
+
+namespace kinesphere {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A recorded time may pass the one computed now by this part of the way there: both are lower bounds of the
+/// same truth, and each stops its iteration a little early.
+constexpr double slack = 1e-3;
+
+bool too_late(double recorded, double computed, double now) {
+  return recorded > computed + slack * (computed - now) + 1e-12 * (1.0 + std::abs(computed));
+}
+
+std::string times(double recorded, double computed) {
+  return ": recorded " + std::to_string(recorded) + ", must not be later than " + std::to_string(computed);
+}
+
+}  // namespace
+
+class World::Engine::Audit {
+ public:
+  explicit Audit(const Engine& engine) : engine_(engine), now_(engine.time_) {}
+
+  std::optional<AuditFinding> run() {
+    const auto count = static_cast<std::uint32_t>(engine_.bodies_.size());
+    for (std::uint32_t a = 0; a < count && !finding_; ++a) {
+      if (!body(a).alive) continue;
+      check_registration(a);
+      check_schedule(a);
+      check_walls(a);
+      for (std::uint32_t b = a + 1; b < count && !finding_; ++b)
+        if (body(b).alive) check_pair(a, b);
+    }
+    check_earliest();
+    return finding_;
+  }
+
+ private:
+  const Body& body(std::uint32_t number) const { return engine_.bodies_[number]; }
+  std::string name(std::uint32_t number) const { return text_of(engine_.id_of(number)); }
+
+  void find(std::string where, std::string what) {
+    if (!finding_) finding_ = AuditFinding{std::move(where), std::move(what)};
+  }
+
+  /// A noisy report may lie outside what an earlier one promised, though the body does not.
+  static bool exact(const Body& body) {
+    return body.definition.position_error == 0.0 && body.definition.velocity_error == 0.0;
+  }
+
+  void check_registration(std::uint32_t number) {
+    const Body& b = body(number);
+    if (const auto wrong = engine_.grid_.check(number, b.box))
+      find("registration", name(number) + " " + *wrong);
+    if (b.dirty || !exact(b)) return;
+    const Vec3 room = Vec3{1.0, 1.0, 1.0} * (0.25 * engine_.definition_.contact_tolerance);
+    const double exit = earliest_exit(b.bound, {b.box.lower - room, b.box.upper + room}, now_, b.box_end);
+    if (too_late(b.box_end, exit, now_))
+      find("registration", name(number) + " leaves its box" + times(b.box_end, exit));
+  }
+
+  void check_schedule(std::uint32_t number) {
+    const Body& b = body(number);
+    if (!engine_.schedule_.contains(number)) return find("queue", name(number) + " is not scheduled");
+    if (b.dirty) return;
+    double wanted = std::min(b.box_end, b.wall_time);
+    for (const Watch& watch : b.watches) wanted = std::min(wanted, watch.time);
+    const double found = engine_.schedule_.time_of(number);
+    if (found > wanted) find("queue", name(number) + " is scheduled too late" + times(found, wanted));
+    if (found < now_) find("queue", name(number) + " is scheduled in the past" + times(now_, found));
+  }
+
+  void check_earliest() {
+    double first = infinity;
+    for (std::uint32_t number = 0; number < engine_.bodies_.size(); ++number)
+      if (body(number).alive) first = std::min(first, engine_.schedule_.time_of(number));
+    if (!engine_.schedule_.empty() && engine_.schedule_.earliest().time != first)
+      find("queue", "its earliest time is not the least" + times(engine_.schedule_.earliest().time, first));
+  }
+
+  void check_walls(std::uint32_t number) {
+    const Body& b = body(number);
+    if (!engine_.definition_.box || !settled(number, number) || b.touching_walls != 0 || !exact(b)) return;
+    const double within = impacts() ? engine_.definition_.contact_tolerance : 0.0;
+    const Vec3 room = Vec3{1.0, 1.0, 1.0} * within;
+    const Box box{engine_.definition_.box->lower - room, engine_.definition_.box->upper + room};
+    const double reached = earliest_exit(b.bound, box, now_, b.box_end);
+    if (too_late(b.wall_time, reached, now_) && reached > now_)
+      find("wall", name(number) + " may reach a wall unseen" + times(b.wall_time, reached));
+  }
+
+  void check_pair(std::uint32_t a, std::uint32_t b) {
+    const bool touching = engine_.is_touching(a, b);
+    if (touching != engine_.is_touching(b, a)) return find("contact", pair(a, b) + " touch on one side only");
+    if (!settled(a, b)) return;
+    const double change = earliest_change(a, b, touching);
+    bool watched = false;
+    for (const auto& [watcher, partner] : {std::pair(a, b), std::pair(b, a)}) {
+      for (const Watch& watch : body(watcher).watches) {
+        if (watch.partner != partner || watch.epoch != body(partner).epoch) continue;
+        watched = true;
+        if (checkable(a, b) && too_late(watch.time, change, now_))
+          find("certificate", pair(a, b) + " may change unseen" + times(watch.time, change));
+      }
+    }
+    if (watched || !checkable(a, b)) return;
+    const double until = touching ? infinity : std::min(body(a).box_end, body(b).box_end);
+    if (!touching && !FloatBox(body(a).box).overlaps(FloatBox(body(b).box))) return;
+    if (too_late(until, change, now_))
+      find("certificate", pair(a, b) + " are not watched" + times(until, change));
+  }
+
+  double earliest_change(std::uint32_t a, std::uint32_t b, bool touching) const {
+    if (touching)
+      return earliest_separation(body(a).bound, body(b).bound, now_, infinity, engine_.rule_.release_gap());
+    const double distance = impacts() ? -engine_.definition_.contact_tolerance : 0.0;
+    return earliest_meeting(body(a).bound, body(b).bound, now_, infinity, distance);
+  }
+
+  /// Bouncing bodies within the tolerance follow the contact rule, not the bare distance.
+  bool checkable(std::uint32_t a, std::uint32_t b) const {
+    if (!exact(body(a)) || !exact(body(b))) return false;
+    return !impacts() ||
+           gap_limits(body(a).bound, body(b).bound, now_).lower > engine_.definition_.contact_tolerance;
+  }
+
+  /// True when the engine owes a fact about the pair (a body and itself: its walls) now.
+  bool settled(std::uint32_t a, std::uint32_t b) const {
+    const auto concerns = [=](const Event& event) {
+      return event.first.index == a && (a == b ? event.wall != Wall::none : event.second.index == b);
+    };
+    return !body(a).dirty && !body(b).dirty &&
+           std::find(engine_.changed_.begin(), engine_.changed_.end(), std::pair(a, b)) ==
+               engine_.changed_.end() &&
+           std::none_of(engine_.pending_.begin(), engine_.pending_.end(), concerns);
+  }
+
+  bool impacts() const { return engine_.definition_.contacts == ContactMode::impacts; }
+  std::string pair(std::uint32_t a, std::uint32_t b) const { return name(a) + " and " + name(b); }
+
+  const Engine& engine_;
+  double now_;
+  std::optional<AuditFinding> finding_;
+};
+
+std::optional<AuditFinding> World::Engine::audit() const { return Audit(*this).run(); }
+
+}  // namespace kinesphere
