@@ -30,7 +30,7 @@ double ContactRule::guarded_gap(double gap) const {
 
 double ContactRule::least_step(double gap, double acceleration) const {
   if (gap > tolerance_ || !(acceleration > 0.0)) return 0.0;
-  return 0.25 * std::sqrt(tolerance_ / acceleration);
+  return 0.5 * std::sqrt(tolerance_ / acceleration);
 }
 
 double ContactRule::zeno_interval(double acceleration) const {

@@ -29,11 +29,11 @@ class ContactRule {
   double guarded_gap(double gap) const;
 
   /// The Zeno guard: the least time between two looks at a pair within the tolerance that does not approach,
-  /// with this sum of largest accelerations. In it the gap shrinks by at most 1/32 of the tolerance.
+  /// with this sum of largest accelerations. In it the gap shrinks by at most 1/8 of the tolerance.
   double least_step(double gap, double acceleration) const;
 
   /// True when a least step from this gap may leave the tolerance, so that the caller must be told.
-  bool step_breaks_tolerance(double gap) const { return gap < -0.96 * tolerance_; }
+  bool step_breaks_tolerance(double gap) const { return gap < -0.875 * tolerance_; }
 
   /// A contact that comes sooner than this after the last one of a body with this largest acceleration (limit
   /// and plan) is a repeated one.

@@ -171,7 +171,8 @@ class Oracle final : public Detector {
       searched_until_ = until;
     }
     for (const Key& key : unsearched_) {
-      if (!bodies_[key.row].active || !bodies_[key.other].active) continue;
+      const bool known = at(key).searched_until >= searched_until_;
+      if (known || !bodies_[key.row].active || !bodies_[key.other].active) continue;
       learn_trajectory(key.row);
       learn_trajectory(key.other);
       replace(key, searched(key));

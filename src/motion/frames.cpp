@@ -52,7 +52,6 @@ Result<void> Frames::push(std::span<const Vec3> positions) {
 BodyDefinition Frames::promise(std::uint32_t body, double t) const {
   const State now = state(body, t);
   return {.acceleration_limit = limits_[body],
-          .planned_acceleration = {},
           .position_error = position_error_,
           .velocity_error = limits_[body] * interval_ + 2.0 * position_error_ / interval_,
           .position = now.position,

@@ -96,10 +96,7 @@ PiecewiseMotion::PiecewiseMotion(std::vector<Trajectory> trajectories)
 
 BodyDefinition PiecewiseMotion::promise(std::uint32_t body, double t) const {
   const State now = state(body, t);
-  return {.acceleration_limit = limits_[body],
-          .planned_acceleration = {},
-          .position = now.position,
-          .velocity = now.velocity};
+  return {.acceleration_limit = limits_[body], .position = now.position, .velocity = now.velocity};
 }
 
 State PiecewiseMotion::state(std::uint32_t body, double t) const {

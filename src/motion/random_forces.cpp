@@ -1,6 +1,8 @@
 // Bodies pushed around by random forces.
 #include "kinesphere/motion/random_forces.hpp"
 
+#include <utility>
+
 #include "kinesphere/random.hpp"
 #include "motion/definition_check.hpp"
 #include "motion/limit_rounding.hpp"

@@ -1,6 +1,7 @@
 // Natural cubic splines through recorded samples.
 #include "kinesphere/motion/recorded_tracks.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <utility>
 

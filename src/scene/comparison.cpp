@@ -137,8 +137,8 @@ class Comparison {
       const Interval& a = found[i];
       const Interval& b = truth[k];
       if (a.begin <= b.end && b.begin <= a.end) {
-        note_time(a.begin, b.begin);
-        note_time(a.end, b.end);
+        note_match(a.begin, b.begin);
+        note_match(a.end, b.end);
         ++common;
         ++i;
         ++k;
@@ -146,14 +146,18 @@ class Comparison {
         ++(a.begin < b.begin ? i : k);
       }
     }
-    result_.matched += 2 * common;
     result_.grazing += 2 * (found.size() + truth.size() - 2 * common);
   }
 
-  void note_time(double a, double b) {
-    if (a == b) return;
-    if (a == infinity || b == infinity) return;  // one of them would end after the scene
-    result_.largest_time_difference = std::max(result_.largest_time_difference, std::abs(a - b));
+  /// A time that is infinite lies behind the end of the scene.
+  void note_match(double found, double truth) {
+    if (found == infinity && truth == infinity) return;
+    if (found == infinity || truth == infinity) {
+      ++result_.grazing;
+      return;
+    }
+    ++result_.matched;
+    result_.largest_time_difference = std::max(result_.largest_time_difference, std::abs(found - truth));
   }
 
   void differ(std::uint64_t& count, const Key& key, const char* what, double time) {

@@ -1,7 +1,8 @@
 // The motion of a game that moves its bodies in fixed steps: straight lines between its last two frames.
 //
-//   Frames frames = Frames::create({.start = positions, .acceleration_limits = limits, .interval = 1.0 /
-//   60}).value();
+//   Frames frames = Frames::create({.start = positions,
+//                                   .acceleration_limits = limits,
+//                                   .interval = 1.0 / 60}).value();
 //   // frames.push() once before the bodies are added to the world; then, each frame:
 //   frames.push(positions).value();
 //   while (auto event = world.advance(frames.latest_time(), frames.probe()).value()) { ... }
@@ -24,8 +25,8 @@ struct FramesDefinition {
   std::vector<double> acceleration_limits;
   /// dt > 0 (time): frame k shows the bodies at start_time + k dt.
   double interval = 1.0 / 60.0;
-  /// e >= 0 (length): how far off the game's positions may be, such as half a unit in the last place of
-  /// single precision.
+  /// e >= 0 (length): how far off the game's positions may be, such as half a unit in the last place of the
+  /// numbers that it keeps them in.
   double position_error = 0.0;
   double start_time = 0.0;
 };
@@ -43,7 +44,7 @@ struct FramesDefinition {
 /// kick() returns false: the game itself decides where its next frame shows a body. When it makes a velocity
 /// jump, for a bounce say, the promise does not cover that, and the world must be told: with the world's time
 /// at latest_time(), push the frame, then call
-///   world.kick(id, frames.state(body, world.time()).velocity);
+///   world.kick(id, frames.state(body, world.time()).velocity).value();
 /// for each such body before going on (and again a frame later if the jump fell between two frames, as then
 /// two chords differ from the one before).
 class Frames final : public Motion {
@@ -56,7 +57,8 @@ class Frames final : public Motion {
   Result<void> push(std::span<const Vec3> positions);
 
   /// States can be asked for from previous_time() to latest_time(), once there are two frames; before that
-  /// both are start_time, and all velocities zero. Beyond, an answer is the extrapolation of the chord.
+  /// both are start_time, and all velocities zero. Beyond, a debug build stops, and a release build answers
+  /// with the extrapolation of the chord.
   double previous_time() const { return time_of(latest_frame_ == 0 ? 0 : latest_frame_ - 1); }
   double latest_time() const { return time_of(latest_frame_); }
 

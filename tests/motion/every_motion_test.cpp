@@ -1,0 +1,210 @@
+// The contract of Motion, kept by every motion that answers for all times.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kinesphere/motion/ballistic.hpp"
+#include "kinesphere/motion/piecewise_motion.hpp"
+#include "kinesphere/motion/random_forces.hpp"
+#include "kinesphere/motion/recorded_tracks.hpp"
+#include "kinesphere/motion/steered.hpp"
+#include "kinesphere/motion/velocity_field.hpp"
+#include "motion/motion_properties.hpp"
+
+namespace kinesphere {
+namespace {
+
+constexpr std::size_t bodies = 6;
+
+template <class M>
+std::unique_ptr<Motion> owned(Result<M> motion) {
+  return std::make_unique<M>(std::move(motion).value());
+}
+
+std::vector<double> random_limits(Random& random) {
+  std::vector<double> limits(bodies);
+  for (double& limit : limits) limit = random.uniform(0, 20);
+  return limits;
+}
+
+std::unique_ptr<Motion> random_forces(Random& random) {
+  return owned(RandomForces::create({.start = random_states(random, bodies, 100, 30),
+                                     .acceleration_limits = random_limits(random),
+                                     .interval = random.uniform(0.05, 2),
+                                     .seed = random.bits()}));
+}
+
+std::unique_ptr<Motion> velocity_field(Random& random) {
+  return owned(VelocityField::create({.field = Circulation{{{-100, -80, -60}, {100, 80, 60}}, 40},
+                                      .start = random_states(random, bodies, 60, 30),
+                                      .acceleration_limits = random_limits(random),
+                                      .interval = random.uniform(0.05, 0.5)}));
+}
+
+std::unique_ptr<Motion> ballistic(Random& random) {
+  return owned(Ballistic::create(
+      {.start = random_states(random, bodies, 100, 30), .gravity = 10 * random.point_in_ball()}));
+}
+
+std::unique_ptr<Motion> steered(Random& random) {
+  auto motion = Steered::create({.start = random_states(random, bodies, 100, 30),
+                                 .acceleration_limits = std::vector<double>(bodies, 7.0)});
+  for (std::uint32_t body = 0; body < bodies; ++body) {
+    motion->steer(body, 0.0, 7.0 * random.unit_vector()).value();
+  }
+  return owned(std::move(motion));
+}
+
+std::unique_ptr<Motion> recorded_tracks(Random& random) {
+  std::vector<Track> tracks(bodies);
+  for (Track& track : tracks) {
+    double time = random.uniform(-5, 5);
+    const std::uint64_t samples = 2 + random.bits() % 20;
+    for (std::uint64_t k = 0; k < samples; ++k) {
+      track.push_back({time, 50 * random.point_in_ball()});
+      time += random.uniform(0.01, 2);
+    }
+  }
+  return owned(RecordedTracks::create(tracks));
+}
+
+std::unique_ptr<Motion> piecewise_motion(Random& random) {
+  std::vector<Trajectory> trajectories(bodies);
+  for (Trajectory& trajectory : trajectories) {
+    State state = random_states(random, 1, 100, 30).front();
+    double time = random.uniform(-5, 5);
+    for (int k = 0; k < 8; ++k) {
+      const double end = time + random.uniform(0.1, 2);
+      trajectory.push_back({time, end, state.position, state.velocity, 9 * random.point_in_ball(),
+                            5 * random.point_in_ball()});
+      state = trajectory.back().state_at(end);
+      time = end;
+    }
+  }
+  return owned(PiecewiseMotion::create(trajectories));
+}
+
+struct Maker {
+  std::string name;
+  std::unique_ptr<Motion> (*make)(Random&);
+  bool can_be_kicked;
+  double begin;  ///< of the times that may be asked for
+};
+
+class EveryMotion : public testing::TestWithParam<Maker> {
+ protected:
+  static constexpr double end = 20.0;
+  double begin_ = GetParam().begin;
+
+  /// Runs a test on several motions of this kind.
+  void for_motions(const std::function<void(Motion&, Random&)>& test) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      SCOPED_TRACE("seed " + std::to_string(seed));
+      Random random(seed);
+      const auto motion = GetParam().make(random);
+      ASSERT_EQ(motion->size(), bodies);
+      test(*motion, random);
+      if (HasFatalFailure()) return;
+    }
+  }
+};
+
+TEST_P(EveryMotion, TrajectoryGivesTheStates) {
+  for_motions([&](Motion& motion, Random& random) {
+    for (int k = 0; k < 50; ++k) {
+      const double from = random.uniform(begin_, end);
+      const double to = random.uniform(from, end);
+      expect_trajectory_gives_states(motion, random_body(random, motion), from, to, random);
+    }
+  });
+}
+
+TEST_P(EveryMotion, TrajectoryOfAnInstantIsOneSegment) {
+  for_motions([&](Motion& motion, Random&) {
+    const Trajectory trajectory = motion.trajectory(0, 6.0, 6.0);
+    ASSERT_EQ(trajectory.size(), 1u);
+    EXPECT_EQ(trajectory.front().state_at(6.0), motion.state(0, 6.0));
+  });
+}
+
+TEST_P(EveryMotion, AnswersDoNotDependOnTheOrderOfQuestions) {
+  for_motions(
+      [&](Motion& motion, Random& random) { expect_order_does_not_matter(motion, begin_, end, random); });
+}
+
+TEST_P(EveryMotion, KeepsItsPromise) {
+  for_motions([&](Motion& motion, Random& random) {
+    for (int k = 0; k < 200; ++k) {
+      expect_promise_kept(motion, random_body(random, motion), begin_, end, random);
+    }
+  });
+}
+
+TEST_P(EveryMotion, KickChangesTheVelocityAndNothingElse) {
+  for_motions([&](Motion& motion, Random& random) {
+    double time = begin_;
+    for (int k = 0; k < 10; ++k) {
+      time = random.uniform(time, end);
+      const auto before = motion.clone();
+      const Vec3 velocity = 20 * random.point_in_ball();
+      ASSERT_EQ(motion.kick(2, time, velocity), GetParam().can_be_kicked);
+      const State expected = GetParam().can_be_kicked ? State{before->state(2, time).position, velocity}
+                                                      : before->state(2, time);
+      EXPECT_EQ(motion.state(2, time), expected);
+      EXPECT_EQ(motion.state(3, end), before->state(3, end));
+      expect_trajectory_gives_states(motion, 2, time, end, random);
+      for (int i = 0; i < 20; ++i) expect_promise_kept(motion, 2, time, end, random);
+    }
+  });
+}
+
+TEST_P(EveryMotion, RefusesKicksThatMakeNoSense) {
+  for_motions([&](Motion& motion, Random&) {
+    motion.kick(1, 3.0, {1, 2, 3});
+    const State before = motion.state(1, end);
+    EXPECT_FALSE(motion.kick(1, 2.5, {}));
+    EXPECT_FALSE(motion.kick(1, std::numeric_limits<double>::quiet_NaN(), {}));
+    EXPECT_FALSE(motion.kick(1, std::numeric_limits<double>::infinity(), {}));
+    EXPECT_FALSE(motion.kick(1, 4.0, {0, std::numeric_limits<double>::infinity(), 0}));
+    EXPECT_EQ(motion.state(1, end), before);
+  });
+}
+
+TEST_P(EveryMotion, ClonesGoTheirOwnWay) {
+  for_motions([&](Motion& motion, Random&) {
+    motion.kick(0, 2.0, {1, 2, 3});
+    const auto clone = motion.clone();
+    const State before = motion.state(0, end);
+    EXPECT_EQ(clone->state(0, end), before);
+    const bool kicked = clone->kick(0, 4.0, {-50, 0, 0});
+    EXPECT_EQ(motion.state(0, end), before);
+    EXPECT_EQ(clone->state(0, end) == before, !kicked);
+  });
+}
+
+TEST_P(EveryMotion, ProbeReadsTheStates) {
+  for_motions([&](Motion& motion, Random&) {
+    const std::vector<BodyId> ids{{4, 0}, {1, 0}};
+    std::vector<State> states(2);
+    motion.probe()(ids, 5.0, states);
+    EXPECT_EQ(states[0], motion.state(4, 5.0));
+    EXPECT_EQ(states[1], motion.state(1, 5.0));
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryMotion,
+                         testing::Values(Maker{"RandomForces", random_forces, true, 0.0},
+                                         Maker{"VelocityField", velocity_field, true, 0.0},
+                                         Maker{"Ballistic", ballistic, true, 0.0},
+                                         Maker{"Steered", steered, true, 0.0},
+                                         Maker{"RecordedTracks", recorded_tracks, false, 5.0},
+                                         Maker{"PiecewiseMotion", piecewise_motion, false, 5.0}),
+                         [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace kinesphere
