@@ -81,8 +81,8 @@ double earliest_meeting(const Bound& a, const Bound& b, double from, double hori
   return advance_by_safe_steps(from, horizon, [&](double d) {
     const Vec3 centre = motion.centre_at(d);
     const double length = norm(centre);
-    // A length whose square underflows is inexact, and would not give a unit vector.
-    const Vec3 n = length > 0x1p-500 ? centre / length : Vec3{1.0, 0.0, 0.0};
+    // Where the square of the length underflows there is no unit vector; any shorter one is safe.
+    const Vec3 n = length > 0x1p-500 ? centre / length : Vec3{};
     const double c =
         (length - reach) - motion.growth_at(d) - margin * (motion.size_at(d) + std::abs(distance));
     const double speed = dot(n, motion.velocity_at(d)) - motion.growth_speed_at(d) -

@@ -43,9 +43,9 @@ void World::Engine::release_all(std::uint32_t number) {
 }
 
 /// Queues an event of this instant; the same event is not queued twice.
-void World::Engine::announce(Event&& event) {
+void World::Engine::announce(const Event& event) {
   const auto same = [&](const Event& other) { return same_event(other, event); };
-  if (std::none_of(pending_.begin(), pending_.end(), same)) pending_.push_back(std::move(event));
+  if (std::none_of(pending_.begin(), pending_.end(), same)) pending_.push_back(event);
 }
 
 /// The next event of this instant that still holds after what the caller did at the ones before it.

@@ -63,10 +63,10 @@ class World::Engine {
   explicit Engine(const WorldDefinition& definition);
 
   // Changes. Their input has been checked.
-  BodyId add(const BodyDefinition& body);
-  void withdraw(BodyId body);  ///< takes back an add() of this stop
-  void remove(BodyId body);
-  void kick(BodyId body, const Vec3& velocity);
+  BodyId add(const BodyDefinition& definition);
+  void withdraw(BodyId id);  ///< takes back an add() of this stop
+  void remove(BodyId id);
+  void kick(BodyId id, const Vec3& velocity);
   Result<std::optional<Event>> advance(double until, const Probe& probe);
 
   double time() const { return time_; }
@@ -74,51 +74,51 @@ class World::Engine {
   const WorldDefinition& definition() const { return definition_; }
   const Counters& counters() const { return counters_; }
   const std::vector<Body>& table() const { return bodies_; }
-  BodyId id_of(std::uint32_t body) const { return {body, bodies_[body].generation}; }
+  BodyId id_of(std::uint32_t number) const { return {body, bodies_[body].generation}; }
   bool probing() const { return probing_; }
   /// A living body that certainly overlaps one with this definition by more than the tolerance.
-  std::optional<BodyId> certain_overlap(const BodyDefinition& body) const;
+  std::optional<BodyId> certain_overlap(const BodyDefinition& definition) const;
   std::optional<AuditFinding> audit() const;
 
  private:
   class Audit;
 
   // engine.cpp: the clock.
-  Result<void> wake(std::uint32_t body);
-  void reschedule(std::uint32_t body);
+  Result<void> wake(std::uint32_t number);
+  void reschedule(std::uint32_t number);
 
   // settling.cpp: facts.
-  void mark_dirty(std::uint32_t body);
-  void void_facts(std::uint32_t body);
+  void mark_dirty(std::uint32_t number);
+  void void_facts(std::uint32_t number);
   Result<void> settle_all();
   Result<void> settle_round(const std::vector<std::uint32_t>& round);
   void choose_first_horizons(const std::vector<std::uint32_t>& round);
-  void register_box(std::uint32_t body);
-  Result<void> search(std::uint32_t body);
-  Result<void> settle_pair(std::uint32_t body, std::uint32_t partner);
-  Result<void> settle_walls(std::uint32_t body);
-  bool has_watch(std::uint32_t body, std::uint32_t partner) const;
-  void watch(std::uint32_t body, std::uint32_t partner, double time);
-  void unwatch(std::uint32_t body, std::uint32_t partner);
-  double guarded_step(double certificate, double gap, double acceleration, Event&& contact);
+  void register_box(std::uint32_t number);
+  Result<void> search(std::uint32_t number);
+  Result<void> settle_pair(std::uint32_t number, std::uint32_t partner);
+  Result<void> settle_walls(std::uint32_t number);
+  bool has_watch(std::uint32_t number, std::uint32_t partner) const;
+  void watch(std::uint32_t number, std::uint32_t partner, double time);
+  void unwatch(std::uint32_t number, std::uint32_t partner);
+  double guarded_step(double certificate, double acceleration, const Event& now);
 
   // probing.cpp: reports.
-  Result<void> probe(std::span<const std::uint32_t> bodies);
+  Result<void> probe(std::span<const std::uint32_t> numbers);
   Result<void> probe_staler(std::uint32_t a, std::uint32_t b);
-  void apply_report(std::uint32_t body, const State& state);
+  void apply_report(std::uint32_t number, const State& state);
 
   // contacts.cpp: events.
-  Sphere sphere(std::uint32_t body) const;
+  Sphere sphere(std::uint32_t number) const;
   Event contact(EventKind kind, std::uint32_t a, std::uint32_t b) const;
-  Event wall_contact(EventKind kind, std::uint32_t body, Wall wall) const;
+  Event wall_contact(EventKind kind, std::uint32_t number, Wall wall) const;
   bool is_touching(std::uint32_t a, std::uint32_t b) const;
   void set_touching(std::uint32_t a, std::uint32_t b, bool touching);
-  void release_all(std::uint32_t body);
-  void announce(Event&& event);
+  void release_all(std::uint32_t number);
+  void announce(const Event& event);
   std::optional<Event> deliver();
   bool still_holds(const Event& event) const;
   void take_effect(Event& event);
-  bool note_contact(std::uint32_t body);
+  bool note_contact(std::uint32_t number);
 
   WorldDefinition definition_;
   ContactRule rule_;

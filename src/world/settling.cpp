@@ -169,7 +169,7 @@ Result<void> World::Engine::settle_pair(std::uint32_t number, std::uint32_t part
     } else {
       time = earliest_meeting(a.bound, b.bound, time_, std::min(a.box_end, b.box_end),
                               rule_.guarded_gap(now.gap));
-      time = guarded_step(time, now.gap, a.largest_acceleration() + b.largest_acceleration(), Event(now));
+      time = guarded_step(time, a.largest_acceleration() + b.largest_acceleration(), now);
     }
     watch(number, partner, std::max(time, just_after(time_)));
     return {};
@@ -177,11 +177,11 @@ Result<void> World::Engine::settle_pair(std::uint32_t number, std::uint32_t part
 }
 
 /// The Zeno guard: makes sure that time moves on between two looks at a contact that does not approach.
-double World::Engine::guarded_step(double certificate, double gap, double acceleration, Event&& now) {
-  const double least = time_ + rule_.least_step(gap, acceleration);
+double World::Engine::guarded_step(double certificate, double acceleration, const Event& now) {
+  const double least = time_ + rule_.least_step(now.gap, acceleration);
   if (certificate >= least) return certificate;
   ++counters_.zeno_steps;
-  if (rule_.step_breaks_tolerance(gap)) announce(std::move(now));
+  if (rule_.step_breaks_tolerance(now.gap)) announce(now);
   return least;
 }
 
@@ -221,7 +221,7 @@ Result<void> World::Engine::settle_walls(std::uint32_t number) {
       time = earliest_separation(body.bound, inside, time_, body.box_end, rule_.release_gap());
     } else {
       time = earliest_meeting(body.bound, inside, time_, body.box_end, rule_.guarded_gap(now.gap));
-      time = guarded_step(time, now.gap, body.largest_acceleration(), Event(now));
+      time = guarded_step(time, body.largest_acceleration(), now);
     }
     first = std::min(first, std::max(time, just_after(time_)));
   }

@@ -1,0 +1,19 @@
+# Installs the library with its headers, a CMake package (find_package(kinesphere)) and a pkg-config
+# file. Both find everything relative to themselves, so the installed tree may be moved.
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/kinesphere)
+install(TARGETS kinesphere EXPORT kinesphere INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/ ${PROJECT_BINARY_DIR}/include/
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+
+# The library needs no other package, so its list of targets is all that its config file has to hold.
+install(EXPORT kinesphere NAMESPACE kinesphere:: FILE kinesphere-config.cmake DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/kinesphere-config-version.cmake
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/kinesphere-config-version.cmake DESTINATION ${package_dir})
+
+set(pkgconfig_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+file(RELATIVE_PATH prefix_from_pkgconfig /prefix/${pkgconfig_dir} /prefix)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/kinesphere.pc.in ${PROJECT_BINARY_DIR}/kinesphere.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/kinesphere.pc DESTINATION ${pkgconfig_dir})

@@ -1,0 +1,26 @@
+// Snapshots of a scene as extended XYZ, which OVITO opens with the radii of the spheres.
+#pragma once
+
+#include <string>
+
+#include "kinesphere/scene.hpp"
+#include "output_file.hpp"
+
+namespace kinesphere::program {
+
+/// Each frame: the number of bodies; a line with Lattice and Origin (when the scene has a box), Properties
+/// and Time; then for each body that is there: species, number, position, velocity, radius, and the radius of
+/// its time-varying bound.
+class FramesXyz {
+ public:
+  /// `scene` must outlive it.
+  FramesXyz(const std::string& path, const Scene& scene);
+  void write(const Detector& detector, const Motion& motion, double time);
+  void commit() { file_.commit(); }
+
+ private:
+  const Scene& scene_;
+  OutputFile file_;
+};
+
+}  // namespace kinesphere::program

@@ -1,0 +1,49 @@
+// Whole files as text, plain or gzipped.
+#include "input_file.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+
+#include "program_error.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+struct Close {
+  void operator()(gzFile file) const { gzclose(file); }
+};
+
+[[noreturn]] void fail(const std::string& path, std::string_view reason) {
+  throw ProgramError(fmt::format("{}: cannot read: {}", path, reason));
+}
+
+}  // namespace
+
+std::string read_input(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) fail(path, "expected a file, but it is a folder");
+  errno = 0;
+  // zlib hands a file through unchanged when it is not gzipped.
+  const std::unique_ptr<std::remove_pointer_t<gzFile>, Close> file(gzopen(path.c_str(), "rb"));
+  if (!file) fail(path, std::strerror(errno != 0 ? errno : ENOMEM));
+  std::string text;
+  std::array<char, 1 << 16> buffer;
+  while (const int got = gzread(file.get(), buffer.data(), static_cast<unsigned>(buffer.size()))) {
+    if (got < 0) break;
+    text.append(buffer.data(), static_cast<std::size_t>(got));
+  }
+  int error = Z_OK;
+  const char* const reason = gzerror(file.get(), &error);
+  if (error == Z_ERRNO) fail(path, std::strerror(errno));
+  if (error != Z_OK) fail(path, fmt::format("damaged gzip data ({})", reason));
+  return text;
+}
+
+}  // namespace kinesphere::program

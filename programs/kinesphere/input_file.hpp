@@ -1,0 +1,11 @@
+// Whole files as text, plain or gzipped.
+#pragma once
+
+#include <string>
+
+namespace kinesphere::program {
+
+/// Throws ProgramError naming the file when it cannot be read, is a folder, or is a damaged gzip file.
+std::string read_input(const std::string& path);
+
+}  // namespace kinesphere::program

@@ -1,0 +1,62 @@
+// The command line of Kinesphere: one subcommand for each use.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <exception>
+#include <string>
+
+#include "kinesphere/version.hpp"
+#include "list_scenes.hpp"
+#include "program_error.hpp"
+#include "run.hpp"
+#include "tracks.hpp"
+#include "verify.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+int complain(std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  fmt::print(stderr, "kinesphere: {}\n", message);
+  return exit_wrong_input;
+}
+
+int main(int argc, char** argv) {
+  CLI::App app("Kinesphere: every collision among moving spheres, without time steps.", "kinesphere");
+  app.set_version_flag("--version", std::string(version));
+  app.require_subcommand(0, 1);
+  RunOptions run_options;
+  VerifyOptions verify_options;
+  TracksOptions tracks_options;
+  const CLI::App* const run_command = add_run_command(app, run_options);
+  const CLI::App* const tracks_command = add_tracks_command(app, tracks_options);
+  const CLI::App* const verify_command = add_verify_command(app, verify_options);
+  const CLI::App* const scenes_command = add_scenes_command(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    return complain(fmt::format("{} (see --help)", error.what()));
+  }
+  if (*run_command) return run(run_options);
+  if (*tracks_command) return tracks(tracks_options);
+  if (*verify_command) return verify(verify_options);
+  if (*scenes_command) return list_scenes();
+  throw ProgramError("expected a command: run, tracks, verify or scenes (see --help)");
+}
+
+}  // namespace
+}  // namespace kinesphere::program
+
+int main(int argc, char** argv) {
+  using namespace kinesphere::program;
+  try {
+    return kinesphere::program::main(argc, argv);
+  } catch (const ProgramError& error) {
+    return complain(error.what());
+  } catch (const std::bad_alloc&) {
+    return complain("out of memory");
+  }
+}

@@ -1,0 +1,30 @@
+// What stops the program: something that the person at the terminal can put right.
+#pragma once
+
+#include <stdexcept>
+#include <utility>
+
+#include "kinesphere/result.hpp"
+
+namespace kinesphere::program {
+
+enum ExitCode : int {
+  exit_fine = 0,
+  exit_disagreement = 1,  ///< two answers differ that should not, or an audit found something
+  exit_wrong_input = 2,
+};
+
+/// Its message is one line: where, what was expected and what came. Leads to exit_wrong_input.
+class ProgramError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The value of a library call, or its error as a ProgramError.
+template <class T>
+T require(Result<T> result) {
+  if (!result) throw ProgramError(result.error().message);
+  return std::move(result).value();
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,175 @@
+// `kinesphere run`: simulates a scene and says what happened and what it cost.
+#include "run.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "contact_log.hpp"
+#include "frames_xyz.hpp"
+#include "program_error.hpp"
+#include "progress.hpp"
+#include "summary.hpp"
+#include "validators.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+DetectorMaker detector_of(const RunOptions& options) {
+  const bool steps = options.detector == "fixed-step";
+  if (steps != options.step.has_value()) {
+    throw ProgramError(steps ? "--detector fixed-step: expected --step with the step's length"
+                             : "--step: expected only with --detector fixed-step");
+  }
+  if (options.detector == "world") return make_world_detector;
+  if (options.detector == "oracle") return make_oracle;
+  if (steps) {
+    return [step = *options.step](const WorldDefinition& world, const Motion& motion) {
+      return make_fixed_step_detector(world, motion, step);
+    };
+  }
+  throw ProgramError(
+      fmt::format("--detector: expected one of world, oracle, fixed-step, but got '{}'", options.detector));
+}
+
+double frame_interval_of(const RunOptions& options, const Scene& scene) {
+  const double duration = scene.end_time - scene.world.start_time;
+  const double interval = options.frame_interval.value_or(duration / 100);
+  if (interval > 0 && std::isfinite(interval)) return interval;
+  throw ProgramError(fmt::format("--frame-interval: expected a finite number > 0, but got {}", interval));
+}
+
+/// What hangs on a simulation while it runs: files, the bar, the audit.
+struct Attachments {
+  std::unique_ptr<ContactLog> contacts;
+  std::unique_ptr<FramesXyz> frames;
+  std::unique_ptr<Progress> progress;
+  std::optional<AuditFinding> finding;
+  double finding_time = 0.0;
+};
+
+Attachments attach(const RunOptions& options, const Scene& scene) {
+  Attachments attached;
+  if (!options.contacts.empty()) attached.contacts = std::make_unique<ContactLog>(options.contacts);
+  if (!options.frames.empty()) attached.frames = std::make_unique<FramesXyz>(options.frames, scene);
+  if (!options.quiet && !options.hash_only) {
+    attached.progress = std::make_unique<Progress>(scene.world.start_time, scene.end_time);
+  }
+  return attached;
+}
+
+SimulationObserver observer_of(const RunOptions& options, const Scene& scene, Attachments& attached) {
+  SimulationObserver observer;
+  if (attached.contacts) {
+    observer.on_event = [&](const Event& event) { attached.contacts->write(event); };
+  }
+  if (attached.frames) {
+    observer.frame_interval = frame_interval_of(options, scene);
+    observer.on_frame = [&](const Detector& detector, const Motion& motion, double time) {
+      attached.frames->write(detector, motion, time);
+    };
+  }
+  const bool show = attached.progress && attached.progress->visible();
+  if (show || options.audit) {
+    observer.between_events = [&attached, show, audit = options.audit](const Detector& detector) {
+      if (show) attached.progress->show(detector.time());
+      if (!audit || attached.finding) return;
+      attached.finding = detector.audit();
+      attached.finding_time = detector.time();
+    };
+  }
+  return observer;
+}
+
+/// Why bodies were looked at, for detectors that schedule that.
+void add_wakes(Summary& summary, const Counters& counters) {
+  if (counters.wakes == 0) return;
+  const auto share = [&](std::uint64_t count) {
+    return percent(static_cast<double>(count), static_cast<double>(counters.wakes));
+  };
+  summary.row("wakes", grouped(counters.wakes), fmt::format("{} stale", share(counters.stale_wakes)));
+  summary.row("  box ends", grouped(counters.box_ends), share(counters.box_ends));
+  summary.row("  pair checks", grouped(counters.pair_checks), share(counters.pair_checks));
+  summary.row("  wall checks", grouped(counters.wall_checks), share(counters.wall_checks));
+}
+
+std::string summary_of(const SceneParameters& parameters, const RunOptions& options, const Scene& scene,
+                       const SimulationResult& result, double real_seconds) {
+  const Counters& counters = result.counters;
+  const auto probes = static_cast<double>(counters.probes);
+  Summary summary;
+  add_scene(summary, parameters);
+  summary.row("detector", options.step ? fmt::format("{}, {} s", options.detector, number(*options.step))
+                                       : options.detector);
+  summary.row("simulated", fmt::format("{} s", number(result.simulated_time)),
+              fmt::format("{} body-seconds", number(result.body_time)));
+  summary.space();
+  add_events(summary, result, scene.response == Response::pass_through);
+  summary.space();
+  summary.row("probes", grouped(counters.probes),
+              fmt::format("{} per body-second", number(probes / result.body_time)));
+  add_wakes(summary, counters);
+  if (counters.searches > 0) {
+    summary.row("searches", grouped(counters.searches),
+                fmt::format("{} candidates", grouped(counters.candidates)));
+  }
+  summary.row("pair tests", grouped(counters.certificates));
+  summary.space();
+  summary.row("hash", fmt::format("{:016x}", result.contact_hash));
+  add_speed(summary, result.simulated_time, real_seconds);
+  return summary.text();
+}
+
+}  // namespace
+
+CLI::App* add_run_command(CLI::App& program, RunOptions& options) {
+  CLI::App* command = program.add_subcommand("run", "Simulate a scene and summarise it");
+  add_scene_options(*command, options.scene);
+  add_response_options(*command, options.scene);
+  command->add_option("--detector", options.detector, "Who looks for contacts")
+      ->type_name("world|oracle|fixed-step")
+      ->capture_default_str();
+  command->add_option("--step", options.step, "Time step of --detector fixed-step")->check(finite_number());
+  command->add_option("--contacts", options.contacts, "Write every event to this .csv or .jsonl file")
+      ->type_name("FILE");
+  command->add_option("--frames", options.frames, "Write snapshots to this file (extended XYZ, for OVITO)")
+      ->type_name("FILE");
+  command
+      ->add_option("--frame-interval", options.frame_interval,
+                   "Time between snapshots; a hundredth of the scene's when not given")
+      ->check(finite_number());
+  command->add_flag("--audit", options.audit, "Check the detector's own records before every event (slow)");
+  command->add_flag("--hash-only", options.hash_only, "Print the hash of the contacts and nothing else");
+  command->add_flag("--quiet", options.quiet, "No progress bar and no summary");
+  return command;
+}
+
+int run(const RunOptions& options) {
+  const SceneSource source = options.scene.source();
+  const DetectorMaker make_detector = detector_of(options);
+  const Scene scene = make_scene(source);
+  Attachments attached = attach(options, scene);
+  const SimulationObserver observer = observer_of(options, scene, attached);
+
+  const auto started = std::chrono::steady_clock::now();
+  const SimulationResult result = require(simulate(scene, make_detector, observer));
+  const std::chrono::duration<double> real_time = std::chrono::steady_clock::now() - started;
+
+  attached.progress.reset();
+  if (attached.contacts) attached.contacts->commit();
+  if (attached.frames) attached.frames->commit();
+  if (options.hash_only) {
+    fmt::print("{:016x}\n", result.contact_hash);
+  } else if (!options.quiet) {
+    fmt::print("{}", summary_of(source.parameters, options, scene, result, real_time.count()));
+  }
+  if (!attached.finding) return exit_fine;
+  fmt::print(stderr, "kinesphere: audit at time {}: {}: {}\n", attached.finding_time, attached.finding->where,
+             attached.finding->what);
+  return exit_disagreement;
+}
+
+}  // namespace kinesphere::program

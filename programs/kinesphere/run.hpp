@@ -1,0 +1,29 @@
+// `kinesphere run`: simulates a scene and says what happened and what it cost.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <optional>
+#include <string>
+
+#include "scene_options.hpp"
+
+namespace kinesphere::program {
+
+struct RunOptions {
+  SceneOptions scene;
+  std::string detector = "world";
+  std::optional<double> step;
+  std::string contacts;
+  std::string frames;
+  std::optional<double> frame_interval;
+  bool audit = false;
+  bool hash_only = false;
+  bool quiet = false;
+};
+
+/// `options` must live until the command line has been parsed.
+CLI::App* add_run_command(CLI::App& program, RunOptions& options);
+/// Returns the exit code. Throws ProgramError.
+int run(const RunOptions& options);
+
+}  // namespace kinesphere::program

@@ -1,0 +1,73 @@
+// Rows of named values, as CSV or as JSON lines, by the ending of the file's name.
+#include "table_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cassert>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "program_error.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+std::string quoted_for_csv(const std::string& text) {
+  if (text.find_first_of(",;\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+std::string quoted_for_json(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// `empty` is how a format spells a value that is not there (JSON has no NaN or infinity either).
+std::string text_of(const Cell& cell, std::string_view empty, std::string (*quoted)(const std::string&)) {
+  if (const auto* number = std::get_if<double>(&cell)) {
+    return std::isfinite(*number) ? fmt::format("{}", *number) : std::string(empty);
+  }
+  if (const auto* count = std::get_if<std::uint64_t>(&cell)) return fmt::format("{}", *count);
+  if (const auto* flag = std::get_if<bool>(&cell)) return *flag ? "true" : "false";
+  if (const auto* text = std::get_if<std::string>(&cell)) return quoted(*text);
+  return std::string(empty);
+}
+
+}  // namespace
+
+TableFile::TableFile(const std::string& path, std::vector<std::string> columns)
+    : format_(format_of(path)), columns_(std::move(columns)), file_(path) {
+  if (format_ == Format::csv) file_.write(fmt::format("{}\n", fmt::join(columns_, ",")));
+}
+
+void TableFile::write(std::span<const Cell> cells) {
+  assert(cells.size() == columns_.size());
+  std::string line;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    if (format_ == Format::csv) {
+      line += k == 0 ? "" : ",";
+      line += text_of(cells[k], "", quoted_for_csv);
+    } else {
+      line += k == 0 ? "{" : ", ";
+      line += quoted_for_json(columns_[k]) + ": " + text_of(cells[k], "null", quoted_for_json);
+    }
+  }
+  line += format_ == Format::csv ? "\n" : "}\n";
+  file_.write(line);
+}
+
+TableFile::Format TableFile::format_of(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending == ".csv") return Format::csv;
+  if (ending == ".jsonl") return Format::json_lines;
+  throw ProgramError(fmt::format("{}: expected a name that ends in .csv or .jsonl", path));
+}
+
+}  // namespace kinesphere::program

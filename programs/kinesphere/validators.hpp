@@ -1,0 +1,14 @@
+// Checks of numbers on the command line, stricter and clearer than the parser's own.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+
+namespace kinesphere::program {
+
+/// A finite decimal number.
+CLI::Validator finite_number();
+/// Digits only, at most `largest`; the parser by itself would take -1 for 2^64 - 1 and 010 for 8.
+CLI::Validator whole_number(std::uint64_t largest);
+
+}  // namespace kinesphere::program

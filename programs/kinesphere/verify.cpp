@@ -1,0 +1,43 @@
+// `kinesphere verify`: the engine and the oracle on the same scene, every begin and end compared.
+#include "verify.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "program_error.hpp"
+
+namespace kinesphere::program {
+
+CLI::App* add_verify_command(CLI::App& program, VerifyOptions& options) {
+  CLI::App* command = program.add_subcommand(
+      "verify", "Compare every contact of a scene with an exact oracle (bodies pass through each other)");
+  add_scene_options(*command, options.scene);
+  return command;
+}
+
+int verify(const VerifyOptions& options) {
+  SceneSource source = options.scene.source();
+  source.parameters.response = Response::pass_through;
+  const Scene scene = make_scene(source);
+  const ContactComparison comparison = require(kinesphere::verify(scene, make_world_detector));
+  Summary summary;
+  add_scene(summary, source.parameters);
+  summary.row("seconds", number(source.parameters.seconds));
+  summary.space();
+  add_comparison(summary, comparison);
+  fmt::print("{}", summary.text());
+  return comparison.agrees() ? exit_fine : exit_disagreement;
+}
+
+void add_comparison(Summary& summary, const ContactComparison& comparison) {
+  summary.row("matched", grouped(comparison.matched),
+              fmt::format("begins and ends, at most {} s apart", number(comparison.largest_time_difference)));
+  summary.row("grazing", grouped(comparison.grazing), "too shallow to count as either");
+  summary.row("missed", grouped(comparison.missed), "in the oracle only");
+  summary.row("invented", grouped(comparison.invented), "in the engine only");
+  summary.row("verdict", comparison.agrees() ? "engine and oracle agree" : "engine and oracle DISAGREE");
+  if (comparison.first_difference) summary.row("first difference", *comparison.first_difference);
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# Runs the tests and says which lines and branches they reach: a summary here, pages in build/coverage/report.
+# Arguments are passed on to ctest.
+set -euo pipefail
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+scripts/setup.sh coverage
+build=build/coverage
+mkdir -p "$build/report"
+find "$build" -name "*.gcda" -delete
+KINESPHERE_PRESET=coverage scripts/test.sh "$@"
+gcovr --root . --filter src/ --filter include/ --filter programs/ --exclude-throw-branches \
+  --html-details "$build/report/index.html" --print-summary "$build/src" "$build/programs" "$build/tests"

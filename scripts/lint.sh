@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# Checks the format of all C++ files, and all sources but the tests with clang-tidy.
+# Usage: lint.sh [build folder with compile_commands.json; default: build/ci]
+set -euo pipefail
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+build=${1:-build/ci}
+
+find include src programs examples tests -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run -Werror
+if ! run-clang-tidy -quiet -p "$build" -j "$(nproc)" "^$PWD/(src|programs|examples)/" >"$build/lint.log" 2>&1; then
+  cat "$build/lint.log"
+  exit 1
+fi

@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# Runs one scene with the library built by both compilers, at several optimisation levels and with sanitizers,
+# and fails unless all of them, and the program given, find the same events bit for bit.
+# Usage: same_hash.sh <the program kinesphere> [scene bodies seconds]
+set -euo pipefail
+
+program=$(realpath "$1")
+scene=${2:-paper1} bodies=${3:-100} seconds=${4:-2}
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+# Name, compiler and flags of each build. -march=native brings in fused multiply-add and wider vectors.
+configurations=(
+  "gcc-O0 g++ -O0"
+  "gcc-O2 g++ -O2"
+  "gcc-O3 g++ -O3 -DNDEBUG"
+  "gcc-O3-native g++ -O3 -march=native"
+  "gcc-sanitized g++ -O1 -fsanitize=address,undefined -fno-sanitize-recover=all"
+  "clang-O0 clang++ -O0"
+  "clang-O2 clang++ -O2"
+  "clang-O3 clang++ -O3 -DNDEBUG"
+  "clang-O3-native clang++ -O3 -march=native"
+)
+
+expected=$("$program" run "$scene" --bodies "$bodies" --seconds "$seconds" --hash-only)
+echo "$expected  $program"
+different=0
+for configuration in "${configurations[@]}"; do
+  read -r name compiler flags <<<"$configuration"
+  build=build/hash/$name
+  mkdir -p "$build"
+  if ! { cmake -S . -B "$build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags" \
+           -DKINESPHERE_BUILD_PROGRAM=OFF -DKINESPHERE_BUILD_EXAMPLES=OFF &&
+         cmake --build "$build" --target scene_hash; } >"$build/build.log" 2>&1; then
+    cat "$build/build.log"
+    exit 1
+  fi
+  hash=$("$build/tests/scene_hash" "$scene" "$bodies" "$seconds")
+  echo "$hash  $name"
+  if [[ $hash != "$expected" ]]; then different=$((different + 1)); fi
+done
+
+if [[ $different != 0 ]]; then
+  echo "same_hash: $different of ${#configurations[@]} builds find other events than the program" >&2
+  exit 1
+fi

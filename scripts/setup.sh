@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that are missing here. Where none is, it does nothing, without network.
+# Usage: setup.sh run | test | coverage
+set -euo pipefail
+
+packages=(g++ cmake ninja-build libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev)
+testing=(libgtest-dev librapidcheck-dev clang clang-format clang-tidy pkg-config)
+case ${1:-} in
+  run) ;;
+  test) packages+=("${testing[@]}") ;;
+  coverage) packages+=("${testing[@]}" gcovr) ;;
+  *) echo "setup: usage: setup.sh run | test | coverage" >&2 && exit 2 ;;
+esac
+
+if ! command -v apt-get >/dev/null; then
+  echo "setup: no apt-get here, so nothing was installed; needed are: ${packages[*]}" >&2
+  exit 0
+fi
+
+installed=$(dpkg-query -W -f='${db:Status-Status} ${binary:Package}\n' | sed -n 's/^installed \([^:]*\).*/\1/p')
+missing=$(comm -23 <(printf '%s\n' "${packages[@]}" | sort) <(sort -u <<<"$installed"))
+if [[ -z $missing ]]; then exit 0; fi
+# A list of words from here on.
+read -r -d '' -a missing <<<"$missing" || true
+
+become_root=()
+if [[ $(id -u) != 0 ]]; then
+  if ! command -v sudo >/dev/null; then
+    echo "setup: there is no sudo; as root, run: apt-get install ${missing[*]}" >&2
+    exit 1
+  fi
+  become_root=(sudo)
+fi
+
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+apt() {
+  "${become_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y "$@" </dev/null >"$log" 2>&1 && return
+  cat "$log" >&2
+  return 1
+}
+
+echo "setup: installing ${missing[*]}"
+apt update || { sleep 5 && apt update; }
+apt install --no-install-recommends "${missing[@]}"

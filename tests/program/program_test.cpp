@@ -1,0 +1,234 @@
+// The program as a person meets it: exit codes, one clear line for what is wrong, files that are whole.
+#include <cmath>
+#include <sstream>
+
+#include "kinesphere/version.hpp"
+#include "scene_file.hpp"
+#include "support.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+using Names = std::vector<std::string>;
+
+constexpr std::string_view small_scene = R"({
+  "bodies": 40, "radius": [1, 5], "box": [[0, 0, 0], [60, 60, 60]], "seconds": 2, "response": "bounce" })";
+
+std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream stream(csv);
+  for (std::string line; std::getline(stream, line);) {
+    rows.emplace_back();
+    std::istringstream fields(line);
+    for (std::string field; std::getline(fields, field, ',');) rows.back().push_back(field);
+  }
+  return rows;
+}
+
+/// How many lines of `text` begin with `start`.
+std::size_t lines_with(const std::string& text, std::string_view start) {
+  std::size_t count = 0;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) count += line.starts_with(start) ? 1 : 0;
+  return count;
+}
+
+TEST_F(ProgramTest, SaysItsVersionAndHelps) {
+  const ProgramRun version_run = run("--version");
+  EXPECT_EQ(version_run.exit_code, 0);
+  EXPECT_EQ(version_run.out, std::string(version) + "\n");
+  for (const char* command : {"--help", "run --help", "tracks --help", "verify --help", "scenes --help"}) {
+    const ProgramRun help = run(command);
+    EXPECT_EQ(help.exit_code, 0) << command;
+    EXPECT_EQ(help.err, "") << command;
+    EXPECT_NE(help.out.find("Usage"), std::string::npos) << command;
+  }
+}
+
+TEST_F(ProgramTest, ListsTheScenes) {
+  const ProgramRun result = run("scenes");
+  EXPECT_EQ(result.exit_code, 0);
+  for (const SceneParameters& scene : built_in_scenes())
+    EXPECT_EQ(lines_with(result.out, scene.name + " "), 1u);
+}
+
+TEST_F(ProgramTest, RefusesWrongOptions) {
+  const std::string scene = write("s.json", small_scene);
+  expect_wrong_input("", {"expected a command: run, tracks, verify or scenes"});
+  expect_wrong_input("fly", {"fly"});
+  expect_wrong_input("run", {"SCENE"});
+  expect_wrong_input("run " + scene + " --fast", {"--fast"});
+  expect_wrong_input("run " + scene + " --bodies -1", {"--bodies", "-1"});
+  expect_wrong_input("run " + scene + " --bodies 010", {"--bodies", "010"});
+  expect_wrong_input("run " + scene + " --bodies 4294967296",
+                     {"--bodies", "from 0 to 4294967295", "4294967296"});
+  expect_wrong_input("run " + scene + " --bodies many", {"--bodies", "many"});
+  expect_wrong_input("run " + scene + " --seed -1", {"--seed", "-1"});
+  expect_wrong_input("run " + scene + " --radius 1", {"--radius"});
+  expect_wrong_input("run " + scene + " --radius -1 2", {"radius"});
+  expect_wrong_input("run " + scene + " --seconds soon", {"--seconds", "expected a finite number", "soon"});
+  expect_wrong_input("run " + scene + " --response stick", {"--response", "pass_through", "stick"});
+  expect_wrong_input("run " + scene + " --detector eye", {"--detector", "world, oracle, fixed-step", "eye"});
+  expect_wrong_input("run " + scene + " --detector fixed-step", {"--step"});
+  expect_wrong_input("run " + scene + " --step 0.1", {"--step", "fixed-step"});
+  expect_wrong_input("run " + scene + " --frames " + path("f.xyz") + " --frame-interval 0",
+                     {"--frame-interval", "0"});
+  expect_wrong_input("tracks " + scene, {"--distance"});
+  EXPECT_EQ(names(), Names{"s.json"});
+}
+
+TEST_F(ProgramTest, RefusesWrongScenes) {
+  expect_wrong_input("run nowhere.json", {"nowhere.json", "built-in", built_in_scenes().front().name});
+  expect_wrong_input("verify nowhere.json", {"nowhere.json"});
+  const std::string typo = write("typo.json", "{\n  \"bodys\": 3\n}");
+  expect_wrong_input("run " + typo, {"typo.json:2:", "'bodys'", "bodies"});
+  const std::string wrong = write("wrong.json", "{\n  \"seconds\": 1,\n  \"radius\": [-1, 2]\n}");
+  expect_wrong_input("run " + wrong, {"wrong.json:3:", "radius"});
+  const ProgramRun overridden = run("run " + wrong + " --radius 1 2 --bodies 3 --quiet");
+  EXPECT_EQ(overridden.exit_code, 0) << overridden.err;
+}
+
+TEST_F(ProgramTest, SummarisesARun) {
+  const ProgramRun result = run("run " + write("s.json", small_scene) + " --seed 42");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "");
+  for (const char* label : {"scene", "bodies", "seed", "detector", "simulated", "contacts", "wall contacts",
+                            "probes", "hash", "real time"}) {
+    EXPECT_EQ(lines_with(result.out, std::string(label) + " "), 1u) << label << "\n" << result.out;
+  }
+  EXPECT_NE(result.out.find("42"), std::string::npos);
+}
+
+TEST_F(ProgramTest, PrintsNothingButTheHash) {
+  const std::string scene = "run " + write("s.json", small_scene) + " --hash-only";
+  const ProgramRun result = run(scene);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out.size(), 17u);
+  EXPECT_EQ(result.out.find_first_not_of("0123456789abcdef"), 16u) << result.out;
+  EXPECT_EQ(run(scene).out, result.out);
+  EXPECT_NE(run(scene + " --seed 2").out, result.out);
+  EXPECT_EQ(run(scene + " --quiet --audit --seconds 0.1").exit_code, 0);
+}
+
+TEST_F(ProgramTest, WritesContactsAndFrames) {
+  const std::string scene = write("s.json", small_scene);
+  const ProgramRun result = run("run " + scene + " --quiet --contacts " + path("c.csv") + " --frames " +
+                                path("f.xyz") + " --frame-interval 0.5");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out + result.err, "");
+  EXPECT_EQ(names(), (Names{"c.csv", "f.xyz", "s.json"}));
+  const auto rows = rows_of(read_text(path("c.csv")));
+  ASSERT_GT(rows.size(), 1u);
+  for (const auto& row : rows) EXPECT_EQ(row.size(), rows[0].size());
+  const std::string frames = read_text(path("f.xyz"));
+  EXPECT_EQ(lines_with(frames, "40"), 5u);
+  EXPECT_EQ(lines_with(frames, "Lattice="), 5u);
+  EXPECT_EQ(lines_with(frames, "S "), 5u * 40u);
+}
+
+TEST_F(ProgramTest, LeavesNothingHalfWritten) {
+  const std::string scene = write("s.json", small_scene);
+  expect_wrong_input("run " + scene + " --contacts " + path("none/c.csv"),
+                     {"none/c.csv", "No such file or directory"});
+  expect_wrong_input("run " + scene + " --contacts " + path("c.txt"), {"c.txt", ".csv or .jsonl"});
+  expect_wrong_input("run " + scene + " --frames " + path("f.xyz") + " --contacts " + path("none/c.csv"),
+                     {"none/c.csv"});
+  // A limit on the size of files stands in for a full disk.
+  const ProgramRun full = run("run " + scene + " --frames " + path("f.xyz"), "trap '' XFSZ; ulimit -f 8; ");
+  EXPECT_EQ(full.exit_code, 2);
+  EXPECT_NE(full.err.find("f.xyz: cannot write: "), std::string::npos) << full.err;
+  EXPECT_EQ(names(), Names{"s.json"});
+}
+
+TEST_F(ProgramTest, VerifiesAScene) {
+  const ProgramRun result = run("verify " + write("s.json", small_scene));
+  EXPECT_EQ(result.exit_code, 0) << result.out;
+  EXPECT_NE(result.out.find("engine and oracle agree"), std::string::npos);
+}
+
+TEST_F(ProgramTest, EngineAndOracleWriteTheSameContacts) {
+  const std::string scene =
+      "run " + write("s.json", small_scene) + " --response pass_through --quiet --contacts ";
+  EXPECT_EQ(run(scene + path("engine.csv")).exit_code, 0);
+  EXPECT_EQ(run(scene + path("oracle.csv") + " --detector oracle").exit_code, 0);
+  const auto engine = rows_of(read_text(path("engine.csv")));
+  const auto oracle = rows_of(read_text(path("oracle.csv")));
+  ASSERT_GT(engine.size(), 10u);
+  ASSERT_EQ(engine.size(), oracle.size());
+  for (std::size_t row = 1; row < engine.size(); ++row) {
+    EXPECT_NEAR(std::stod(engine[row][0]), std::stod(oracle[row][0]), 1e-4);
+    for (std::size_t column = 1; column < 5; ++column) EXPECT_EQ(engine[row][column], oracle[row][column]);
+  }
+}
+
+/// Two that meet head-on at 2 units/s: closer than 2 from time 4 to time 6. A third that starts close to the
+/// first and stays behind.
+constexpr std::string_view meeting =
+    "id,time,x,y\n"
+    "ann,0,0,0\nann,5,5,0\nann,10,10,0\n"
+    "bob,0,10,0\nbob,5,5,0\nbob,10,0,0\n"
+    "cy,0,0,1\ncy,5,0,1\ncy,10,0,1\n";
+
+TEST_F(ProgramTest, FindsApproachesInTracks) {
+  const std::string file = write("t.csv", meeting);
+  const ProgramRun result =
+      run("tracks " + file + " --distance 2 --tolerance 1e-9 --verify --contacts " + path("a.csv"));
+  ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+  const auto rows = rows_of(read_text(path("a.csv")));
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"begin", "end", "first", "second", "begins_with_track",
+                                               "ends_with_track"}));
+  const auto expect_row = [&](std::size_t row, double begin, double end,
+                              const std::vector<std::string>& others) {
+    EXPECT_NEAR(std::stod(rows[row][0]), begin, 1e-7);
+    EXPECT_NEAR(std::stod(rows[row][1]), end, 1e-7);
+    EXPECT_EQ(std::vector<std::string>(rows[row].begin() + 2, rows[row].end()), others);
+  };
+  expect_row(1, 0.0, std::sqrt(3.0), {"ann", "cy", "true", "false"});
+  expect_row(2, 4.0, 6.0, {"ann", "bob", "false", "false"});
+  expect_row(3, 10.0 - std::sqrt(3.0), 10.0, {"bob", "cy", "false", "true"});
+  for (const char* label : {"format", "tracks", "samples", "approaches", "probes", "verdict"}) {
+    EXPECT_EQ(lines_with(result.out, std::string(label) + " "), 1u) << label << "\n" << result.out;
+  }
+}
+
+TEST_F(ProgramTest, ShowsTheFirstApproaches) {
+  const ProgramRun result = run("tracks " + write("t.csv", meeting) + " --distance 2");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.out.find("ann bob"), std::string::npos) << result.out;
+}
+
+TEST_F(ProgramTest, RefusesWrongTracks) {
+  const std::string file = write("t.csv", "id,time,x,y\na,0,0,0\na,1,zero,0\n");
+  expect_wrong_input("tracks " + file + " --distance 1", {"t.csv:3:", "column 3", "zero"});
+  expect_wrong_input("tracks nowhere.csv --distance 1", {"nowhere.csv", "No such file"});
+  expect_wrong_input("tracks " + file + " --distance 0", {"--distance", "> 0"});
+  expect_wrong_input("tracks " + file + " --distance 1 --columns id=1", {"--columns", "time="});
+  expect_wrong_input("tracks " + file + " --distance 1 --max-gap -1 --columns id=1,time=2,x=2,y=4",
+                     {"--max-gap"});
+}
+
+class TracksOfRecording : public ProgramTest,
+                          public ::testing::WithParamInterface<std::pair<const char*, const char*>> {};
+
+TEST_P(TracksOfRecording, AgreesWithTheOracle) {
+  const std::string file = recording(GetParam().first);
+  if (file.empty()) GTEST_SKIP() << "no recording " << GetParam().first << " (see KINESPHERE_DATA)";
+  const ProgramRun result = run("tracks '" + file + "' --verify --distance " + GetParam().second);
+  EXPECT_EQ(result.exit_code, 0) << result.err << result.out;
+  EXPECT_NE(result.out.find("engine and oracle agree"), std::string::npos) << result.out;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, TracksOfRecording,
+                         ::testing::Values(std::pair{"ucy_students03/ucy_students03_obsmat.txt.gz", "0.5"},
+                                           std::pair{"pedpy_bottleneck/pedpy_bottleneck_040_c_56_h-.txt.gz",
+                                                     "0.3"},
+                                           std::pair{"mosquito3d/anopheles_swarm_splined.csv.gz", "0.1"}),
+                         [](const auto& each) {
+                           std::string name = each.param.first;
+                           name.resize(name.find('/'));
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace kinesphere::program
