@@ -74,7 +74,7 @@ class World::Engine {
   const WorldDefinition& definition() const { return definition_; }
   const Counters& counters() const { return counters_; }
   const std::vector<Body>& table() const { return bodies_; }
-  BodyId id_of(std::uint32_t number) const { return {body, bodies_[body].generation}; }
+  BodyId id_of(std::uint32_t number) const { return {number, bodies_[number].generation}; }
   bool probing() const { return probing_; }
   /// A living body that certainly overlaps one with this definition by more than the tolerance.
   std::optional<BodyId> certain_overlap(const BodyDefinition& definition) const;
