@@ -1,7 +1,6 @@
 // Fixed steps: what most programs do. Every step all bodies are moved, and pairs that overlap then are
 // contacts.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <set>
 #include <utility>
@@ -9,6 +8,7 @@
 
 #include "contact/contact_event.hpp"
 #include "contact/contact_rule.hpp"
+#include "input/input_check.hpp"
 #include "kinesphere/detector.hpp"
 #include "space/hash_grid.hpp"
 
@@ -168,10 +168,8 @@ class FixedStep final : public Detector {
 Result<std::unique_ptr<Detector>> make_fixed_step_detector(const WorldDefinition& definition,
                                                            const Motion& motion, double step) {
   if (auto world = World::create(definition); !world) return world.error();
-  if (!(step > 0.0) || !std::isfinite(step)) {
-    return Error{ErrorCode::out_of_range, "step", no_body,
-                 "make_fixed_step_detector: step must be a finite time > 0, but is " + std::to_string(step)};
-  }
+  if (auto valid = InputCheck("make_fixed_step_detector").positive({"step"}, step).result(); !valid)
+    return valid.error();
   return std::unique_ptr<Detector>(std::make_unique<FixedStep>(definition, motion, step));
 }
 

@@ -1,12 +1,12 @@
 // Bodies that fly freely under a common gravity.
 #include "kinesphere/motion/ballistic.hpp"
 
-#include "motion/definition_check.hpp"
+#include "input/input_check.hpp"
 
 namespace kinesphere {
 
 Result<Ballistic> Ballistic::create(const BallisticDefinition& definition) {
-  const auto check = DefinitionCheck("Ballistic::create")
+  const auto check = InputCheck("Ballistic::create")
                          .start(definition.start, definition.start_time)
                          .finite({"gravity"}, definition.gravity);
   if (check.error()) return *check.error();

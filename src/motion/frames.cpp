@@ -4,13 +4,13 @@
 #include <cassert>
 #include <utility>
 
-#include "motion/definition_check.hpp"
+#include "input/input_check.hpp"
 
 namespace kinesphere {
 
 namespace {
 
-void check_positions(DefinitionCheck& check, std::string_view argument, std::span<const Vec3> positions) {
+void check_positions(InputCheck& check, std::string_view argument, std::span<const Vec3> positions) {
   for (std::uint32_t body = 0; body < positions.size(); ++body) {
     check.finite({argument, {body, 0}}, positions[body]);
   }
@@ -19,7 +19,7 @@ void check_positions(DefinitionCheck& check, std::string_view argument, std::spa
 }  // namespace
 
 Result<Frames> Frames::create(FramesDefinition definition) {
-  DefinitionCheck check("Frames::create");
+  InputCheck check("Frames::create");
   check.finite({"start_time"}, definition.start_time)
       .positive({"interval"}, definition.interval)
       .not_negative({"position_error"}, definition.position_error)
@@ -38,7 +38,7 @@ Frames::Frames(FramesDefinition definition)
       start_time_(definition.start_time) {}
 
 Result<void> Frames::push(std::span<const Vec3> positions) {
-  DefinitionCheck check("push");
+  InputCheck check("push");
   check.require(positions.size() == size(), ErrorCode::out_of_range, {"positions"},
                 "must have one entry per body,", size(), positions.size());
   check_positions(check, "positions", positions);

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "motion/definition_check.hpp"
+#include "input/input_check.hpp"
 #include "motion/limit_rounding.hpp"
 
 namespace kinesphere {
@@ -40,7 +40,7 @@ bool goes_on(const Segment& before, const Segment& after) {
          nearly_equal(after.velocity, state.velocity, speed);
 }
 
-void check_segment(DefinitionCheck& check, const Subject& subject, const Segment& segment) {
+void check_segment(InputCheck& check, const Subject& subject, const Segment& segment) {
   for (const double time : {segment.begin, segment.end}) check.finite(subject, time);
   for (const Vec3& vector : {segment.position, segment.velocity, segment.acceleration, segment.jerk}) {
     check.finite(subject, vector);
@@ -49,7 +49,7 @@ void check_segment(DefinitionCheck& check, const Subject& subject, const Segment
                 segment.begin, segment.end);
 }
 
-void check_transition(DefinitionCheck& check, const Subject& subject, const Segment& before,
+void check_transition(InputCheck& check, const Subject& subject, const Segment& before,
                       const Segment& after) {
   check.require(after.begin == before.end, ErrorCode::out_of_range, subject,
                 "must begin when the one before it ends,", before.end, after.begin);
@@ -61,7 +61,7 @@ void check_transition(DefinitionCheck& check, const Subject& subject, const Segm
 }  // namespace
 
 Result<PiecewiseMotion> PiecewiseMotion::create(std::vector<Trajectory> trajectories) {
-  DefinitionCheck check("PiecewiseMotion::create");
+  InputCheck check("PiecewiseMotion::create");
   for (std::uint32_t body = 0; body < trajectories.size(); ++body) {
     const Trajectory& trajectory = trajectories[body];
     Subject subject{"trajectories", {body, 0}};

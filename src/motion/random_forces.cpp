@@ -3,14 +3,14 @@
 
 #include <utility>
 
+#include "input/input_check.hpp"
 #include "kinesphere/random.hpp"
-#include "motion/definition_check.hpp"
 #include "motion/limit_rounding.hpp"
 
 namespace kinesphere {
 
 Result<RandomForces> RandomForces::create(RandomForcesDefinition definition) {
-  const auto check = DefinitionCheck("RandomForces::create")
+  const auto check = InputCheck("RandomForces::create")
                          .start(definition.start, definition.start_time)
                          .acceleration_limits(definition.acceleration_limits, definition.start.size())
                          .positive({"interval"}, definition.interval);

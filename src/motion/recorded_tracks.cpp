@@ -5,13 +5,13 @@
 #include <cstdint>
 #include <utility>
 
-#include "motion/definition_check.hpp"
+#include "input/input_check.hpp"
 
 namespace kinesphere {
 
 namespace {
 
-void check_track(DefinitionCheck& check, BodyId body, const Track& track) {
+void check_track(InputCheck& check, BodyId body, const Track& track) {
   check.require(track.size() >= 2, ErrorCode::out_of_range, {"tracks", body}, "must have at least 2 samples",
                 track.size());
   for (std::size_t k = 0; k < track.size(); ++k) {
@@ -81,7 +81,7 @@ bool is_finite(const Segment& segment) {
 }  // namespace
 
 Result<RecordedTracks> RecordedTracks::create(const std::vector<Track>& tracks) {
-  DefinitionCheck check("RecordedTracks::create");
+  InputCheck check("RecordedTracks::create");
   std::vector<Trajectory> trajectories;
   trajectories.reserve(tracks.size());
   for (std::uint32_t body = 0; body < tracks.size(); ++body) {

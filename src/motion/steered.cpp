@@ -3,13 +3,13 @@
 
 #include <utility>
 
-#include "motion/definition_check.hpp"
+#include "input/input_check.hpp"
 #include "motion/limit_rounding.hpp"
 
 namespace kinesphere {
 
 Result<Steered> Steered::create(SteeredDefinition definition) {
-  const auto check = DefinitionCheck("Steered::create")
+  const auto check = InputCheck("Steered::create")
                          .start(definition.start, definition.start_time)
                          .acceleration_limits(definition.acceleration_limits, definition.start.size());
   if (check.error()) return *check.error();
@@ -24,7 +24,7 @@ Steered::Steered(SteeredDefinition definition)
 }
 
 Result<void> Steered::steer(std::uint32_t body, double t, const Vec3& acceleration) {
-  DefinitionCheck check("steer");
+  InputCheck check("steer");
   check.require(body < size(), ErrorCode::unknown_body, {"body"}, "must be less than", size(),
                 std::size_t{body});
   if (check.error()) return *check.error();

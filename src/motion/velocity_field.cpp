@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "motion/definition_check.hpp"
+#include "input/input_check.hpp"
 #include "motion/limit_rounding.hpp"
 
 namespace kinesphere {
@@ -26,7 +26,7 @@ Vec3 Circulation::operator()(const Vec3& position) const {
 }
 
 Result<VelocityField> VelocityField::create(VelocityFieldDefinition definition) {
-  DefinitionCheck check("VelocityField::create");
+  InputCheck check("VelocityField::create");
   check.start(definition.start, definition.start_time)
       .acceleration_limits(definition.acceleration_limits, definition.start.size())
       .positive({"interval"}, definition.interval)

@@ -1,8 +1,8 @@
 // Scenes from parameters, and the built-in ones.
-#include <cmath>
 #include <string>
 #include <utility>
 
+#include "input/input_check.hpp"
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/motion/random_forces.hpp"
 #include "kinesphere/motion/velocity_field.hpp"
@@ -16,31 +16,25 @@ namespace {
 /// Independent streams of random numbers, one for each thing that is drawn.
 enum Stream : std::uint64_t { placement_stream, radius_stream, velocity_stream, limit_stream, force_stream };
 
-Error bad_parameter(const std::string& name, const std::string& expectation) {
-  return {ErrorCode::out_of_range, name, no_body, "make_scene: " + name + " " + expectation};
-}
-
-Result<void> check_range(const std::string& name, double least, double greatest) {
-  if (std::isfinite(greatest) && least >= 0.0 && least <= greatest) return {};
-  return bad_parameter(name, "must be a range [min, max] of finite numbers with 0 <= min <= max, but is [" +
-                                 std::to_string(least) + ", " + std::to_string(greatest) + "]");
-}
-
 Result<void> check(const SceneParameters& p) {
-  for (const auto& range :
-       {check_range("radius", p.radius_min, p.radius_max), check_range("speed", p.speed_min, p.speed_max),
-        check_range("limit", p.limit_min, p.limit_max)})
-    if (!range) return range;
-  if (!(p.seconds >= 0.0) || !std::isfinite(p.seconds))
-    return bad_parameter("seconds", "must be a finite number >= 0");
-  if (!(p.redraw_interval > 0.0)) return bad_parameter("redraw_interval", "must be > 0");
-  if (!(p.restitution >= 0.0 && p.restitution <= 1.0))
-    return bad_parameter("restitution", "must lie in [0, 1]");
-  if (!is_finite(p.gravity)) return bad_parameter("gravity", "must be finite");
-  for (int axis = 0; axis < 3; ++axis)
-    if (!(p.box.lower[axis] < p.box.upper[axis]))
-      return bad_parameter("box", "must have lower < upper on every axis");
-  return {};
+  InputCheck check("make_scene");
+  const auto range = [&](std::string_view name, double least, double greatest) {
+    check.not_negative({name}, least)
+        .finite({name}, greatest)
+        .require(least <= greatest, ErrorCode::out_of_range, {name},
+                 "must be a range with min <= max =", greatest, least);
+  };
+  range("radius", p.radius_min, p.radius_max);
+  range("speed", p.speed_min, p.speed_max);
+  range("limit", p.limit_min, p.limit_max);
+  return check.not_negative({"seconds"}, p.seconds)
+      .positive({"redraw_interval"}, p.redraw_interval)
+      .finite({"gravity"}, p.gravity)
+      .box({"box"}, p.box)
+      .positive({"contact_tolerance"}, p.contact_tolerance)
+      .require(p.restitution >= 0.0 && p.restitution <= 1.0, ErrorCode::out_of_range, {"restitution"},
+               "must lie in [0, 1]", p.restitution)
+      .result();
 }
 
 double drawn(const SceneParameters& p, Stream stream, std::uint32_t body, double least, double greatest) {
@@ -97,8 +91,9 @@ Result<Scene> make_scene(const SceneParameters& p) {
   const auto centres =
       place_spheres(radii, p.box, 4.0 * p.contact_tolerance, Random::at(p.seed, placement_stream, 0).bits());
   if (!centres) {
-    return bad_parameter("bodies", "must fit into the box without overlap, and no room was found for " +
-                                       std::to_string(p.bodies) + " of these radii");
+    return Error{ErrorCode::out_of_range, "bodies", no_body,
+                 "make_scene: bodies must fit into the box without overlap, but no room was found for " +
+                     std::to_string(p.bodies) + " of these radii"};
   }
   std::vector<State> start;
   for (std::uint32_t body = 0; body < p.bodies; ++body) {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include "input/input_check.hpp"
 #include "world/engine.hpp"
-#include "world/validation.hpp"
 
 namespace kinesphere {
 

@@ -14,7 +14,4 @@ Result<void> check_velocity(const Vec3& velocity, BodyId body, std::string_view 
 Result<void> check_report(const State& state, BodyId body, double time, const WorldDefinition& world);
 Result<void> check_time(double until, double now);
 
-/// "body 7", or "body 7 (generation 2)".
-std::string text_of(BodyId body);
-
 }  // namespace kinesphere

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "input/input_check.hpp"
 #include "world/engine.hpp"
 #include "world/validation.hpp"
 

@@ -1,4 +1,4 @@
-// Checks of what a user hands to a motion: the first thing that is wrong becomes the error.
+// Checks of what a caller hands in: the first thing that is wrong becomes the error.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,10 @@ namespace kinesphere {
 std::string text_of(double number);
 std::string text_of(std::size_t number);
 std::string text_of(const Vec3& vector);
+std::string text_of(const Box& box);
 std::string text_of(const State& state);
+/// "body 7", or "body 7 (generation 2)".
+std::string text_of(BodyId body);
 
 /// What is checked: "start of body 3, velocity" or "trajectories of body 3, segment 2".
 struct Subject {
@@ -26,39 +29,44 @@ struct Subject {
 };
 
 /// Every check returns *this, so that checks read as one sentence:
-///   const auto check = DefinitionCheck("Steered::create").start(states, time).positive({"interval"},
+///   const auto check = InputCheck("Steered::create").start(states, time).positive({"interval"},
 ///   interval); if (check.error()) return *check.error();
-class DefinitionCheck {
+class InputCheck {
  public:
   /// `call` begins the message.
-  explicit DefinitionCheck(std::string_view call) : call_(call) {}
+  explicit InputCheck(std::string_view call) : call_(call) {}
 
-  DefinitionCheck& finite(const Subject& subject, double value);
-  DefinitionCheck& finite(const Subject& subject, const Vec3& value);
-  DefinitionCheck& positive(const Subject& subject, double value);
-  DefinitionCheck& not_negative(const Subject& subject, double value);
-  DefinitionCheck& start(const std::vector<State>& states, double start_time);
+  InputCheck& finite(const Subject& subject, double value);
+  InputCheck& finite(const Subject& subject, const Vec3& value);
+  InputCheck& positive(const Subject& subject, double value);
+  InputCheck& not_negative(const Subject& subject, double value);
+  /// Finite, and no coordinate beyond +-limit.
+  InputCheck& within(const Subject& subject, const Vec3& value, double limit);
+  /// Finite, with lower < upper on every axis.
+  InputCheck& box(const Subject& subject, const Box& box);
+  InputCheck& start(const std::vector<State>& states, double start_time);
   /// As many as there are bodies, each finite and >= 0.
-  DefinitionCheck& acceleration_limits(const std::vector<double>& limits, std::size_t bodies);
+  InputCheck& acceleration_limits(const std::vector<double>& limits, std::size_t bodies);
 
   /// Any other condition: "<call>: <subject> <expectation>, but is <came>".
   template <class Value>
-  DefinitionCheck& require(bool condition, ErrorCode code, const Subject& subject,
-                           std::string_view expectation, const Value& came) {
+  InputCheck& require(bool condition, ErrorCode code, const Subject& subject, std::string_view expectation,
+                      const Value& came) {
     if (!condition && !error_) fail(code, subject, expectation, text_of(came));
     return *this;
   }
 
   /// The same, with a value that belongs to the expectation: "..., <expectation> <value>, but is <came>".
   template <class Expected, class Value>
-  DefinitionCheck& require(bool condition, ErrorCode code, const Subject& subject,
-                           std::string_view expectation, const Expected& value, const Value& came) {
+  InputCheck& require(bool condition, ErrorCode code, const Subject& subject, std::string_view expectation,
+                      const Expected& value, const Value& came) {
     if (!condition && !error_)
       fail(code, subject, std::string(expectation) + " " + text_of(value), text_of(came));
     return *this;
   }
 
   const std::optional<Error>& error() const { return error_; }
+  Result<void> result() const { return error_ ? Result<void>(*error_) : Result<void>(); }
 
  private:
   void fail(ErrorCode code, const Subject& subject, std::string_view expectation, const std::string& came);

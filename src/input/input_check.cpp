@@ -1,6 +1,6 @@
-// Checks of what a user hands to a motion.
-#include "motion/definition_check.hpp"
+#include "input/input_check.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -20,27 +20,50 @@ std::string text_of(const Vec3& vector) {
   return "(" + text_of(vector.x) + ", " + text_of(vector.y) + ", " + text_of(vector.z) + ")";
 }
 
+std::string text_of(const Box& box) { return text_of(box.lower) + " to " + text_of(box.upper); }
+
 std::string text_of(const State& state) {
   return text_of(state.position) + " moving " + text_of(state.velocity);
 }
 
-DefinitionCheck& DefinitionCheck::finite(const Subject& subject, double value) {
+std::string text_of(BodyId body) {
+  std::string text = "body " + std::to_string(body.index);
+  if (body.generation != 0) text += " (generation " + std::to_string(body.generation) + ")";
+  return text;
+}
+
+InputCheck& InputCheck::finite(const Subject& subject, double value) {
   return require(std::isfinite(value), ErrorCode::not_finite, subject, "must be finite", value);
 }
 
-DefinitionCheck& DefinitionCheck::finite(const Subject& subject, const Vec3& value) {
+InputCheck& InputCheck::finite(const Subject& subject, const Vec3& value) {
   return require(is_finite(value), ErrorCode::not_finite, subject, "must be finite", value);
 }
 
-DefinitionCheck& DefinitionCheck::positive(const Subject& subject, double value) {
+InputCheck& InputCheck::positive(const Subject& subject, double value) {
   return finite(subject, value).require(value > 0, ErrorCode::out_of_range, subject, "must be > 0", value);
 }
 
-DefinitionCheck& DefinitionCheck::not_negative(const Subject& subject, double value) {
+InputCheck& InputCheck::not_negative(const Subject& subject, double value) {
   return finite(subject, value).require(value >= 0, ErrorCode::out_of_range, subject, "must be >= 0", value);
 }
 
-DefinitionCheck& DefinitionCheck::start(const std::vector<State>& states, double start_time) {
+InputCheck& InputCheck::within(const Subject& subject, const Vec3& value, double limit) {
+  const double largest = std::max({std::abs(value.x), std::abs(value.y), std::abs(value.z)});
+  return finite(subject, value)
+      .require(largest <= limit, ErrorCode::out_of_range, subject, "must be on each axis within +-", limit,
+               value);
+}
+
+InputCheck& InputCheck::box(const Subject& subject, const Box& box) {
+  finite(subject, box.lower).finite(subject, box.upper);
+  for (int axis = 0; axis < 3; ++axis)
+    require(box.lower[axis] < box.upper[axis], ErrorCode::out_of_range, subject,
+            "must have lower < upper on each axis", box);
+  return *this;
+}
+
+InputCheck& InputCheck::start(const std::vector<State>& states, double start_time) {
   finite({"start_time"}, start_time);
   for (std::uint32_t body = 0; body < states.size(); ++body) {
     finite({"start", {body, 0}, "position"}, states[body].position);
@@ -49,7 +72,7 @@ DefinitionCheck& DefinitionCheck::start(const std::vector<State>& states, double
   return *this;
 }
 
-DefinitionCheck& DefinitionCheck::acceleration_limits(const std::vector<double>& limits, std::size_t bodies) {
+InputCheck& InputCheck::acceleration_limits(const std::vector<double>& limits, std::size_t bodies) {
   constexpr std::string_view argument = "acceleration_limits";
   require(limits.size() == bodies, ErrorCode::out_of_range, {argument}, "must have one entry per body,",
           bodies, limits.size());
@@ -58,11 +81,11 @@ DefinitionCheck& DefinitionCheck::acceleration_limits(const std::vector<double>&
   return *this;
 }
 
-void DefinitionCheck::fail(ErrorCode code, const Subject& subject, std::string_view expectation,
-                           const std::string& came) {
+void InputCheck::fail(ErrorCode code, const Subject& subject, std::string_view expectation,
+                      const std::string& came) {
   const std::string argument(subject.argument);
   std::string message = std::string(call_) + ": " + argument;
-  if (subject.body != no_body) message += " of body " + std::to_string(subject.body.index);
+  if (subject.body != no_body) message += " of " + text_of(subject.body);
   if (!subject.part.empty()) message += ", " + std::string(subject.part);
   if (subject.part_number) message += " " + std::to_string(*subject.part_number);
   if (!subject.part.empty()) message += ",";
