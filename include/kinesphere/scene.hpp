@@ -40,7 +40,7 @@ struct Scene {
 struct SimulationObserver {
   /// Called for every event, in order.
   std::function<void(const Event&)> on_event;
-  /// Called at start_time + k * frame_interval, and with the final time.
+  /// Called at start_time + k * frame_interval, and at the end.
   std::function<void(const Detector&, const Motion&, double time)> on_frame;
   double frame_interval = std::numeric_limits<double>::infinity();
   /// Called with the detector before every advance (tests audit here).

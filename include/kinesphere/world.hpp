@@ -137,7 +137,7 @@ class World {
  private:
   class Engine;
   explicit World(std::unique_ptr<Engine> engine);
-  Result<BodyId> add_as(const BodyDefinition& body, std::string_view call);
+  Result<void> check_new(const BodyDefinition& body, std::string_view call) const;
   Result<void> check_alive(BodyId body, std::string_view call) const;
   std::unique_ptr<Engine> engine_;
 };

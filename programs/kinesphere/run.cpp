@@ -37,7 +37,7 @@ DetectorMaker detector_of(const RunOptions& options) {
 
 double frame_interval_of(const RunOptions& options, const Scene& scene) {
   const double duration = scene.end_time - scene.world.start_time;
-  const double interval = options.frame_interval.value_or(duration / 100);
+  const double interval = options.frame_interval.value_or(duration > 0 ? duration / 100 : 1.0);
   if (interval > 0 && std::isfinite(interval)) return interval;
   throw ProgramError(fmt::format("--frame-interval: expected a finite number > 0, but got {}", interval));
 }

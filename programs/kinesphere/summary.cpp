@@ -43,6 +43,7 @@ std::string percent(double part, double whole) {
 }
 
 std::string number(double value) {
+  if (!std::isfinite(value)) return "-";
   if (value >= 1e4 && value < 1e15) return grouped(static_cast<std::uint64_t>(std::llround(value)));
   return fmt::format("{:.4g}", value);
 }

@@ -28,7 +28,8 @@ class Summary {
 std::string grouped(std::uint64_t count);
 /// "12.3 %"; "-" when there is nothing to take a part of.
 std::string percent(double part, double whole);
-/// Four significant digits; large ones whole, with thousands separators.
+/// Four significant digits; large ones whole, with thousands separators; "-" for what is no finite number,
+/// such as a rate over no time at all.
 std::string number(double value);
 
 /// What the scene is: name, motion, bodies, seed, response.

@@ -63,7 +63,7 @@ State Frames::state(std::uint32_t body, double t) const {
   return chord(body).state_at(t);
 }
 
-Trajectory Frames::trajectory(std::uint32_t body, double begin, double end) const {
+Trajectory Frames::trajectory(std::uint32_t body, [[maybe_unused]] double begin, double end) const {
   assert(previous_time() <= begin && begin <= end && end <= latest_time());
   Segment segment = chord(body);
   segment.end = end;

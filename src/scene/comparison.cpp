@@ -97,8 +97,9 @@ class Comparison {
   void compare(const Key& key, const std::vector<Interval>& found, const std::vector<Interval>& truth) {
     const GapCourse gap = course(key);
     const auto& [a, b, wall] = key;
+    const double first = std::max(appears(a), appears(b));
     const double last = last_time(key);
-    double apart_since = std::max(appears(a), appears(b));
+    double apart_since = first;
     for (const Interval& contact : found) {
       check_apart(key, gap, apart_since, std::min(contact.begin, last));
       if (contact.begin < apart_since || gap.gap_at(contact.begin) > tolerance_ + hair())
@@ -111,7 +112,20 @@ class Comparison {
       apart_since = contact.end;
     }
     check_apart(key, gap, apart_since, last);
+    check_truth(key, gap, truth, first, last);
     match(found, truth);
+  }
+
+  /// The oracle's own times, held against the bare distance at them.
+  void check_truth(const Key& key, const GapCourse& gap, const std::vector<Interval>& truth, double first,
+                   double last) {
+    for (const Interval& contact : truth) {
+      const bool at_once = contact.begin == first && gap.gap_at(first) <= 0.0;
+      if (!at_once && std::abs(gap.gap_at(contact.begin)) > hair())
+        differ(result_.missed, key, "begin (oracle) where the gap is not zero", contact.begin);
+      if (contact.end < last && std::abs(gap.gap_at(contact.end) - rule_.separation_distance()) > hair())
+        differ(result_.missed, key, "end (oracle) where the gap is not the separation distance", contact.end);
+    }
   }
 
   /// While apart the gap never falls below -tolerance.

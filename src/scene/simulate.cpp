@@ -30,9 +30,10 @@ class Simulation {
   Result<SimulationResult> run() {
     const double start = scene_.world.start_time;
     std::uint64_t frame = 0;
+    double last_frame = -infinity;
     std::size_t change = 0;
     for (;;) {
-      const double frame_time = observer_.on_frame && observer_.frame_interval < infinity
+      const double frame_time = observer_.frame_interval < infinity
                                     ? start + static_cast<double>(frame) * observer_.frame_interval
                                     : infinity;
       const double change_time = change < changes_.size() ? changes_[change].time : infinity;
@@ -43,15 +44,15 @@ class Simulation {
       }
       if (frame_time <= stop) {
         if (auto advanced = advance_to(stop); !advanced) return advanced.error();
-        observer_.on_frame(detector_, motion_, stop);
+        show(stop);
+        last_frame = stop;
         ++frame;
       }
       if (stop >= scene_.end_time) break;
     }
     // Bodies that vanish at the very end still report the end of their contacts.
     if (auto advanced = advance_to(scene_.end_time); !advanced) return advanced.error();
-    if (observer_.on_frame && observer_.frame_interval == infinity)
-      observer_.on_frame(detector_, motion_, scene_.end_time);
+    if (last_frame != scene_.end_time) show(scene_.end_time);
     result_.counters = detector_.counters();
     result_.simulated_time = scene_.end_time - start;
     result_.contact_hash = hash_.value();
@@ -79,6 +80,10 @@ class Simulation {
       if (scene_.response != Response::bounce) continue;
       if (auto answered = respond(**event); !answered) return answered;
     }
+  }
+
+  void show(double time) {
+    if (observer_.on_frame) observer_.on_frame(detector_, motion_, time);
   }
 
   Result<void> apply(const Change& change) {

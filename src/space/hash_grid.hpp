@@ -5,6 +5,7 @@
 // them, and radii may differ by any ratio. Boxes are kept as floats, rounded outward.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -73,6 +74,14 @@ class HashGrid {
     std::vector<std::uint32_t> slots;  ///< open addressing; cell number + 1, 0 is free
 
     CellRange range_of(const FloatBox& box) const;
+    /// Two overlapping boxes may share several cells: they count in the one where their overlap begins. For a
+    /// cell that both meet.
+    bool overlap_begins_in(const CellIndex& cell, const FloatBox& a, const FloatBox& b) const {
+      const auto reaches = [&](std::size_t axis, std::int32_t coordinate) {
+        return static_cast<double>(std::max(a.lower[axis], b.lower[axis])) * cells_per_length >= coordinate;
+      };
+      return reaches(0, cell.x) && reaches(1, cell.y) && reaches(2, cell.z);
+    }
     const Cell* find(const CellIndex& index) const;
     Cell& find_or_create(const CellIndex& index);
     void rehash();
@@ -104,15 +113,10 @@ void HashGrid::for_each_overlap(const Box& box, Visit visit) const {
   for (const Level& level : levels_) {
     if (level.bodies == 0) continue;
     const CellRange range = level.range_of(query);
-    // A pair may share several cells: it counts in the one where the overlap of the two boxes begins.
     const auto visit_cell = [&](const Cell& cell) {
-      for (const Entry& entry : cell.entries) {
-        if (!entry.box.overlaps(query)) continue;
-        const CellIndex first = level.range_of(entry.box).first;
-        const CellIndex home{std::max(first.x, range.first.x), std::max(first.y, range.first.y),
-                             std::max(first.z, range.first.z)};
-        if (home == cell.index) visit(entry.body);
-      }
+      for (const Entry& entry : cell.entries)
+        if (entry.box.overlaps(query) && level.overlap_begins_in(cell.index, entry.box, query))
+          visit(entry.body);
     };
     if (range.count() > static_cast<double>(level.cells.size())) {
       for (const Cell& cell : level.cells) visit_cell(cell);

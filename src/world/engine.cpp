@@ -20,7 +20,7 @@ BodyId World::Engine::add(const BodyDefinition& definition) {
   }
   Body& body = bodies_[number];
   body.definition = definition;
-  body.bound = bound_of(definition, {definition.position, definition.velocity}, time_);
+  body.bound = bound_now(definition);
   body.box = swept_box(body.bound, time_, time_);
   body.box_end = time_;
   body.alive = true;
@@ -39,12 +39,6 @@ void World::Engine::remove(BodyId id) {
     for (const Wall wall : walls)
       if (body.touching_walls & wall_bit(wall)) announce(wall_contact(EventKind::wall_end, number, wall));
   }
-  withdraw(id);
-}
-
-void World::Engine::withdraw(BodyId id) {
-  const std::uint32_t number = id.index;
-  Body& body = bodies_[number];
   release_all(number);
   grid_.remove(number);
   schedule_.remove(number);
@@ -58,12 +52,27 @@ void World::Engine::withdraw(BodyId id) {
   --size_;
 }
 
+Bound World::Engine::bound_now(const BodyDefinition& body) const {
+  return bound_of(body, {body.position, body.velocity}, time_);
+}
+
+Box World::Engine::box_of(const BodyDefinition& body) const {
+  return swept_box(bound_now(body), time_, time_);
+}
+
+bool World::Engine::certainly_overlap(const BodyDefinition& a, const BodyDefinition& b) const {
+  return certainly_overlap(bound_now(a), bound_now(b));
+}
+
+bool World::Engine::certainly_overlap(const Bound& a, const Bound& b) const {
+  return gap_limits(a, b, time_).upper < -definition_.contact_tolerance;
+}
+
 std::optional<BodyId> World::Engine::certain_overlap(const BodyDefinition& definition) const {
-  const Bound bound = bound_of(definition, {definition.position, definition.velocity}, time_);
+  const Bound bound = bound_now(definition);
   std::optional<BodyId> found;
   grid_.for_each_overlap(swept_box(bound, time_, time_), [&](std::uint32_t other) {
-    const bool certain =
-        gap_limits(bound, bodies_[other].bound, time_).upper < -definition_.contact_tolerance;
+    const bool certain = certainly_overlap(bound, bodies_[other].bound);
     if (certain && (!found || other < found->index)) found = id_of(other);
   });
   return found;
@@ -84,20 +93,32 @@ void World::Engine::kick(BodyId id, const Vec3& velocity) {
 Result<std::optional<Event>> World::Engine::advance(double until, const Probe& probe) {
   probe_ = &probe;
   for (;;) {
+    if (gathering_) {
+      if (auto gathered = gather(); !gathered) return gathered.error();
+    }
     if (std::optional<Event> event = deliver()) return event;
+    gathering_ = true;
     if (auto settled = settle_all(); !settled) return settled.error();
+    gathering_ = false;
     if (!pending_.empty()) continue;
     if (schedule_.empty() || schedule_.earliest().time > until) {
       time_ = until;
       return std::optional<Event>();
     }
     time_ = schedule_.earliest().time;
-    while (!schedule_.empty() && schedule_.earliest().time <= time_) {
-      if (auto woken = wake(schedule_.earliest().body); !woken) return woken.error();
-    }
-    // Bodies whose boxes end at this instant may add to its events.
-    if (auto settled = settle_all(); !settled) return settled.error();
+    gathering_ = true;
   }
+}
+
+/// Wakes all bodies that are due, so that every event of this instant is known before the first is delivered.
+Result<void> World::Engine::gather() {
+  while (!schedule_.empty() && schedule_.earliest().time <= time_) {
+    if (auto woken = wake(schedule_.earliest().body); !woken) return woken;
+  }
+  // Bodies whose boxes end at this instant may add to its events.
+  if (auto settled = settle_all(); !settled) return settled;
+  gathering_ = false;
+  return {};
 }
 
 Result<void> World::Engine::wake(std::uint32_t number) {

@@ -76,14 +76,23 @@ class World::Engine {
   const std::vector<Body>& table() const { return bodies_; }
   BodyId id_of(std::uint32_t number) const { return {number, bodies_[number].generation}; }
   bool probing() const { return probing_; }
-  /// A living body that certainly overlaps one with this definition by more than the tolerance.
+  /// Where a body with this definition would be now.
+  Box box_of(const BodyDefinition& body) const;
+  /// Whether two bodies with these definitions would overlap by more than the tolerance now.
+  bool certainly_overlap(const BodyDefinition& a, const BodyDefinition& b) const;
+  /// The first living body that certainly overlaps one with this definition.
   std::optional<BodyId> certain_overlap(const BodyDefinition& definition) const;
   std::optional<AuditFinding> audit() const;
 
  private:
   class Audit;
+  class RoundInProgress;
+
+  Bound bound_now(const BodyDefinition& body) const;
+  bool certainly_overlap(const Bound& a, const Bound& b) const;
 
   // engine.cpp: the clock.
+  Result<void> gather();
   Result<void> wake(std::uint32_t number);
   void reschedule(std::uint32_t number);
 
@@ -133,8 +142,13 @@ class World::Engine {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> changed_;
   std::vector<Event> pending_;  ///< events of this instant that are still to be delivered
   Counters counters_;
+  bool gathering_ = false;        ///< not all of them have been found: a probe gave a bad answer
   const Probe* probe_ = nullptr;  ///< during advance()
   bool probing_ = false;
+  // Kept for their memory only.
+  std::vector<BodyId> probe_ids_;
+  std::vector<State> probe_states_;
+  std::vector<std::uint32_t> partners_;
 };
 
 }  // namespace kinesphere

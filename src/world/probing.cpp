@@ -6,22 +6,38 @@
 #include "world/validation.hpp"
 
 namespace kinesphere {
+namespace {
+
+/// Resets the flag even if the probe throws.
+class WhileTrue {
+ public:
+  explicit WhileTrue(bool& flag) : flag_(flag) { flag_ = true; }
+  WhileTrue(const WhileTrue&) = delete;
+  WhileTrue& operator=(const WhileTrue&) = delete;
+  ~WhileTrue() { flag_ = false; }
+
+ private:
+  bool& flag_;
+};
+
+}  // namespace
 
 Result<void> World::Engine::probe(std::span<const std::uint32_t> numbers) {
-  std::vector<BodyId> ids;
-  for (const std::uint32_t number : numbers) ids.push_back(id_of(number));
   // A probe that forgets to answer is told so.
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   constexpr Vec3 unanswered{nothing, nothing, nothing};
-  std::vector<State> states(ids.size(), State{unanswered, unanswered});
-  probing_ = true;
-  (*probe_)(ids, time_, states);
-  probing_ = false;
-  counters_.probes += ids.size();
-  for (std::size_t k = 0; k < ids.size(); ++k) {
-    if (auto valid = check_report(states[k], ids[k], time_, definition_); !valid) return valid;
+  probe_ids_.clear();
+  for (const std::uint32_t number : numbers) probe_ids_.push_back(id_of(number));
+  probe_states_.assign(numbers.size(), State{unanswered, unanswered});
+  {
+    const WhileTrue guard(probing_);
+    (*probe_)(probe_ids_, time_, probe_states_);
   }
-  for (std::size_t k = 0; k < ids.size(); ++k) apply_report(numbers[k], states[k]);
+  counters_.probes += numbers.size();
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    if (auto valid = check_report(probe_states_[k], probe_ids_[k], time_, definition_); !valid) return valid;
+  }
+  for (std::size_t k = 0; k < numbers.size(); ++k) apply_report(numbers[k], probe_states_[k]);
   return {};
 }
 

@@ -42,18 +42,36 @@ Result<void> World::Engine::settle_all() {
     std::vector<std::uint32_t> round;
     round.swap(dirty_);
     std::sort(round.begin(), round.end());
-    if (auto settled = settle_round(round); !settled) {
-      for (const std::uint32_t number : round) {
-        bodies_[number].searched = false;
-        mark_dirty(number);
-      }
-      return settled;
-    }
+    round.erase(std::unique(round.begin(), round.end()), round.end());
+    if (auto settled = settle_round(round); !settled) return settled;
   }
   return {};
 }
 
+/// A round that a bad answer breaks off has to be done again.
+class World::Engine::RoundInProgress {
+ public:
+  RoundInProgress(Engine& engine, const std::vector<std::uint32_t>& round) : engine_(engine), round_(round) {}
+  RoundInProgress(const RoundInProgress&) = delete;
+  RoundInProgress& operator=(const RoundInProgress&) = delete;
+  ~RoundInProgress() {
+    for (const std::uint32_t number : round_) engine_.bodies_[number].searched = false;
+    if (done_) return;
+    for (const std::uint32_t number : round_) {
+      engine_.bodies_[number].dirty = false;
+      engine_.mark_dirty(number);
+    }
+  }
+  void finish() { done_ = true; }
+
+ private:
+  Engine& engine_;
+  const std::vector<std::uint32_t>& round_;
+  bool done_ = false;
+};
+
 Result<void> World::Engine::settle_round(const std::vector<std::uint32_t>& round) {
+  RoundInProgress in_progress(*this, round);
   std::vector<std::uint32_t> stale;
   for (const std::uint32_t number : round)
     if (!bodies_[number].fresh(time_)) stale.push_back(number);
@@ -69,10 +87,9 @@ Result<void> World::Engine::settle_round(const std::vector<std::uint32_t>& round
     if (auto searched = search(number); !searched) return searched;
     bodies_[number].searched = true;
   }
-  for (const std::uint32_t number : round) {
-    bodies_[number].searched = false;
+  for (const std::uint32_t number : round)
     if (!bodies_[number].dirty) reschedule(number);
-  }
+  in_progress.finish();
   return {};
 }
 
@@ -110,14 +127,14 @@ Result<void> World::Engine::search(std::uint32_t number) {
   ++counters_.searches;
   std::erase_if(bodies_[number].watches,
                 [this](const Watch& w) { return w.epoch != bodies_[w.partner].epoch; });
-  std::vector<std::uint32_t> partners = bodies_[number].touching;
-  const std::size_t touching = partners.size();
+  partners_ = bodies_[number].touching;
+  const std::size_t touching = partners_.size();
   grid_.for_each_overlap(bodies_[number].box, [&](std::uint32_t other) {
-    if (other != number) partners.push_back(other);
+    if (other != number) partners_.push_back(other);
   });
-  const std::size_t candidates = partners.size() - touching;
+  const std::size_t candidates = partners_.size() - touching;
   counters_.candidates += candidates;
-  for (const std::uint32_t partner : partners) {
+  for (const std::uint32_t partner : partners_) {
     // A dirty partner will search itself; one that has searched in this round has found this body.
     const Body& other = bodies_[partner];
     if (other.dirty || other.searched || has_watch(number, partner) || has_watch(partner, number)) continue;

@@ -16,6 +16,12 @@ Result<void> check_idle(bool probing, std::string_view call) {
                std::string(call) + ": a probe may not call the world that asked it"};
 }
 
+Error overlap_error(std::string_view call, BodyId other, const std::string& name_of_other) {
+  return {ErrorCode::overlapping, "position", other,
+          std::string(call) + ": position must not overlap another body, but the body would overlap " +
+              name_of_other};
+}
+
 /// A first answer that is an error ends a chain of checks.
 template <class... Checks>
 Result<void> first_error(const Checks&... checks) {
@@ -38,48 +44,52 @@ Result<World> World::create(const WorldDefinition& definition) {
 
 Result<void> World::check_alive(BodyId body, std::string_view call) const {
   const auto& table = engine_->table();
-  const bool known = body.index < table.size() && body.generation <= table[body.index].generation;
+  // A free index has the generation that its next body will have.
+  const bool known = body.index < table.size() && (body.generation < table[body.index].generation ||
+                                                   (body.generation == table[body.index].generation &&
+                                                    table[body.index].alive));
   if (!known) {
     return Error{ErrorCode::unknown_body, "body", body,
                  std::string(call) + ": " + text_of(body) + " was never in this world"};
   }
-  if (body.generation != table[body.index].generation || !table[body.index].alive) {
+  if (body.generation != table[body.index].generation) {
     return Error{ErrorCode::stale_body, "body", body,
                  std::string(call) + ": " + text_of(body) + " has been removed"};
   }
   return {};
 }
 
-Result<BodyId> World::add_as(const BodyDefinition& body, std::string_view call) {
-  const auto valid = first_error(check_idle(engine_->probing(), call), check_body(body, definition(), call));
-  if (!valid) return valid.error();
-  if (!definition().allow_overlap) {
-    if (const auto other = engine_->certain_overlap(body)) {
-      return Error{ErrorCode::overlapping, "position", *other,
-                   std::string(call) +
-                       ": position must not overlap another body, but the body would overlap " +
-                       text_of(*other)};
-    }
-  }
+Result<void> World::check_new(const BodyDefinition& body, std::string_view call) const {
+  auto valid = first_error(check_idle(engine_->probing(), call), check_body(body, definition(), call));
+  if (!valid || definition().allow_overlap) return valid;
+  if (const auto other = engine_->certain_overlap(body)) return overlap_error(call, *other, text_of(*other));
+  return {};
+}
+
+Result<BodyId> World::add(const BodyDefinition& body) {
+  if (auto valid = check_new(body, "add"); !valid) return valid.error();
   return engine_->add(body);
 }
 
-Result<BodyId> World::add(const BodyDefinition& body) { return add_as(body, "add"); }
-
 Result<std::vector<BodyId>> World::add(std::span<const BodyDefinition> bodies) {
+  if (auto idle = check_idle(engine_->probing(), "add"); !idle) return idle.error();
+  HashGrid earlier;
+  for (std::uint32_t number = 0; number < bodies.size(); ++number) {
+    const std::string call = "add: bodies[" + std::to_string(number) + "]";
+    if (auto valid = check_new(bodies[number], call); !valid) return valid.error();
+    if (definition().allow_overlap) continue;
+    const Box box = engine_->box_of(bodies[number]);
+    std::optional<std::uint32_t> other;
+    earlier.for_each_overlap(box, [&](std::uint32_t candidate) {
+      const bool overlap = engine_->certainly_overlap(bodies[number], bodies[candidate]);
+      if (overlap && (!other || candidate < *other)) other = candidate;
+    });
+    if (other) return overlap_error(call, no_body, "bodies[" + std::to_string(*other) + "]");
+    earlier.set(number, box);
+  }
   std::vector<BodyId> ids;
   ids.reserve(bodies.size());
-  for (const BodyDefinition& body : bodies) {
-    auto id = add_as(body, "add: bodies[" + std::to_string(ids.size()) + "]");
-    if (!id) {
-      while (!ids.empty()) {
-        engine_->withdraw(ids.back());
-        ids.pop_back();
-      }
-      return id.error();
-    }
-    ids.push_back(*id);
-  }
+  for (const BodyDefinition& body : bodies) ids.push_back(engine_->add(body));
   return ids;
 }
 
