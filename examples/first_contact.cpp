@@ -1,0 +1,32 @@
+// Two drones, one circling and one hovering in its way. Nobody tells the world their paths, only what they
+// can do.
+#include <kinesphere/world.hpp>
+
+#include <cmath>
+#include <cstdio>
+
+using namespace kinesphere;
+
+int main() {
+  World world = World::create({.contact_tolerance = 1e-6}).value();
+  // A circle of radius 20 flown at speed 10 takes an acceleration of 5.
+  const BodyId circling =
+      world.add({.radius = 1, .acceleration_limit = 5.001, .position = {20, 0, 0}, .velocity = {0, 10, 0}})
+          .value();
+  const BodyId hovering =
+      world.add({.radius = 1, .acceleration_limit = 0.5, .position = {-20, 1.5, 0}}).value();
+
+  // Asked only when it can matter: where are these bodies, and how fast?
+  auto probe = [&](std::span<const BodyId> ids, double t, std::span<State> states) {
+    const double c = std::cos(t / 2), s = std::sin(t / 2);
+    for (std::size_t k = 0; k < ids.size(); ++k)
+      states[k] = ids[k] == circling ? State{{20 * c, 20 * s, 0}, {-10 * s, 10 * c, 0}}
+                                     : State{{-20, 1.5, 0}, {0, 0, 0}};
+  };
+
+  while (auto event = world.advance(30.0, probe).value())
+    std::printf("%9.6f s  %-13s  gap %.1e, closing at %.3f\n", event->time, name_of(event->kind).data(),
+                event->gap, event->approach_speed);
+  std::printf("%llu probes in 30 s\n", static_cast<unsigned long long>(world.counters().probes));
+  return world.contains(hovering) ? 0 : 1;
+}
