@@ -26,16 +26,6 @@ Coefficients to_bernstein(const Coefficients& power) {
   return bernstein;
 }
 
-/// De Casteljau at 1/2: the coefficients over the left half stay, those over the right half are returned.
-Coefficients split(Coefficients& left) {
-  Coefficients right = left;
-  for (std::size_t level = 1; level <= degree; ++level) {
-    for (std::size_t i = 0; i + level <= degree; ++i) right[i] = 0.5 * (right[i] + right[i + 1]);
-    left[level] = right[0];
-  }
-  return right;
-}
-
 /// The motion of one piece, s = t - begin, with what is needed to find where the gap meets a level.
 struct Piece {
   double begin, end;
@@ -49,15 +39,10 @@ struct Piece {
     return is_pair ? norm(at) - radius : dot(wall.normal, at) - wall.offset - radius;
   }
 
-  /// A polynomial over [0, 1] (times end - begin) that is positive where the gap is larger than `level`, and
-  /// the error that rounding may have left in its coefficients.
-  Coefficients above(double level, double& error) const {
-    const double length = end - begin;
-    std::array<Vec3, 4> c = centre;
-    for (double scale = 1.0; Vec3 & coefficient : c) {
-      coefficient *= scale;
-      scale *= length;
-    }
+  /// A polynomial over [0, 1] that is positive where, on the way from s = lower to s = upper, the gap is
+  /// larger than `level`; and the error that rounding may have left in its coefficients.
+  Coefficients above(double level, double lower, double upper, double& error) const {
+    const std::array<Vec3, 4> c = centre_over(lower, upper);
     Coefficients power{};
     double size = 0.0;
     if (is_pair) {
@@ -78,6 +63,17 @@ struct Piece {
     error = 0x1p-46 * size;
     return power;
   }
+
+ private:
+  /// The centre's power coefficients over [0, 1] on the way from s = lower to s = upper. Expanding anew
+  /// there, instead of subdividing coefficients, makes the error shrink with the distance.
+  std::array<Vec3, 4> centre_over(double lower, double upper) const {
+    const double length = upper - lower;
+    const Vec3 value = centre[0] + (centre[1] + (centre[2] + centre[3] * lower) * lower) * lower;
+    const Vec3 slope = centre[1] + (centre[2] * 2.0 + centre[3] * (3.0 * lower)) * lower;
+    const Vec3 curvature = centre[2] + centre[3] * (3.0 * lower);
+    return {value, slope * length, curvature * (length * length), centre[3] * (length * length * length)};
+  }
 };
 
 /// Finds the first root of one piece for one level.
@@ -87,39 +83,27 @@ class RootSearch {
       : piece_(piece), level_(level), sign_(crossing == Crossing::falls_to ? 1.0 : -1.0) {}
 
   /// The first s in [0, end - begin] at which the level is reached.
-  std::optional<double> first() const {
-    double error = 0.0;
-    Coefficients coefficients = to_bernstein(piece_.above(level_, error));
-    for (double& c : coefficients) c *= sign_;
-    return first_within(coefficients, error, 0.0, 1.0, 0);
-  }
+  std::optional<double> first() const { return first_within(0.0, piece_.end - piece_.begin, 0); }
 
  private:
-  static constexpr int max_depth = 40;
+  static constexpr int max_depth = 60;
 
   /// Positive before the level is reached.
-  double room(double fraction) const {
-    return sign_ * (piece_.gap(fraction * (piece_.end - piece_.begin)) - level_);
-  }
-  double time_of(double fraction) const { return fraction * (piece_.end - piece_.begin); }
+  double room(double s) const { return sign_ * (piece_.gap(s) - level_); }
 
-  std::optional<double> first_within(const Coefficients& c, double error, double lower, double upper,
-                                     int depth) const {
+  std::optional<double> first_within(double lower, double upper, int depth) const {
+    double error = 0.0;
+    Coefficients c = to_bernstein(piece_.above(level_, lower, upper, error));
+    for (double& coefficient : c) coefficient *= sign_;
     if (std::all_of(c.begin(), c.end(), [=](double value) { return value > error; })) return std::nullopt;
-    if (room(lower) <= 0.0) return time_of(lower);
-    if (is_monotone(c, error)) {
-      if (room(upper) > 0.0) return std::nullopt;
-      return time_of(bisect(lower, upper));
-    }
+    if (room(lower) <= 0.0) return lower;
+    if (is_monotone(c, error)) return room(upper) <= 0.0 ? std::optional(bisect(lower, upper)) : std::nullopt;
     // Where rounding hides what is left of the polynomial, its ends decide.
     const bool hidden = *std::max_element(c.begin(), c.end()) <= 2.0 * error;
-    if (hidden || depth == max_depth)
-      return room(upper) <= 0.0 ? std::optional(time_of(upper)) : std::nullopt;
-    Coefficients left = c;
-    const Coefficients right = split(left);
+    if (hidden || depth == max_depth) return room(upper) <= 0.0 ? std::optional(upper) : std::nullopt;
     const double middle = 0.5 * (lower + upper);
-    if (const auto found = first_within(left, error, lower, middle, depth + 1)) return found;
-    return first_within(right, error, middle, upper, depth + 1);
+    if (const auto found = first_within(lower, middle, depth + 1)) return found;
+    return first_within(middle, upper, depth + 1);
   }
 
   static bool is_monotone(const Coefficients& c, double error) {
