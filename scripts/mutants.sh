@@ -11,27 +11,31 @@ copy=build/mutants/source
 build=build/mutants/build
 rm -rf "$copy"
 mkdir -p "$copy"
-git ls-files -z CMakeLists.txt cmake include src tests | xargs -0 cp -p --parents -t "$copy"
+git ls-files -z CMakeLists.txt cmake include src tests | xargs -0 cp --parents -t "$copy"
 cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 \
   -DKINESPHERE_BUILD_PROGRAM=OFF -DKINESPHERE_BUILD_EXAMPLES=OFF >/dev/null
 
 apply() { (cd "$copy" && GIT_CEILING_DIRECTORIES=$PWD/.. git apply "$@"); }
 caught_by() { sed -n 's/^Caught by: //p' "$1"; }
-run_test() { RC_PARAMS=seed=2005 "$build/tests/$1" --gtest_brief=1 --gtest_filter="$2"; }
+# A hang counts as noticed.
+run_test() { RC_PARAMS=seed=2005 timeout 120 "$build/tests/$1" --gtest_brief=1 --gtest_filter="$2"; }
 
 targets=$(for mutant in "${mutants[@]}"; do caught_by "$mutant" | cut -d' ' -f1; done | sort -u)
 # shellcheck disable=SC2086
 cmake --build "$build" --target $targets >"$build/build.log" 2>&1 || { cat "$build/build.log"; exit 1; }
 
-survivors=0
 for mutant in "${mutants[@]}"; do
   read -r executable filter <<<"$(caught_by "$mutant")"
   run_test "$executable" "$filter" >"$build/test.log" 2>&1 ||
-    { cat "$build/test.log"; echo "mutants: $filter fails without ${mutant##*/} already" >&2; exit 1; }
+    { tail -n 20 "$build/test.log"; echo "mutants: $filter fails without ${mutant##*/} already" >&2; exit 1; }
+done
+
+survivors=0
+for mutant in "${mutants[@]}"; do
+  read -r executable filter <<<"$(caught_by "$mutant")"
   apply "$PWD/$mutant"
   cmake --build "$build" --target "$executable" >"$build/build.log" 2>&1 || { cat "$build/build.log"; exit 1; }
-  # A hang counts as noticed.
-  if (run_test "$executable" "$filter" || false) >"$build/test.log" 2>&1; then
+  if run_test "$executable" "$filter" >"$build/test.log" 2>&1; then
     echo "SURVIVES  ${mutant##*/}  ($filter passes)"
     survivors=$((survivors + 1))
   else

@@ -1,6 +1,10 @@
 // Output files: all or nothing.
 #include "output_file.hpp"
 
+#include <sys/resource.h>
+
+#include <csignal>
+
 #include "support.hpp"
 
 namespace kinesphere::program {
@@ -52,6 +56,39 @@ TEST_F(OutputFileTest, FollowsALink) {
 TEST_F(OutputFileTest, NamesAFolderThatDoesNotExist) {
   const std::string name = path("nowhere/log.csv");
   EXPECT_EQ(error_of([&] { OutputFile file(name); }), name + ": cannot write: No such file or directory");
+}
+
+/// As if the disk were full after so many bytes.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limited{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limited);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+  ~FullDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  void (*handler_)(int);
+  rlimit before_{};
+};
+
+TEST_F(OutputFileTest, NoticesAFullDiskAtTheLastByte) {
+  write("log.csv", "old");
+  const std::string message = error_of([&] {
+    OutputFile file(path("log.csv"));
+    file.write(std::string(200, 'x'));
+    const FullDisk full(100);
+    file.commit();
+  });
+  EXPECT_EQ(message, path("log.csv") + ": cannot write: File too large");
+  EXPECT_EQ(read_text(path("log.csv")), "old");
+  EXPECT_EQ(names(), Names{"log.csv"});
 }
 
 TEST_F(OutputFileTest, RefusesWhatIsNoRegularFile) {

@@ -86,6 +86,9 @@ TEST_F(ProgramTest, RefusesWrongScenes) {
   expect_wrong_input("run " + wrong, {"wrong.json:3:", "radius"});
   const ProgramRun overridden = run("run " + wrong + " --radius 1 2 --bodies 3 --quiet");
   EXPECT_EQ(overridden.exit_code, 0) << overridden.err;
+  // What an option says is not the file's fault.
+  const ProgramRun by_option = run("run " + wrong + " --radius -3 2");
+  EXPECT_EQ(by_option.err.find("wrong.json"), std::string::npos) << by_option.err;
 }
 
 TEST_F(ProgramTest, SummarisesARun) {
@@ -97,6 +100,16 @@ TEST_F(ProgramTest, SummarisesARun) {
     EXPECT_EQ(lines_with(result.out, std::string(label) + " "), 1u) << label << "\n" << result.out;
   }
   EXPECT_NE(result.out.find("42"), std::string::npos);
+}
+
+TEST_F(ProgramTest, RunsScenesOfNothing) {
+  for (const char* nothing : {" --bodies 0", " --seconds 0"}) {
+    const ProgramRun result =
+        run("run " + write("s.json", small_scene) + nothing + " --frames " + path("f.xyz"));
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out.find("nan"), std::string::npos) << result.out;
+    EXPECT_EQ(result.out.find("inf"), std::string::npos) << result.out;
+  }
 }
 
 TEST_F(ProgramTest, PrintsNothingButTheHash) {
@@ -220,14 +233,18 @@ TEST_P(TracksOfRecording, AgreesWithTheOracle) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, TracksOfRecording,
-                         ::testing::Values(std::pair{"ucy_students03/ucy_students03_obsmat.txt.gz", "0.5"},
+                         ::testing::Values(std::pair{"ucy_students03/ucy_students03_obsmat.txt.gz", "0.4"},
+                                           std::pair{"ucy_students03/ucy_students03_obsmat.txt.gz", "0.6"},
                                            std::pair{"pedpy_bottleneck/pedpy_bottleneck_040_c_56_h-.txt.gz",
                                                      "0.3"},
+                                           std::pair{"mosquito3d/anopheles_swarm_splined.csv.gz", "0.03"},
                                            std::pair{"mosquito3d/anopheles_swarm_splined.csv.gz", "0.1"}),
                          [](const auto& each) {
                            std::string name = each.param.first;
                            name.resize(name.find('/'));
-                           return name;
+                           std::string distance = each.param.second;
+                           std::replace(distance.begin(), distance.end(), '.', '_');
+                           return name + "_" + distance;
                          });
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "progress.hpp"
 
 namespace kinesphere::program {
@@ -22,6 +24,7 @@ TEST(Summary, SharesAndNumbers) {
   EXPECT_EQ(number(43.3012701892), "43.3");
   EXPECT_EQ(number(1e-6), "1e-06");
   EXPECT_EQ(number(15000.4), "15,000");
+  EXPECT_EQ(number(std::numeric_limits<double>::quiet_NaN()), "-");
 }
 
 TEST(Summary, AlignsColumns) {
