@@ -66,8 +66,8 @@ struct WorldDefinition {
   /// When false, add() refuses a body that certainly overlaps another or a wall.
   bool allow_overlap = true;
   /// >= 0 (time): a contact that comes less than this after the previous one of the same body is
-  /// marked as repeated. The time sqrt(eps / (A + |g|)) in which a body cannot leave the tolerance counts
-  /// too.
+  /// marked as repeated. So is one that comes within 4 sqrt(eps / (A + |g|)): a hop within the tolerance
+  /// takes no longer.
   double zeno_interval = 0.0;
   double start_time = 0.0;
 };
@@ -96,7 +96,7 @@ class World {
   ~World();
 
   /// Adds a body at the current time. Errors: not_finite; out_of_range (a negative radius, limit or
-  /// error; a coordinate beyond 2^44 contact tolerances, where doubles could no longer keep
+  /// error; a coordinate beyond 2^41 contact tolerances, where doubles could no longer keep
   /// the promise); outside_domain; overlapping. Cost: O(1) here, a grid search at the next advance.
   Result<BodyId> add(const BodyDefinition& body);
   /// Adds all of them or, on an error, none.

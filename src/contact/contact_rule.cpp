@@ -28,13 +28,15 @@ double ContactRule::guarded_gap(double gap) const {
   return gap > -0.25 * tolerance_ ? -0.5 * tolerance_ : gap - 0x1p-20 * tolerance_;
 }
 
-double ContactRule::least_step(double gap, double acceleration) const {
-  if (gap > tolerance_ || !(acceleration > 0.0)) return 0.0;
-  return 0.5 * std::sqrt(tolerance_ / acceleration);
+double ContactRule::least_step(double gap, double speed_error, double acceleration) const {
+  if (gap > tolerance_ || !(speed_error + acceleration > 0.0)) return 0.0;
+  const double way = 0.125 * tolerance_;
+  return 2.0 * way / (speed_error + std::sqrt(speed_error * speed_error + 2.0 * acceleration * way));
 }
 
 double ContactRule::zeno_interval(double acceleration) const {
-  return acceleration > 0.0 ? std::max(zeno_interval_, std::sqrt(tolerance_ / acceleration)) : zeno_interval_;
+  if (!(acceleration > 0.0)) return zeno_interval_;
+  return std::max(zeno_interval_, 4.0 * std::sqrt(tolerance_ / acceleration));
 }
 
 }  // namespace kinesphere

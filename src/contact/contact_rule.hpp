@@ -29,14 +29,17 @@ class ContactRule {
   double guarded_gap(double gap) const;
 
   /// The Zeno guard: the least time between two looks at a pair within the tolerance that does not approach,
-  /// with this sum of largest accelerations. In it the gap shrinks by at most 1/8 of the tolerance.
-  double least_step(double gap, double acceleration) const;
+  /// with these sums of velocity errors and largest accelerations. In it the gap shrinks by at most 1/8 of
+  /// the tolerance.
+  double least_step(double gap, double speed_error, double acceleration) const;
 
   /// True when a least step from this gap may leave the tolerance, so that the caller must be told.
   bool step_breaks_tolerance(double gap) const { return gap < -0.875 * tolerance_; }
 
   /// A contact that comes sooner than this after the last one of a body with this largest acceleration (limit
-  /// and plan) is a repeated one.
+  /// and plan) is a repeated one. A body that was stopped dead within the tolerance falls by at most 3/2 of
+  /// it to the guarded gap, and a hop from there and back takes twice that time, sqrt(12 tolerance /
+  /// acceleration): all of its contacts must count as repeated.
   double zeno_interval(double acceleration) const;
 
  private:

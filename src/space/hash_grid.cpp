@@ -21,15 +21,6 @@ float rounded_up(double value) { return -rounded_down(-value); }
 constexpr int exponent_step = 2;
 /// The finest cells are 2^this as large as the typical box.
 constexpr int finest_above_mean = 1;
-/// Cell coordinates stay within 32 bits: a float box at distance X is at least X * 2^-24 wide, and so are its
-/// cells.
-constexpr double coordinate_limit = 2147483000.0;
-
-std::int32_t cell_coordinate(float position, double cells_per_length) {
-  const double cell = std::floor(static_cast<double>(position) * cells_per_length);
-  return static_cast<std::int32_t>(std::clamp(cell, -coordinate_limit, coordinate_limit));
-}
-
 }  // namespace
 
 FloatBox::FloatBox(const Box& box)
@@ -46,10 +37,11 @@ double HashGrid::CellRange::count() const {
 }
 
 HashGrid::CellRange HashGrid::Level::range_of(const FloatBox& box) const {
-  const auto index = [this](const std::array<float, 3>& corner) {
-    return CellIndex{cell_coordinate(corner[0], cells_per_length),
-                     cell_coordinate(corner[1], cells_per_length),
-                     cell_coordinate(corner[2], cells_per_length)};
+  const auto coordinate = [this](float position) {
+    return static_cast<std::int32_t>(std::floor(in_cells(position)));
+  };
+  const auto index = [&](const std::array<float, 3>& corner) {
+    return CellIndex{coordinate(corner[0]), coordinate(corner[1]), coordinate(corner[2])};
   };
   return {index(box.lower), index(box.upper)};
 }
@@ -97,9 +89,11 @@ void HashGrid::Level::rehash() {
 }
 
 int HashGrid::exponent_of(float extent) {
-  // The smallest e with extent <= 2^e; a point counts as the smallest normal float.
+  // The smallest e with extent <= 2^e; a point counts as the smallest normal float, infinity as the greatest.
   int exponent = 0;
-  const float fraction = std::frexp(std::max(extent, std::numeric_limits<float>::min()), &exponent);
+  using limits = std::numeric_limits<float>;
+  const float normal = std::clamp(extent, limits::min(), limits::max());
+  const float fraction = std::frexp(normal, &exponent);
   return fraction == 0.5f ? exponent - 1 : exponent;
 }
 
@@ -196,12 +190,9 @@ std::optional<std::string> HashGrid::check(std::uint32_t body, const Box& box) c
     for (const Cell& cell : level.cells)
       for (const Entry& entry : cell.entries) {
         if (entry.body != body) continue;
-        const CellIndex& at = cell.index;
-        const bool inside = range.first.x <= at.x && at.x <= range.last.x && range.first.y <= at.y &&
-                            at.y <= range.last.y && range.first.z <= at.z && at.z <= range.last.z;
-        if (!inside || static_cast<int>(number) != place.level)
+        if (!range.contains(cell.index) || static_cast<int>(number) != place.level)
           return "stands in a cell that its box does not meet";
-        if (level.find(at) != &cell) return "stands in a cell that the table does not find";
+        if (level.find(cell.index) != &cell) return "stands in a cell that the table does not find";
         ++found;
       }
     if (static_cast<int>(number) == place.level && found != range.count())

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +50,10 @@ class HashGrid {
   std::optional<std::string> check(std::uint32_t body, const Box& box) const;
 
  private:
+  /// Cell coordinates stay within 32 bits: a float box at distance X is at least X * 2^-24 wide, and so are
+  /// its cells. Where it is a mere point all that lies farther shares the outermost cell.
+  static constexpr double coordinate_limit = 2147483000.0;
+
   struct CellIndex {
     std::int32_t x, y, z;
     friend bool operator==(const CellIndex&, const CellIndex&) = default;
@@ -57,6 +62,10 @@ class HashGrid {
     CellIndex first, last;
     friend bool operator==(const CellRange&, const CellRange&) = default;
     double count() const;
+    bool contains(const CellIndex& at) const {
+      return first.x <= at.x && at.x <= last.x && first.y <= at.y && at.y <= last.y && first.z <= at.z &&
+             at.z <= last.z;
+    }
   };
   struct Entry {
     FloatBox box;
@@ -74,11 +83,17 @@ class HashGrid {
     std::vector<std::uint32_t> slots;  ///< open addressing; cell number + 1, 0 is free
 
     CellRange range_of(const FloatBox& box) const;
+    /// A position in units of cells, within what cell coordinates can hold.
+    double in_cells(float position) const {
+      constexpr float limit = std::numeric_limits<float>::max();
+      const double finite = std::clamp(position, -limit, limit);
+      return std::clamp(finite * cells_per_length, -coordinate_limit, coordinate_limit);
+    }
     /// Two overlapping boxes may share several cells: they count in the one where their overlap begins. For a
     /// cell that both meet.
     bool overlap_begins_in(const CellIndex& cell, const FloatBox& a, const FloatBox& b) const {
       const auto reaches = [&](std::size_t axis, std::int32_t coordinate) {
-        return static_cast<double>(std::max(a.lower[axis], b.lower[axis])) * cells_per_length >= coordinate;
+        return in_cells(std::max(a.lower[axis], b.lower[axis])) >= coordinate;
       };
       return reaches(0, cell.x) && reaches(1, cell.y) && reaches(2, cell.z);
     }
@@ -119,7 +134,8 @@ void HashGrid::for_each_overlap(const Box& box, Visit visit) const {
           visit(entry.body);
     };
     if (range.count() > static_cast<double>(level.cells.size())) {
-      for (const Cell& cell : level.cells) visit_cell(cell);
+      for (const Cell& cell : level.cells)
+        if (range.contains(cell.index)) visit_cell(cell);
       continue;
     }
     for (std::int32_t z = range.first.z; z <= range.last.z; ++z)

@@ -45,6 +45,8 @@ void World::Engine::release_all(std::uint32_t number) {
 /// Queues an event of this instant; the same event is not queued twice.
 void World::Engine::announce(const Event& event) {
   const auto same = [&](const Event& other) { return same_event(other, event); };
+  // A caller who kicks at a Zeno guard must not get the same one again at the same instant, for ever.
+  if (std::any_of(guards_told_.begin(), guards_told_.end(), same)) return;
   if (std::none_of(pending_.begin(), pending_.end(), same)) pending_.push_back(event);
 }
 
@@ -113,8 +115,10 @@ void World::Engine::take_effect(Event& event) {
       bodies_[first].touching_walls &= static_cast<std::uint8_t>(~wall_bit(event.wall));
       changed_.emplace_back(first, first);
       break;
-    case EventKind::bound_violation:
     case EventKind::zeno_guard:
+      guards_told_.push_back(event);
+      break;
+    case EventKind::bound_violation:
       break;
   }
 }

@@ -106,6 +106,7 @@ Result<std::optional<Event>> World::Engine::advance(double until, const Probe& p
       return std::optional<Event>();
     }
     time_ = schedule_.earliest().time;
+    guards_told_.clear();
     gathering_ = true;
   }
 }

@@ -109,7 +109,9 @@ class World::Engine {
   bool has_watch(std::uint32_t number, std::uint32_t partner) const;
   void watch(std::uint32_t number, std::uint32_t partner, double time);
   void unwatch(std::uint32_t number, std::uint32_t partner);
-  double guarded_step(double certificate, double acceleration, const Event& now);
+  double guarded_step(double certificate, double speed_error, double acceleration, const Event& now);
+  bool is_far_from_change(std::uint32_t a, std::uint32_t b, bool touching) const;
+  bool is_far_from_walls(std::uint32_t body) const;
 
   // probing.cpp: reports.
   Result<void> probe(std::span<const std::uint32_t> numbers);
@@ -140,7 +142,8 @@ class World::Engine {
   std::vector<std::uint32_t> dirty_;
   /// Pairs (a body and itself: its walls) whose contact has just changed, so that no fact holds.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> changed_;
-  std::vector<Event> pending_;  ///< events of this instant that are still to be delivered
+  std::vector<Event> pending_;      ///< events of this instant that are still to be delivered
+  std::vector<Event> guards_told_;  ///< Zeno guards of this instant that have been delivered
   Counters counters_;
   bool gathering_ = false;        ///< not all of them have been found: a probe gave a bad answer
   const Probe* probe_ = nullptr;  ///< during advance()

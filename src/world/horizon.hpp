@@ -13,7 +13,8 @@ namespace kinesphere {
 /// registration_cost / (8 density).
 class Horizon {
  public:
-  explicit Horizon(double first_way) : way_(first_way), longest_way_(first_way * 0x1p20) {}
+  /// `longest_way` (length) is for a body that is alone.
+  Horizon(double first_way, double longest_way) : way_(first_way), longest_way_(longest_way) {}
 
   /// Learns from a search with a box of this extent, and chooses the next way.
   void learn(std::size_t candidates, double box_extent, double body_width) {
@@ -32,17 +33,17 @@ class Horizon {
 
   /// The horizon (time) of a body with this speed and acceleration.
   double length(double speed, double acceleration) const {
-    return 2.0 * way_ / (speed + std::sqrt(speed * speed + 2.0 * acceleration * way_) + slowest);
+    return std::min(2.0 * way_ / (speed + std::sqrt(speed * speed + 2.0 * acceleration * way_)), longest);
   }
 
  private:
   static constexpr double registration_cost = 4.0;
   static constexpr double learning_rate = 0.25;
-  /// Keeps the horizon of a body at rest finite.
-  static constexpr double slowest = 0x1p-40;
+  /// For a body at rest, in any unit of time: its horizon must be finite.
+  static constexpr double longest = 0x1p100;
 
   double way_;
-  double longest_way_;  ///< for a body that is alone
+  double longest_way_;
   double density_ = 0.0;
 };
 

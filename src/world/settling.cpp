@@ -109,9 +109,10 @@ void World::Engine::choose_first_horizons(const std::vector<std::uint32_t>& roun
   if (count == 0) return;
   const Vec3 size = upper - lower;
   const double spacing = std::ldexp(std::max({size.x, size.y, size.z}), -std::ilogb(count) / 3);
-  const double way = spacing > 0.0 ? 0.25 * spacing : 1.0;
+  const double way = spacing > 0.0 ? 0.25 * spacing : definition_.contact_tolerance;
   for (const std::uint32_t number : round)
-    if (!bodies_[number].horizon) bodies_[number].horizon.emplace(way);
+    if (!bodies_[number].horizon)
+      bodies_[number].horizon.emplace(way, 0x1p40 * definition_.contact_tolerance);
 }
 
 void World::Engine::register_box(std::uint32_t number) {
@@ -159,7 +160,7 @@ Result<void> World::Engine::settle_pair(std::uint32_t number, std::uint32_t part
       const double time = touching
                               ? earliest_separation(a.bound, b.bound, time_, infinity, rule_.release_gap())
                               : earliest_meeting(a.bound, b.bound, time_, std::min(a.box_end, b.box_end));
-      if (time > time_) {
+      if (time > time_ && (time == infinity || is_far_from_change(number, partner, touching))) {
         watch(number, partner, time);
         return {};
       }
@@ -186,16 +187,33 @@ Result<void> World::Engine::settle_pair(std::uint32_t number, std::uint32_t part
     } else {
       time = earliest_meeting(a.bound, b.bound, time_, std::min(a.box_end, b.box_end),
                               rule_.guarded_gap(now.gap));
-      time = guarded_step(time, a.largest_acceleration() + b.largest_acceleration(), now);
+      time = guarded_step(time, a.definition.velocity_error + b.definition.velocity_error,
+                          a.largest_acceleration() + b.largest_acceleration(), now);
     }
     watch(number, partner, std::max(time, just_after(time_)));
     return {};
   }
 }
 
+/// True when the bounds as they are keep away from where the contact changes. If they do not, a certificate
+/// may be as short as one likes, and a second report is better: with two the rule decides, or the certificate
+/// spans a tolerance.
+bool World::Engine::is_far_from_change(std::uint32_t a, std::uint32_t b, bool touching) const {
+  const GapLimits gap = gap_limits(bodies_[a].bound, bodies_[b].bound, time_);
+  return touching ? gap.upper < rule_.separation_distance() : gap.lower > definition_.contact_tolerance;
+}
+
+/// As above, for a body that touches no wall.
+bool World::Engine::is_far_from_walls(std::uint32_t number) const {
+  const Vec3 tolerance = Vec3{1.0, 1.0, 1.0} * definition_.contact_tolerance;
+  const Box inner{definition_.box->lower + tolerance, definition_.box->upper - tolerance};
+  return earliest_exit(bodies_[number].bound, inner, time_, infinity) > time_;
+}
+
 /// The Zeno guard: makes sure that time moves on between two looks at a contact that does not approach.
-double World::Engine::guarded_step(double certificate, double acceleration, const Event& now) {
-  const double least = time_ + rule_.least_step(now.gap, acceleration);
+double World::Engine::guarded_step(double certificate, double speed_error, double acceleration,
+                                   const Event& now) {
+  const double least = time_ + rule_.least_step(now.gap, speed_error, acceleration);
   if (certificate >= least) return certificate;
   ++counters_.zeno_steps;
   if (rule_.step_breaks_tolerance(now.gap)) announce(now);
@@ -213,7 +231,8 @@ Result<void> World::Engine::settle_walls(std::uint32_t number) {
     if (body.dirty) return {};
     body.wall_time =
         body.touching_walls != 0 ? time_ : earliest_exit(body.bound, *definition_.box, time_, body.box_end);
-    if (body.wall_time > time_) return {};
+    if (body.wall_time == infinity) return {};
+    if (body.wall_time > time_ && is_far_from_walls(number)) return {};
     if (body.fresh(time_)) break;
     if (auto probed = probe(std::span(&number, 1)); !probed) return probed;
   }
@@ -238,7 +257,7 @@ Result<void> World::Engine::settle_walls(std::uint32_t number) {
       time = earliest_separation(body.bound, inside, time_, body.box_end, rule_.release_gap());
     } else {
       time = earliest_meeting(body.bound, inside, time_, body.box_end, rule_.guarded_gap(now.gap));
-      time = guarded_step(time, body.largest_acceleration(), now);
+      time = guarded_step(time, body.definition.velocity_error, body.largest_acceleration(), now);
     }
     first = std::min(first, std::max(time, just_after(time_)));
   }

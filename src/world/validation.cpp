@@ -15,7 +15,7 @@ constexpr double magnitude_limit = 1e100;
 constexpr double tolerance_limit = 1e20;
 
 /// Lengths reach this many contact tolerances: then the rounding of a certificate stays well within one.
-double coordinate_limit(const WorldDefinition& world) { return 0x1p44 * world.contact_tolerance; }
+double coordinate_limit(const WorldDefinition& world) { return 0x1p41 * world.contact_tolerance; }
 
 }  // namespace
 

@@ -45,9 +45,9 @@ Result<World> World::create(const WorldDefinition& definition) {
 Result<void> World::check_alive(BodyId body, std::string_view call) const {
   const auto& table = engine_->table();
   // A free index has the generation that its next body will have.
-  const bool known = body.index < table.size() && (body.generation < table[body.index].generation ||
-                                                   (body.generation == table[body.index].generation &&
-                                                    table[body.index].alive));
+  const bool known = body.index < table.size() &&
+                     (body.generation < table[body.index].generation ||
+                      (body.generation == table[body.index].generation && table[body.index].alive));
   if (!known) {
     return Error{ErrorCode::unknown_body, "body", body,
                  std::string(call) + ": " + text_of(body) + " was never in this world"};

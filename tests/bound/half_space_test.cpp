@@ -31,9 +31,17 @@ WallCase draw(const Family& family, Random& random, bool inside) {
     c.wall.normal = {};
     c.wall.normal[static_cast<int>(random.bits() % 3)] = chance(random, 0.5) ? 1.0 : -1.0;
   }
+  const bool alongside = chance(random, 0.2) && norm(c.bound.velocity) > 0.0;
+  if (alongside) {
+    // What is left of the velocity across the plane is mere rounding.
+    c.bound.planned_acceleration = {};
+    const Vec3 along = c.bound.velocity / norm(c.bound.velocity);
+    const Vec3 across = c.wall.normal - along * dot(along, c.wall.normal);
+    if (norm(across) > 0.01) c.wall.normal = across / norm(across);
+  }
   const Vec3 now = c.bound.centre_at(c.from);
   const double later = c.from + (c.horizon - c.from) * random.uniform();
-  const double room = c.bound.radius_at(later) + norm(c.bound.centre_at(later) - now);
+  const double room = c.bound.radius_at(later) + (alongside ? 0.0 : norm(c.bound.centre_at(later) - now));
   const double gap = room * random.uniform() * (chance(random, 0.2) ? log_uniform(random, -50, -1) : 1.0);
   if (inside) {
     c.wall.offset = dot(c.wall.normal, now) - c.bound.radius_at(c.from) - c.distance - gap;

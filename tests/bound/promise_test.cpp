@@ -186,7 +186,7 @@ TEST_P(Promise, keeps_pairs_together_before_their_earliest_separation) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Habits, Promise, testing::ValuesIn(habits),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& habit) { return std::string(habit.param.name); });
 
 /// The certificate could not be later: bodies that attack each other on a line meet just then.
 TEST(PromiseOnALine, is_used_up_by_the_worst_behaviour) {

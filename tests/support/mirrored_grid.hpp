@@ -1,0 +1,56 @@
+// A hash grid beside a plain list of boxes that is told the same, and what can be asked of both.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "space/hash_grid.hpp"
+
+namespace kinesphere {
+
+class MirroredGrid {
+ public:
+  void set(std::uint32_t body, const Box& box) {
+    grid_.set(body, box);
+    boxes_[body] = box;
+  }
+  void remove(std::uint32_t body) {
+    grid_.remove(body);
+    boxes_.erase(body);
+  }
+
+  /// Each body whose box, in single precision, overlaps is visited, once, and nobody else.
+  testing::AssertionResult same_overlaps(const Box& query) const {
+    std::vector<std::uint32_t> visited;
+    grid_.for_each_overlap(query, [&](std::uint32_t body) { visited.push_back(body); });
+    std::sort(visited.begin(), visited.end());
+    std::vector<std::uint32_t> expected;
+    for (const auto& [body, box] : boxes_)
+      if (FloatBox(box).overlaps(FloatBox(query))) expected.push_back(body);
+    if (visited == expected) return testing::AssertionSuccess();
+    return testing::AssertionFailure() << "visited " << testing::PrintToString(visited) << " instead of "
+                                       << testing::PrintToString(expected);
+  }
+
+  /// The registrations are as the grid promises.
+  testing::AssertionResult well_registered() const {
+    if (grid_.size() != boxes_.size())
+      return testing::AssertionFailure() << grid_.size() << " bodies instead of " << boxes_.size();
+    for (const auto& [body, box] : boxes_)
+      if (const auto problem = grid_.check(body, box))
+        return testing::AssertionFailure() << "body " << body << " " << *problem;
+    return testing::AssertionSuccess();
+  }
+
+  const HashGrid& grid() const { return grid_; }
+  const std::map<std::uint32_t, Box>& boxes() const { return boxes_; }
+
+ private:
+  HashGrid grid_;
+  std::map<std::uint32_t, Box> boxes_;
+};
+
+}  // namespace kinesphere

@@ -1,0 +1,151 @@
+// A world together with bodies whose true motion is known: each has a constant acceleration between changes.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <ostream>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "kinesphere/random.hpp"
+#include "kinesphere/scene.hpp"
+#include "kinesphere/world.hpp"
+
+namespace kinesphere {
+
+inline std::ostream& operator<<(std::ostream& out, const BodyId& id) {
+  return out << id.index << "." << id.generation;
+}
+
+inline std::ostream& operator<<(std::ostream& out, const Event& e) {
+  out << std::hexfloat << e.time << std::defaultfloat << " (" << e.time << ") " << name_of(e.kind) << " "
+      << e.first << " " << e.second << " " << name_of(e.wall);
+  return out << " gap " << e.gap << " approach " << e.approach_speed << (e.repeated ? " repeated" : "");
+}
+
+inline std::ostream& operator<<(std::ostream& out, const std::vector<Event>& events) {
+  for (const Event& event : events) out << "\n  " << event;
+  return out;
+}
+
+/// The true motion since the last change.
+struct Course {
+  double since = 0.0;
+  State state{};
+  Vec3 acceleration{};
+
+  State at(double t) const {
+    const double s = t - since;
+    return {state.position + (state.velocity + acceleration * (0.5 * s)) * s,
+            state.velocity + acceleration * s};
+  }
+};
+
+class Playground {
+ public:
+  explicit Playground(const WorldDefinition& definition = {}) : world(World::create(definition).value()) {}
+
+  /// The body moves with `acceleration`, or with its plan when none is given.
+  BodyId add(const BodyDefinition& body, std::optional<Vec3> acceleration = std::nullopt) {
+    const BodyId id = world.add(body).value();
+    if (id.index >= courses_.size()) courses_.resize(id.index + 1);
+    courses_[id.index] = {
+        world.time(), {body.position, body.velocity}, acceleration.value_or(body.planned_acceleration)};
+    return id;
+  }
+
+  State state(BodyId id, double t) const { return courses_[id.index].at(t); }
+  State state(BodyId id) const { return state(id, world.time()); }
+
+  /// Changes the true velocity and tells the world.
+  void kick(BodyId id, const Vec3& velocity) {
+    set_velocity(id, velocity);
+    world.kick(id, velocity).value();
+  }
+
+  /// Changes the true motion behind the world's back. A new acceleration within the promise is legitimate.
+  void set_velocity(BodyId id, const Vec3& velocity) {
+    restart(id);
+    courses_[id.index].state.velocity = velocity;
+  }
+  void set_position(BodyId id, const Vec3& position) {
+    restart(id);
+    courses_[id.index].state.position = position;
+  }
+  void steer(BodyId id, const Vec3& acceleration) {
+    restart(id);
+    courses_[id.index].acceleration = acceleration;
+  }
+
+  auto probe() {
+    return [this](std::span<const BodyId> ids, double time, std::span<State> states) {
+      for (std::size_t k = 0; k < ids.size(); ++k) {
+        states[k] = state(ids[k], time);
+        if (distort) distort(ids[k], time, states[k]);
+      }
+    };
+  }
+
+  std::optional<Event> advance(double until) {
+    auto event = world.advance(until, probe()).value();
+    if (event) hash.add(*event);
+    return event;
+  }
+
+  /// All events up to `until`, `answer` being called at each.
+  std::vector<Event> run(double until, const std::function<void(const Event&)>& answer = {},
+                         std::size_t at_most = 100000) {
+    std::vector<Event> events;
+    while (const auto event = advance(until)) {
+      events.push_back(*event);
+      if (answer) answer(*event);
+      if (events.size() >= at_most) {
+        ADD_FAILURE() << at_most << " events by time " << event->time << ", the last " << *event;
+        break;
+      }
+    }
+    return events;
+  }
+
+  /// The distance between the true surfaces (errors left out).
+  double gap(BodyId a, BodyId b, double t) const {
+    return norm(state(a, t).position - state(b, t).position) - radius(a) - radius(b);
+  }
+  double gap(BodyId a, BodyId b) const { return gap(a, b, world.time()); }
+  double radius(BodyId id) const { return world.body(id).value().definition.radius; }
+
+  World world;
+  EventHash hash;
+  /// Applied to each report.
+  std::function<void(BodyId, double, State&)> distort;
+
+ private:
+  void restart(BodyId id) {
+    Course& course = courses_[id.index];
+    course.state = course.at(world.time());
+    course.since = world.time();
+  }
+
+  std::vector<Course> courses_;  ///< by index
+};
+
+inline std::vector<Event> of_kind(const std::vector<Event>& events, EventKind kind) {
+  std::vector<Event> found;
+  for (const Event& event : events)
+    if (event.kind == kind) found.push_back(event);
+  return found;
+}
+
+/// Nothing that audit() finds.
+inline testing::AssertionResult is_clean(const World& world) {
+  const auto finding = world.audit();
+  if (!finding) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "audit at time " << world.time() << ": " << finding->where << ": "
+                                     << finding->what;
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,241 @@
+// Probes that answer wrongly: the call fails and may be repeated, and then everything is as if it had not.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+
+#include "support/playground.hpp"
+
+namespace kinesphere {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+using Spoil = std::function<void(std::span<const BodyId>, std::span<State>)>;
+
+/// A crowd in which much happens at once: several bodies are probed at one instant.
+void populate(Playground& p) {
+  Random random(99);
+  for (int k = 0; k < 60; ++k)
+    p.add({.radius = 0.35,
+           .acceleration_limit = 5,
+           .position = {1.0 + 2.0 * (k % 4), 1.0 + 2.0 * (k / 4 % 4), 1.0 + 2.0 * (k / 16)},
+           .velocity = 3.0 * random.point_in_ball()},
+          4.9 * random.point_in_ball());
+  // Mirror images, whose contacts come at the very same time.
+  for (const double sign : {-1.0, 1.0}) {
+    p.add({.radius = 0.5, .position = {sign * 20, 0, 0}, .velocity = {-sign, 0, 0}});
+    p.add({.radius = 0.5, .position = {sign * 22, 0, 0}, .velocity = {-3 * sign, 0, 0}});
+  }
+}
+
+/// Runs the crowd; `spoil`, if any, ruins the answer to every third question at first.
+std::vector<Event> run(ContactMode mode, const Spoil& spoil, std::uint64_t& failures) {
+  Playground p({.contacts = mode});
+  populate(p);
+  std::vector<Event> events;
+  int question = 0;
+  bool ruin = false;
+  const auto good = p.probe();
+  const auto probe = [&](std::span<const BodyId> ids, double time, std::span<State> states) {
+    good(ids, time, states);
+    ruin = !ruin && question++ % 3 == 0;
+    if (spoil && ruin) spoil(ids, states);
+  };
+  for (;;) {
+    auto result = p.world.advance(2.0, probe);
+    if (!result) {
+      ++failures;
+      EXPECT_LE(p.world.time(), 2.0);
+      continue;
+    }
+    if (!*result) break;
+    const Event event = **result;
+    events.push_back(event);
+    if (event.kind == EventKind::contact_begin && event.approach_speed > 0) {
+      p.kick(event.first, event.first_state.velocity - event.normal * event.approach_speed);
+      p.kick(event.second, event.second_state.velocity + event.normal * event.approach_speed);
+    }
+  }
+  EXPECT_TRUE(is_clean(p.world));
+  return events;
+}
+
+class BadProbe : public testing::TestWithParam<ContactMode> {};
+
+TEST_P(BadProbe, RepeatingTheCallGivesTheSameEvents) {
+  std::uint64_t failures = 0;
+  const std::vector<Event> expected = run(GetParam(), {}, failures);
+  ASSERT_EQ(failures, 0u);
+  ASSERT_GT(expected.size(), 20u);
+  const std::vector<std::pair<const char*, Spoil>> ways{
+      {"NaN in the last answer", [](auto, auto states) { states.back().position.y = nan; }},
+      {"an infinite velocity in the first",
+       [](auto, auto states) { states.front().velocity.z = -1.0 / 0.0; }},
+      {"too far away", [](auto, auto states) { states[states.size() / 2].position.x = 1e30; }},
+      {"only the first half",
+       [](auto, auto states) {
+         for (std::size_t k = states.size() / 2; k < states.size(); ++k)
+           states[k] = {{nan, nan, nan}, {nan, nan, nan}};
+       }},
+  };
+  for (const auto& [what, spoil] : ways) {
+    SCOPED_TRACE(what);
+    failures = 0;
+    const std::vector<Event> found = run(GetParam(), spoil, failures);
+    EXPECT_GT(failures, 20u);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      ASSERT_EQ(found[k].time, expected[k].time) << "\n" << found[k] << "\n" << expected[k];
+      ASSERT_EQ(found[k].kind, expected[k].kind);
+      ASSERT_EQ(found[k].first, expected[k].first) << "\n" << found[k] << "\n" << expected[k];
+      ASSERT_EQ(found[k].second, expected[k].second) << "\n" << found[k] << "\n" << expected[k];
+      ASSERT_EQ(found[k].gap, expected[k].gap);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, BadProbe, testing::Values(ContactMode::begin_and_end, ContactMode::impacts),
+                         [](const auto& mode) {
+                           return mode.param == ContactMode::impacts ? "Impacts" : "BeginAndEnd";
+                         });
+
+TEST(BadAnswer, NamesTheBodyTheTimeAndWhy) {
+  Playground p;
+  p.add({.radius = 1});
+  const BodyId culprit = p.add({.radius = 1, .position = {10, 0, 0}, .velocity = {-1, 0, 0}});
+  p.distort = [&](BodyId id, double, State& state) {
+    if (id == culprit) state.velocity = {0, nan, 0};
+  };
+  const auto result = p.world.advance(20.0, p.probe());
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::not_finite);
+  EXPECT_EQ(result.error().argument, "velocity");
+  EXPECT_EQ(result.error().body, culprit);
+  EXPECT_NE(result.error().message.find("probe"), std::string::npos) << result.error().message;
+  EXPECT_NE(result.error().message.find("body 1"), std::string::npos) << result.error().message;
+  // The first answers are the definitions; the bodies meet later, and only then matters the bad answer.
+  p.distort = {};
+  EXPECT_EQ(p.run(20.0).size(), 2u);
+}
+
+TEST(BadAnswer, ProbeThatDoesNotAnswerIsToldSo) {
+  Playground p;
+  p.add({.velocity = {1, 0, 0}});
+  const auto silent = [](std::span<const BodyId>, double, std::span<State>) {};
+  const auto result = p.world.advance(1e7, silent);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::not_finite);
+  EXPECT_EQ(result.error().argument, "position");
+}
+
+TEST(BadAnswer, BodyMayBeRemovedInstead) {
+  Playground p;
+  const BodyId lost = p.add({.radius = 1, .velocity = {1, 0, 0}});
+  const BodyId a = p.add({.radius = 1, .position = {50, 50, 0}, .velocity = {0, -1, 0}});
+  const BodyId b = p.add({.radius = 1, .position = {50, 40, 0}});
+  p.distort = [&](BodyId id, double, State& state) {
+    if (id == lost) state.position.x = nan;
+  };
+  std::vector<Event> events;
+  bool removed = false;
+  for (;;) {
+    auto result = p.world.advance(1000.0, p.probe());
+    if (!result) {
+      ASSERT_FALSE(removed);
+      EXPECT_EQ(result.error().body, lost);
+      p.world.remove(lost).value();
+      removed = true;
+      continue;
+    }
+    if (!*result) break;
+    events.push_back(**result);
+  }
+  EXPECT_TRUE(removed);
+  ASSERT_EQ(events.size(), 2u) << events;
+  EXPECT_EQ(events[0].first, a);
+  EXPECT_EQ(events[0].second, b);
+  EXPECT_EQ(p.world.time(), 1000.0);
+}
+
+TEST(BadAnswer, KicksAndNewBodiesBeforeTheRepetitionCount) {
+  Playground p;
+  const BodyId a = p.add({.radius = 1, .acceleration_limit = 1, .velocity = {1, 0, 0}});
+  bool fail = false;
+  p.distort = [&](BodyId, double, State& state) {
+    if (fail) state.position.x = nan;
+  };
+  p.run(1.0);
+  fail = true;
+  ASSERT_FALSE(p.world.advance(100.0, p.probe()));
+  fail = false;
+  p.kick(a, {0, 1, 0});
+  const Vec3 there = p.state(a).position;
+  p.add({.radius = 1, .position = there + Vec3{0, 5, 0}});
+  p.steer(a, {0, 0, 0});
+  const double time = p.world.time();
+  const auto events = p.run(time + 100.0);
+  ASSERT_EQ(events.size(), 2u) << events;
+  EXPECT_NEAR(events[0].time, time + 3.0, 1e-5);
+}
+
+TEST(Probe, MayNotCallTheWorldThatAskedIt) {
+  Playground p;
+  const BodyId a = p.add({.velocity = {1, 0, 0}});
+  p.add({.position = {9, 0, 0}});
+  int asked = 0;
+  const auto good = p.probe();
+  const auto probe = [&](std::span<const BodyId> ids, double time, std::span<State> states) {
+    ++asked;
+    const auto refused = [](const auto& result, std::string_view call) {
+      ASSERT_FALSE(result);
+      EXPECT_EQ(result.error().code, ErrorCode::probe_in_progress);
+      EXPECT_EQ(result.error().message.rfind(call, 0), 0u) << result.error().message;
+    };
+    refused(p.world.add(BodyDefinition{}), "add");
+    refused(p.world.add(std::vector<BodyDefinition>(2)), "add");
+    refused(p.world.remove(a), "remove");
+    refused(p.world.kick(a, {}), "kick");
+    refused(p.world.advance(1e9, p.probe()), "advance");
+    EXPECT_TRUE(p.world.contains(a));
+    EXPECT_EQ(p.world.size(), 2u);
+    good(ids, time, states);
+  };
+  int events = 0;
+  while (p.world.advance(20.0, probe).value()) ++events;
+  EXPECT_EQ(events, 2);
+  EXPECT_GT(asked, 0);
+  EXPECT_TRUE(p.world.add({.position = {0, 99, 0}}));
+}
+
+TEST(Probe, ThatThrowsLeavesAWorldThatGoesOn) {
+  Playground p;
+  for (int k = 0; k < 8; ++k)
+    p.add({.radius = 0.5,
+           .acceleration_limit = 1,
+           .position = {4.0 * k, 0, 0},
+           .velocity = {k < 4 ? 1.0 : -1.0, 0, 0}},
+          Vec3{});
+  int question = 0;
+  const auto good = p.probe();
+  const auto moody = [&](std::span<const BodyId> ids, double time, std::span<State> states) {
+    if (question++ % 2 == 0) throw std::runtime_error("no connection");
+    good(ids, time, states);
+  };
+  std::size_t begins = 0;
+  for (;;) {
+    try {
+      auto event = p.world.advance(10.0, moody).value();
+      if (!event) break;
+      if (event->kind == EventKind::contact_begin) ++begins;
+    } catch (const std::runtime_error&) {
+      ASSERT_LT(question, 100000);
+    }
+  }
+  EXPECT_EQ(begins, 13u)
+      << "each of the 4 from the left meets each of the 4 from the right that is near enough";
+}
+
+}  // namespace
+}  // namespace kinesphere

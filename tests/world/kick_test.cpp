@@ -1,0 +1,130 @@
+// Kicks: of bodies just probed and not, in contact and free, and of several at one stop.
+#include <gtest/gtest.h>
+
+#include "support/playground.hpp"
+
+namespace kinesphere {
+namespace {
+
+TEST(Kick, OfABodyNotProbedForLongAsksFirst) {
+  Playground p;
+  const BodyId a = p.add({.radius = 1, .acceleration_limit = 1, .velocity = {1, 0, 0}}, Vec3{0, 0.9, 0});
+  p.run(0.125);
+  // Where the world thinks it is, nobody is: only its bound holds it.
+  const Vec3 there = p.state(a).position;
+  p.kick(a, {0, 0, 100});
+  p.steer(a, {});
+  p.add({.radius = 1, .position = there + Vec3{0, 0, 50}});
+  bool asked_at_once = false;
+  p.distort = [&](BodyId id, double time, State&) { asked_at_once |= id == a && time == 0.125; };
+  const auto events = p.run(10.0);
+  EXPECT_TRUE(asked_at_once);
+  ASSERT_EQ(events.size(), 2u) << events;
+  EXPECT_NEAR(events[0].time, 0.125 + 0.48, 1e-6);
+}
+
+TEST(Kick, DoesNotTrustTheVelocityOfTheKickForAStaleBody) {
+  // The probe is right and the velocity handed to kick() wrong: the report counts, and is no violation.
+  Playground p;
+  const BodyId a = p.add({.radius = 1, .velocity = {1, 0, 0}});
+  p.add({.radius = 1, .position = {0.5, 0, 20}});
+  p.run(0.5);
+  p.set_velocity(a, {0, 0, 10});
+  p.world.kick(a, {0, 0, -10}).value();
+  const auto events = p.run(10.0);
+  ASSERT_EQ(events.size(), 2u) << events;
+  EXPECT_NEAR(events[0].time, 0.5 + 1.8, 1e-6);
+}
+
+TEST(Kick, LastOfSeveralAtOneStopCounts) {
+  Playground p;
+  const BodyId a = p.add({.radius = 1});
+  p.add({.radius = 1, .position = {10, 0, 0}});
+  p.add({.radius = 1, .position = {0, 10, 0}});
+  p.run(1.0);
+  p.kick(a, {0, 100, 0});
+  p.kick(a, {-100, 0, 0});
+  p.kick(a, {4, 0, 0});
+  const auto events = p.run(4.0);
+  ASSERT_EQ(events.size(), 1u) << events;
+  EXPECT_NEAR(events[0].time, 3.0, 1e-6);
+  EXPECT_EQ(events[0].second.index, 1u);
+}
+
+TEST(Kick, OfABodyFarFromTheEventCounts) {
+  Playground p;
+  const BodyId idle = p.add({.radius = 1, .acceleration_limit = 0.1, .position = {500, 0, 0}}, Vec3{});
+  const BodyId target = p.add({.radius = 1, .acceleration_limit = 0.1, .position = {500, 50, 0}}, Vec3{});
+  p.add({.radius = 1});
+  p.add({.radius = 1, .position = {10, 0, 0}, .velocity = {-4, 0, 0}});
+  std::vector<Event> hits;
+  for (const Event& event : p.run(20.0, [&](const Event& event) {
+         if (event.kind == EventKind::contact_begin && event.first != idle) p.kick(idle, {0, 1000, 0});
+       }))
+    if (event.first == idle) hits.push_back(event);
+  ASSERT_EQ(hits.size(), 2u) << hits;
+  EXPECT_EQ(hits[0].second, target);
+  EXPECT_NEAR(hits[0].time, 2.048, 1e-6);
+}
+
+TEST(Kick, InContactKeepsTheContactUntilTheyAreApart) {
+  Playground p;
+  const BodyId a = p.add({.radius = 1, .position = {-2, 0, 0}, .velocity = {1, 0, 0}});
+  const BodyId b = p.add({.radius = 1, .position = {1, 0, 0}});
+  int kicks = 0;
+  const auto events = p.run(10.0, [&](const Event& event) {
+    if (event.kind == EventKind::contact_begin && kicks++ == 0) p.kick(a, {-1, 0, 0});
+  });
+  ASSERT_EQ(events.size(), 2u) << events;
+  EXPECT_EQ(events[1].kind, EventKind::contact_end);
+  EXPECT_NEAR(events[1].time, 1.0, 1e-4);
+  EXPECT_GE(p.gap(a, b, events[1].time), 4e-6 - 1e-12);
+  EXPECT_LE(p.gap(a, b, events[1].time), 5e-6 + 1e-12);
+}
+
+TEST(Kick, BackAndForthInContactIsOneContact) {
+  Playground p;
+  const BodyId a = p.add({.radius = 1});
+  const BodyId b = p.add({.radius = 1, .position = {1, 0, 0}});
+  EXPECT_EQ(p.run(0.0).size(), 1u);
+  for (int k = 1; k <= 20; ++k) {
+    p.kick(a, {k % 2 == 0 ? 3.0 : -3.0, 0, 0});
+    if (k % 3 == 0) p.kick(b, {0, 0, 0});
+    EXPECT_TRUE(p.run(0.1 * k).empty());
+  }
+  EXPECT_TRUE(is_clean(p.world));
+}
+
+TEST(Kick, AtTheStartBeforeAnyAdvanceCounts) {
+  Playground p({.start_time = 100.0});
+  const BodyId a = p.add({.radius = 1, .velocity = {-5, 0, 0}});
+  p.add({.radius = 1, .position = {10, 0, 0}});
+  p.kick(a, {8, 0, 0});
+  const auto event = p.advance(200.0);
+  ASSERT_TRUE(event);
+  EXPECT_NEAR(event->time, 101.0, 1e-6);
+}
+
+TEST(Kick, EveryStopWithoutTimeGoingOnTerminates) {
+  // A caller that kicks at every stop, with nothing else to do.
+  Playground p;
+  const BodyId a = p.add({.radius = 1, .acceleration_limit = 1}, Vec3{});
+  for (int k = 0; k < 100; ++k) {
+    p.kick(a, {0.01 * k, 0, 0});
+    EXPECT_FALSE(p.advance(0.0));
+  }
+  EXPECT_LE(p.world.counters().probes, 100u);
+}
+
+TEST(Kick, IsExemptFromTheVelocityPromise) {
+  Playground p;
+  const BodyId a = p.add({.radius = 1, .acceleration_limit = 0.5, .velocity = {1, 2, 3}}, Vec3{});
+  for (int k = 1; k < 20; ++k) {
+    EXPECT_TRUE(p.run(0.37 * k).empty());
+    p.kick(a, {100.0 * (k % 3), -50.0, 7.0 * k});
+  }
+  EXPECT_EQ(p.world.counters().count(EventKind::bound_violation), 0u);
+}
+
+}  // namespace
+}  // namespace kinesphere

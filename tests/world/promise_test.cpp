@@ -1,0 +1,203 @@
+// Reports with errors, and promises that are broken.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "support/playground.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// Deterministic noise within the errors, different for each report.
+void add_noise(Playground& p) {
+  p.distort = [&p](BodyId id, double time, State& state) {
+    const BodyDefinition promise = p.world.body(id).value().definition;
+    Random random = Random::at(17, id.index, static_cast<std::uint64_t>((time + 1000.0) * 1e9));
+    state.position += 0.999999 * promise.position_error * random.unit_vector();
+    state.velocity += 0.999999 * promise.velocity_error * random.unit_vector();
+  };
+}
+
+class Noise : public testing::TestWithParam<std::tuple<double, double, ContactMode>> {};
+
+TEST_P(Noise, HidesNoTrueContactAndIsNoViolation) {
+  const auto [e0, e1, mode] = GetParam();
+  const double eps = 1e-3;
+  Playground p({.box = Box{{0, 0, 0}, {12, 12, 12}},
+                .contact_tolerance = eps,
+                .separation_distance = 4 * eps + 4 * e0,
+                .contacts = mode});
+  add_noise(p);
+  Random random(5);
+  std::vector<BodyId> ids;
+  for (int k = 0; k < 40; ++k)
+    ids.push_back(p.add({.radius = random.uniform(0.2, 0.6),
+                         .acceleration_limit = 3,
+                         .position_error = e0,
+                         .velocity_error = e1,
+                         .position = {random.uniform(1, 11), random.uniform(1, 11), random.uniform(1, 11)},
+                         .velocity = 3.0 * random.point_in_ball()},
+                        2.9 * random.point_in_ball()));
+  std::set<std::pair<BodyId, BodyId>> touching;
+  std::size_t begins = 0;
+  for (int tick = 1; tick <= 60 && !HasFailure(); ++tick) {
+    p.run(0.05 * tick, [&](const Event& event) {
+      if (event.kind == EventKind::contact_begin) touching.insert({event.first, event.second}), ++begins;
+      if (event.kind == EventKind::contact_end) touching.erase({event.first, event.second});
+    });
+    if (mode == ContactMode::impacts) touching.clear();
+    for (std::size_t a = 0; a < ids.size(); ++a)
+      for (std::size_t b = a + 1; b < ids.size(); ++b)
+        if (mode == ContactMode::begin_and_end && !touching.contains({ids[a], ids[b]})) {
+          ASSERT_GE(p.gap(ids[a], ids[b]), -eps) << ids[a] << " " << ids[b];
+        }
+    for (const BodyId id : ids) {
+      // They turn back by themselves before they leave the box.
+      const State state = p.state(id);
+      Vec3 towards = Vec3{6, 6, 6} - state.position - state.velocity;
+      const double length = norm(towards);
+      if (length > 2.9) towards *= 2.9 / length;
+      p.steer(id, towards);
+    }
+  }
+  EXPECT_GT(begins, 20u);
+  EXPECT_EQ(p.world.counters().count(EventKind::bound_violation), 0u);
+  EXPECT_TRUE(is_clean(p.world));
+}
+
+INSTANTIATE_TEST_SUITE_P(Errors, Noise,
+                         testing::Values(std::tuple(0.01, 0.0, ContactMode::begin_and_end),
+                                         std::tuple(0.0, 0.1, ContactMode::begin_and_end),
+                                         std::tuple(0.02, 0.2, ContactMode::begin_and_end),
+                                         std::tuple(0.1, 0.5, ContactMode::begin_and_end),
+                                         std::tuple(0.002, 0.01, ContactMode::impacts)));
+
+/// A body that breaks its promise while another waits for it.
+struct Breach {
+  Playground p;
+  BodyId culprit, witness;
+
+  explicit Breach(double limit = 1.0) {
+    culprit = p.add({.radius = 1, .acceleration_limit = limit, .velocity = {1, 0, 0}}, Vec3{});
+    witness = p.add({.radius = 1, .position = {0, 500, 0}});
+    p.run(5.0);
+  }
+
+  /// Events until 50 time units later.
+  std::vector<Event> run_on() { return p.run(p.world.time() + 50.0); }
+};
+
+TEST(BrokenPromise, TeleportIsReportedWithItsLength) {
+  Breach breach;
+  Playground& p = breach.p;
+  const BodyView before = p.world.body(breach.culprit).value();
+  const Vec3 target = p.state(breach.culprit).position + Vec3{0, 300, 0};
+  p.set_position(breach.culprit, target);
+  double reported_at = -1.0;
+  p.distort = [&](BodyId id, double time, State&) {
+    if (id == breach.culprit && reported_at < 0) reported_at = time;
+  };
+  const auto events = breach.run_on();
+  ASSERT_EQ(events.size(), 1u) << events;
+  EXPECT_EQ(events[0].kind, EventKind::bound_violation);
+  EXPECT_EQ(events[0].first, breach.culprit);
+  EXPECT_EQ(events[0].second, no_body);
+  EXPECT_EQ(events[0].time, reported_at) << "at the first report after it";
+  const double s = events[0].time - before.bound.time;
+  EXPECT_NEAR(events[0].position_excess, 300.0 - 0.5 * s * s, 1e-6);
+  EXPECT_EQ(events[0].velocity_excess, 0.0);
+  EXPECT_EQ(events[0].first_state, p.state(breach.culprit, events[0].time));
+  EXPECT_TRUE(is_clean(p.world));
+}
+
+TEST(BrokenPromise, JumpOfVelocityIsReportedWithItsSize) {
+  Breach breach;
+  Playground& p = breach.p;
+  const BodyView before = p.world.body(breach.culprit).value();
+  p.set_velocity(breach.culprit, {1, 20, 0});
+  const auto event = p.advance(50.0);
+  ASSERT_TRUE(event);
+  EXPECT_EQ(event->kind, EventKind::bound_violation);
+  const double s = event->time - before.bound.time;
+  EXPECT_NEAR(event->velocity_excess, 20.0 - s, 1e-6);
+  EXPECT_GE(event->position_excess, 0.0);
+  // The world goes on from the new report: they meet at (500 - 2) / 20 from t = 5, beside each other by now.
+  p.kick(breach.culprit, {0, 0, 0});
+  EXPECT_TRUE(p.run(100.0).empty());
+}
+
+TEST(BrokenPromise, AccelerationBeyondTheLimitIsReportedAndTheContactFound) {
+  Playground p;
+  p.add({.radius = 1, .acceleration_limit = 0.1, .velocity = {1, 0, 0}}, Vec3{0, 2, 0});
+  const BodyId target = p.add({.radius = 1, .position = {20, 400, 0}});
+  // With neighbours it is asked often enough to be caught early.
+  for (int k = 0; k < 20; ++k) p.add({.radius = 1, .position = {1.0 * k + 5.0, 1.0 * k * k, 0}});
+  const auto events = p.run(30.0);
+  const auto violations = of_kind(events, EventKind::bound_violation);
+  ASSERT_GE(violations.size(), 1u) << events;
+  EXPECT_GT(violations[0].velocity_excess, 0.0);
+  std::size_t begins = 0;
+  for (const Event& event : of_kind(events, EventKind::contact_begin))
+    if (event.second == target) {
+      ++begins;
+      EXPECT_NEAR(event.time, 19.96, 0.5);
+    }
+  EXPECT_EQ(begins, 1u) << events;
+  EXPECT_TRUE(is_clean(p.world));
+}
+
+TEST(BrokenPromise, TeleportIntoAndOutOfContactBeginsAndEndsIt) {
+  Breach breach;
+  Playground& p = breach.p;
+  p.set_velocity(breach.culprit, {1, 0, 0});
+  p.set_position(breach.culprit, {0, 499, 0});
+  auto events = p.run(p.world.time() + 0.0);
+  p.kick(breach.culprit, {0, 0, 0});  // makes the world ask at once
+  events = p.run(p.world.time() + 1.0);
+  ASSERT_EQ(events.size(), 2u) << events;
+  EXPECT_EQ(events[0].kind, EventKind::bound_violation);
+  EXPECT_EQ(events[1].kind, EventKind::contact_begin);
+  p.set_position(breach.culprit, {0, -100, 0});
+  p.kick(breach.culprit, {0, 0, 0});
+  events = p.run(p.world.time() + 1.0);
+  ASSERT_EQ(events.size(), 2u) << events;
+  EXPECT_EQ(events[0].kind, EventKind::bound_violation);
+  EXPECT_EQ(events[1].kind, EventKind::contact_end);
+  EXPECT_GT(events[1].gap, 500.0);
+  EXPECT_TRUE(is_clean(p.world));
+}
+
+TEST(BrokenPromise, SeveralAtOneInstantAreAllTold) {
+  Playground p;
+  std::vector<BodyId> ids;
+  for (int k = 0; k < 6; ++k) ids.push_back(p.add({.radius = 1, .position = {10.0 * k, 0, 0}}));
+  p.run(1.0);
+  for (const BodyId id : ids) {
+    p.set_position(id, p.state(id).position + Vec3{0, 0, 1000});
+    p.kick(id, {});
+  }
+  const auto events = p.run(2.0);
+  ASSERT_EQ(events.size(), 6u) << events;
+  for (std::size_t k = 0; k < 6; ++k) {
+    EXPECT_EQ(events[k].kind, EventKind::bound_violation);
+    EXPECT_EQ(events[k].first, ids[k]);
+    EXPECT_NEAR(events[k].position_excess, 1000.0, 1e-9);
+    EXPECT_EQ(events[k].velocity_excess, 0.0);
+  }
+}
+
+TEST(BrokenPromise, FaithfulReportsWithRoundingAreNone) {
+  for (const double place : {0.0, 1e3, 1e6, 2.19e6}) {
+    Playground p;
+    for (int k = 0; k < 10; ++k)
+      p.add({.radius = 0.5,
+             .planned_acceleration = {0, 0, -9.81},
+             .position = {place + 3.0 * k, -place, place},
+             .velocity = {0.1 * k, 12.3, 45.6}});
+    EXPECT_TRUE(p.run(20.0).empty()) << place;
+  }
+}
+
+}  // namespace
+}  // namespace kinesphere
