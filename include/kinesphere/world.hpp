@@ -27,7 +27,6 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -41,36 +40,9 @@
 #include "kinesphere/event.hpp"
 #include "kinesphere/probe.hpp"
 #include "kinesphere/result.hpp"
+#include "kinesphere/world_definition.hpp"
 
 namespace kinesphere {
-
-/// Which contacts are reported.
-enum class ContactMode {
-  /// Each contact has a begin and an end.
-  begin_and_end,
-  /// For bodies that bounce: a begin whenever two bodies touch and approach, and no ends. Once a kick
-  /// has turned them apart the next approach is a new contact, however small the gap was in between.
-  impacts,
-};
-
-struct WorldDefinition {
-  /// The walls. Without a box the world is unbounded.
-  std::optional<Box> box{};
-  /// eps > 0 (length): a contact begins at a time when the true gap is at most eps, and no gap
-  /// ever falls below -eps unreported.
-  double contact_tolerance = 1e-6;
-  /// > contact_tolerance (length): a contact ends at a time when the gap is between this and this plus
-  /// eps. Default (NaN): 4 eps.
-  double separation_distance = std::numeric_limits<double>::quiet_NaN();
-  ContactMode contacts = ContactMode::begin_and_end;
-  /// When false, add() refuses a body that certainly overlaps another or a wall.
-  bool allow_overlap = true;
-  /// >= 0 (time): a contact that comes less than this after the previous one of the same body is
-  /// marked as repeated. So is one that comes within 4 sqrt(eps / (A + |g|)): a hop within the tolerance
-  /// takes no longer.
-  double zeno_interval = 0.0;
-  double start_time = 0.0;
-};
 
 /// Where a body's promise stands now.
 struct BodyView {
@@ -125,7 +97,7 @@ class World {
   const WorldDefinition& definition() const;
   bool contains(BodyId body) const;
   /// Errors: unknown_body, stale_body.
-  Result<BodyView> body(BodyId body) const;
+  Result<BodyView> body(BodyId id) const;
   /// The living bodies, by index.
   std::vector<BodyId> bodies() const;
   const Counters& counters() const;

@@ -1,7 +1,7 @@
 // When a contact begins and ends: the one place where distances and approach become a decision.
 #pragma once
 
-#include "kinesphere/world.hpp"
+#include "kinesphere/world_definition.hpp"
 
 namespace kinesphere {
 

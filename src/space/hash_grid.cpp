@@ -91,8 +91,8 @@ void HashGrid::Level::rehash() {
 int HashGrid::exponent_of(float extent) {
   // The smallest e with extent <= 2^e; a point counts as the smallest normal float, infinity as the greatest.
   int exponent = 0;
-  using limits = std::numeric_limits<float>;
-  const float normal = std::clamp(extent, limits::min(), limits::max());
+  using Limits = std::numeric_limits<float>;
+  const float normal = std::clamp(extent, Limits::min(), Limits::max());
   const float fraction = std::frexp(normal, &exponent);
   return fraction == 0.5f ? exponent - 1 : exponent;
 }

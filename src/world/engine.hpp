@@ -111,7 +111,7 @@ class World::Engine {
   void unwatch(std::uint32_t number, std::uint32_t partner);
   double guarded_step(double certificate, double speed_error, double acceleration, const Event& now);
   bool is_far_from_change(std::uint32_t a, std::uint32_t b, bool touching) const;
-  bool is_far_from_walls(std::uint32_t body) const;
+  bool is_far_from_walls(std::uint32_t number) const;
 
   // probing.cpp: reports.
   Result<void> probe(std::span<const std::uint32_t> numbers);

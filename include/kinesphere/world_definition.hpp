@@ -1,0 +1,39 @@
+// What a world is made with: its walls, and what counts as a contact.
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "kinesphere/vec3.hpp"
+
+namespace kinesphere {
+
+/// Which contacts are reported.
+enum class ContactMode {
+  /// Each contact has a begin and an end.
+  begin_and_end,
+  /// For bodies that bounce: a begin whenever two bodies touch and approach, and no ends. Once a kick
+  /// has turned them apart the next approach is a new contact, however small the gap was in between.
+  impacts,
+};
+
+struct WorldDefinition {
+  /// The walls. Without a box the world is unbounded.
+  std::optional<Box> box{};
+  /// eps > 0 (length): a contact begins at a time when the true gap is at most eps, and no gap
+  /// ever falls below -eps unreported.
+  double contact_tolerance = 1e-6;
+  /// > contact_tolerance (length): a contact ends at a time when the gap is between this and this plus
+  /// eps. Default (NaN): 4 eps.
+  double separation_distance = std::numeric_limits<double>::quiet_NaN();
+  ContactMode contacts = ContactMode::begin_and_end;
+  /// When false, add() refuses a body that certainly overlaps another or a wall.
+  bool allow_overlap = true;
+  /// >= 0 (time): a contact that comes less than this after the previous one of the same body is
+  /// marked as repeated. So is one that comes within 4 sqrt(eps / (A + |g|)): a hop within the tolerance
+  /// takes no longer.
+  double zeno_interval = 0.0;
+  double start_time = 0.0;
+};
+
+}  // namespace kinesphere
