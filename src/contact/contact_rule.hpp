@@ -28,6 +28,11 @@ class ContactRule {
   /// are nearly that deep, to where they are: so each bounce of a resting body starts where the last one did.
   double guarded_gap(double gap) const;
 
+  /// True for a pair so deep that the guarded gap lies outside the tolerance. That gap is good for it only as
+  /// long as it stays below surface_gap(): when it has come out, the next approach counts again.
+  bool is_deep(double gap) const { return guarded_gap(gap) < -tolerance_; }
+  double surface_gap() const { return -0.5 * tolerance_; }
+
   /// The Zeno guard: the least time between two looks at a pair within the tolerance that does not approach,
   /// with these sums of velocity errors and largest accelerations. In it the gap shrinks by at most 1/8 of
   /// the tolerance.

@@ -90,6 +90,8 @@ class World::Engine::Audit {
   void check_walls(std::uint32_t number) {
     const Body& b = body(number);
     if (!engine_.definition_.box || !settled(number, number) || b.touching_walls != 0 || !exact(b)) return;
+    // As for pairs: within the tolerance bouncing bodies follow the contact rule.
+    if (impacts() && !engine_.is_far_from_walls(number)) return;
     const double within = impacts() ? engine_.definition_.contact_tolerance : 0.0;
     const Vec3 room = Vec3{1.0, 1.0, 1.0} * within;
     const Box box{engine_.definition_.box->lower - room, engine_.definition_.box->upper + room};

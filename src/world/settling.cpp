@@ -189,6 +189,8 @@ Result<void> World::Engine::settle_pair(std::uint32_t number, std::uint32_t part
                               rule_.guarded_gap(now.gap));
       time = guarded_step(time, a.definition.velocity_error + b.definition.velocity_error,
                           a.largest_acceleration() + b.largest_acceleration(), now);
+      if (rule_.is_deep(now.gap))
+        time = std::min(time, earliest_separation(a.bound, b.bound, time_, infinity, rule_.surface_gap()));
     }
     watch(number, partner, std::max(time, just_after(time_)));
     return {};
@@ -258,6 +260,9 @@ Result<void> World::Engine::settle_walls(std::uint32_t number) {
     } else {
       time = earliest_meeting(body.bound, inside, time_, body.box_end, rule_.guarded_gap(now.gap));
       time = guarded_step(time, body.definition.velocity_error, body.largest_acceleration(), now);
+      if (rule_.is_deep(now.gap))
+        time =
+            std::min(time, earliest_separation(body.bound, inside, time_, body.box_end, rule_.surface_gap()));
     }
     first = std::min(first, std::max(time, just_after(time_)));
   }

@@ -19,12 +19,16 @@ exact::Wide truth(const PairCase& c, exact::Wide extra = 0) {
 }
 
 /// As if the distance were wrong by what rounding may do to it or, since at a nearly double root a sequence
-/// of tangents only halves its way to go in each round, by a small part of the gap.
+/// of tangents only halves its way to go in each round, by a small part of the gap and of the way since
+/// `from`.
 testing::AssertionResult tight(const PairCase& c, const Tightness& allowed) {
   const double got = certificate(c);
-  const double scale = length_scale(c, std::min(got, c.horizon));
-  const double gap = gap_limits(c.a, c.b, c.from).lower - c.distance;
-  const double extra = std::max(allowed.length * scale, 0x1p-22 * gap);
+  const double end = std::min(got, c.horizon);
+  const auto offset = [&c](double t) { return c.a.centre_at(t) - c.b.centre_at(t); };
+  const auto reach = [&c](double t) { return c.a.radius_at(t) + c.b.radius_at(t) + c.distance; };
+  const double gap = std::max(0.0, norm(offset(c.from)) - reach(c.from));
+  const double way = norm(offset(end) - offset(c.from)) + reach(end) - reach(c.from);
+  const double extra = std::max(allowed.length * length_scale(c, end), 0x1p-22 * (gap + way));
   return hardly_early(got, truth(c, extra), c.from, c.horizon, allowed.part);
 }
 

@@ -21,7 +21,8 @@ PairCase draw_within(const Family& family, Random& random) {
   PairCase c = family.draw(random);
   const double upper = gap_limits(c.a, c.b, c.from).upper;
   const double extra = c.a.radius + c.b.radius + std::abs(c.distance);
-  c.distance = upper + extra * random.uniform(-0.1, 2.0) * (chance(random, 0.2) ? 0x1p-30 : 1.0);
+  const double part = chance(random, 0.2) ? 0x1p-30 : 1.0;
+  c.distance = upper + part * extra * random.uniform(-0.1, 2.0);
   return c;
 }
 

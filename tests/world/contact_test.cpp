@@ -28,16 +28,16 @@ TEST_P(BeginsAndEnds, ComeWithinTheTolerance) {
     Playground p({.contact_tolerance = eps, .separation_distance = given});
     const Vec3 direction = random.unit_vector();
     const double limit = k % 3 == 0 ? 0.0 : 2.0 * random.uniform();
-    const BodyId a = p.add({.radius = random.uniform(0.0, 1.0),
-                            .acceleration_limit = limit,
-                            .position = -5.0 * direction + random.point_in_ball(),
-                            .velocity = random.uniform(0.5, 5.0) * direction},
-                           0.99 * limit * random.point_in_ball());
-    const BodyId b = p.add({.radius = random.uniform(0.5, 1.0),
-                            .acceleration_limit = limit,
-                            .position = 5.0 * direction + random.point_in_ball(),
-                            .velocity = -random.uniform(0.5, 5.0) * direction},
-                           0.99 * limit * random.point_in_ball());
+    const BodyDefinition one{.radius = random.uniform(0.0, 1.0),
+                             .acceleration_limit = limit,
+                             .position = -5.0 * direction + random.point_in_ball(),
+                             .velocity = random.uniform(0.5, 5.0) * direction};
+    const BodyId a = p.add(one, 0.99 * limit * random.point_in_ball());
+    const BodyDefinition other{.radius = random.uniform(0.5, 1.0),
+                               .acceleration_limit = limit,
+                               .position = 5.0 * direction + random.point_in_ball(),
+                               .velocity = -random.uniform(0.5, 5.0) * direction};
+    const BodyId b = p.add(other, 0.99 * limit * random.point_in_ball());
     bool touching = false;
     for (const Event& event : p.run(10.0)) {
       ASSERT_EQ(event.kind, touching ? EventKind::contact_end : EventKind::contact_begin) << event;

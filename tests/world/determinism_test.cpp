@@ -95,7 +95,8 @@ TEST(OrderOfAdding, ChangesNoContact) {
     };
     std::map<std::tuple<std::uint32_t, std::uint32_t, Wall>, std::vector<Event>> found;
     for (const Event& event : p.run(2.0)) {
-      const std::pair<std::uint32_t, std::uint32_t> pair = std::minmax({name(event.first), name(event.second)});
+      const std::pair<std::uint32_t, std::uint32_t> pair =
+          std::minmax({name(event.first), name(event.second)});
       found[{pair.first, pair.second, event.wall}].push_back(event);
     }
     return found;

@@ -50,6 +50,24 @@ TEST(Impacts, PassingThroughIsOneBeginPerApproach) {
   (void)a;
 }
 
+TEST(Impacts, BodyThatCameOutOfAnOverlapIsSeenWhenItComesBack) {
+  // It starts deep inside, leaves, and is pulled back: that is an approach like any other.
+  for (const bool wall : {false, true}) {
+    WorldDefinition definition = impacts;
+    if (wall) definition.box = Box{{0, -50, -50}, {100, 50, 50}};
+    Playground p(definition);
+    if (!wall) p.add({.radius = 0, .position = {0, 0, 0}});
+    p.add({.radius = 1, .acceleration_limit = 2, .position = {0.5, 0, 0}, .velocity = {2, 0, 0}},
+          Vec3{-2, 0, 0});
+    const auto events = p.run(1.9);
+    ASSERT_EQ(events.size(), 1u) << events;
+    EXPECT_LE(events[0].gap, 1e-6);
+    EXPECT_GE(events[0].gap, -1e-6);
+    EXPECT_NEAR(events[0].time, 1.0 + std::sqrt(0.5), 1e-5);  // x = 0.5 + 2 t - t^2 is 1 again
+    EXPECT_EQ(p.world.counters().count(EventKind::zeno_guard), 0u);
+  }
+}
+
 TEST(Impacts, ParallelAndReceedingBodiesDoNotTouch) {
   Playground p(impacts);
   p.add({.radius = 1, .velocity = {1, 0, 0}});

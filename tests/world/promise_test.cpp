@@ -31,14 +31,16 @@ TEST_P(Noise, HidesNoTrueContactAndIsNoViolation) {
   add_noise(p);
   Random random(5);
   std::vector<BodyId> ids;
-  for (int k = 0; k < 40; ++k)
-    ids.push_back(p.add({.radius = random.uniform(0.2, 0.6),
-                         .acceleration_limit = 3,
-                         .position_error = e0,
-                         .velocity_error = e1,
-                         .position = {random.uniform(1, 11), random.uniform(1, 11), random.uniform(1, 11)},
-                         .velocity = 3.0 * random.point_in_ball()},
-                        2.9 * random.point_in_ball()));
+  for (int k = 0; k < 40; ++k) {
+    const BodyDefinition body{
+        .radius = random.uniform(0.2, 0.6),
+        .acceleration_limit = 3,
+        .position_error = e0,
+        .velocity_error = e1,
+        .position = {random.uniform(1, 11), random.uniform(1, 11), random.uniform(1, 11)},
+        .velocity = 3.0 * random.point_in_ball()};
+    ids.push_back(p.add(body, 2.9 * random.point_in_ball()));
+  }
   std::set<std::pair<BodyId, BodyId>> touching;
   std::size_t begins = 0;
   for (int tick = 1; tick <= 60 && !HasFailure(); ++tick) {

@@ -53,7 +53,10 @@ class RandomOperations : public testing::TestWithParam<Kind> {
     alive.erase(alive.begin() + static_cast<std::ptrdiff_t>(k));
   }
 
-  void kick() { p.kick(any(), 4.0 * random.point_in_ball()); }
+  void kick() {
+    const BodyId id = any();
+    p.kick(id, 4.0 * random.point_in_ball());
+  }
 
   void steer() {
     const BodyId id = any();

@@ -117,19 +117,20 @@ TEST(UnusualBodies, LoneBulletOfAnySizeCostsLittle) {
 }
 
 /// The events of one scene, its lengths scaled by `length`, its times by `time`, and moved elsewhere.
-std::vector<Event> scaled_scene(double length, double time, double start = 0.0, const Vec3& place = {},
-                                double speed = 3.0, double eps = 1e-6) {
-  Playground p({.contact_tolerance = eps * length, .start_time = start});
+std::vector<Event> scaled_scene(double length, double time, double start = 0.0, const Vec3& place = {}) {
+  Playground p({.contact_tolerance = 1e-6 * length, .start_time = start});
   Random random(11);
   const double rate = length / time;
-  for (int k = 0; k < 60; ++k)
-    p.add({.radius = 0.5 * length * random.uniform(),
-           .acceleration_limit = 4 * rate / time,
-           .planned_acceleration = Vec3{0, 0, -2} * (rate / time),
-           .position = place + Vec3{2.0 * (k % 4), 2.0 * (k / 4 % 4), 2.0 * (k / 16)} * length,
-           .velocity = speed * random.point_in_ball() * rate},
-          (Vec3{0, 0, -2} + 3.9 * random.point_in_ball()) * (rate / time));
-  auto events = p.run(start + 2.0 * time * (3.0 / speed));
+  for (int k = 0; k < 60; ++k) {
+    const BodyDefinition body{
+        .radius = (0.3 + 0.5 * random.uniform()) * length,
+        .acceleration_limit = 4 * rate / time,
+        .planned_acceleration = Vec3{0, 0, -2} * (rate / time),
+        .position = place + Vec3{2.0 * (k % 4), 2.0 * (k / 4 % 4), 2.0 * (k / 16)} * length,
+        .velocity = 3.0 * random.point_in_ball() * rate};
+    p.add(body, (Vec3{0, 0, -2} + 3.9 * random.point_in_ball()) * (rate / time));
+  }
+  auto events = p.run(start + 3.0 * time);
   EXPECT_TRUE(is_clean(p.world));
   EXPECT_GT(events.size(), 20u);
   return events;
