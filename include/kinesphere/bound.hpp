@@ -56,7 +56,8 @@ struct HalfSpace {
 /// by Newton steps along the line of centres: for any unit vector n, |C(d)| >= n.C(d), so the first
 /// root of the quadratic n.C(d) = rho(d) + distance is never later than that of eq 9; advance both
 /// bounds by it, take the new n, repeat. Exact for a pair on a line, and quadratically convergent.
-/// Needs from >= both report times. Units: times in, time out. Cost: about 20 ns a round, 2-4 rounds.
+/// Needs both report times <= from <= horizon. Units: times in, time out. Cost: about 20 ns a round, 2-4
+/// rounds.
 double earliest_meeting(const Bound& a, const Bound& b, double from, double horizon, double distance = 0.0);
 
 /// The gap between the two bodies stays below `distance` before the returned time (the pair's
@@ -81,7 +82,7 @@ double earliest_separation(const Bound& bound, const HalfSpace& wall, double fro
 /// does up to `horizon`). Returns `from` when it already reaches out. The least of six quadratics.
 double earliest_exit(const Bound& bound, const Box& box, double from, double horizon);
 
-/// A box that contains the bound during all of [from, to], rounded outward.
+/// A box that contains the bound during all of [from, to], rounded outward. Needs a finite `to`.
 Box swept_box(const Bound& bound, double from, double to);
 
 /// Certified limits of the distance between the surfaces of two bodies at time t >= both report

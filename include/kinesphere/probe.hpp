@@ -11,7 +11,8 @@ namespace kinesphere {
 
 /// A reference to any callable `void(std::span<const BodyId> ids, double time, std::span<State>
 /// states)`. It must set states[k] to the state of ids[k] at `time`; times never decrease from one
-/// call to the next. It may not call back into the world. It does not own the callable, so it is
+/// call to the next. It may not call back into the world; it may throw, and the call that
+/// it was passed to can then be repeated. It does not own the callable, so it is
 /// meant for arguments: the callable must outlive the call that it is passed to.
 class Probe {
  public:

@@ -72,7 +72,7 @@ class World {
   /// the promise); outside_domain; overlapping. Cost: O(1) here, a grid search at the next advance.
   Result<BodyId> add(const BodyDefinition& body);
   /// Adds all of them or, on an error, none.
-  Result<std::vector<BodyId>> add(std::span<const BodyDefinition> bodies);
+  Result<std::vector<BodyId>> add_all(std::span<const BodyDefinition> bodies);
 
   /// Removes a body. Its contacts end: the end events come at the next advance, with its last state.
   /// Errors: unknown_body, stale_body. Cost: O(log n + contacts).

@@ -24,7 +24,8 @@ struct WorldDefinition {
   /// ever falls below -eps unreported.
   double contact_tolerance = 1e-6;
   /// > contact_tolerance (length): a contact ends at a time when the gap is between this and this plus
-  /// eps. Default (NaN): 4 eps.
+  /// eps. Default (NaN): 4 eps. Where reported positions have errors e0, choose it larger than
+  /// the sum of 2 e0 of both bodies, or contacts end and begin with the noise.
   double separation_distance = std::numeric_limits<double>::quiet_NaN();
   ContactMode contacts = ContactMode::begin_and_end;
   /// When false, add() refuses a body that certainly overlaps another or a wall.

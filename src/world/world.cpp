@@ -71,11 +71,11 @@ Result<BodyId> World::add(const BodyDefinition& body) {
   return engine_->add(body);
 }
 
-Result<std::vector<BodyId>> World::add(std::span<const BodyDefinition> bodies) {
-  if (auto idle = check_idle(engine_->probing(), "add"); !idle) return idle.error();
+Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodies) {
+  if (auto idle = check_idle(engine_->probing(), "add_all"); !idle) return idle.error();
   HashGrid earlier;
   for (std::uint32_t number = 0; number < bodies.size(); ++number) {
-    const std::string call = "add: bodies[" + std::to_string(number) + "]";
+    const std::string call = "add_all: bodies[" + std::to_string(number) + "]";
     if (auto valid = check_new(bodies[number], call); !valid) return valid.error();
     if (definition().allow_overlap) continue;
     const Box box = engine_->box_of(bodies[number]);

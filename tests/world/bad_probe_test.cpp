@@ -196,7 +196,7 @@ TEST(Probe, MayNotCallTheWorldThatAskedIt) {
       EXPECT_EQ(result.error().message.rfind(call, 0), 0u) << result.error().message;
     };
     refused(p.world.add(BodyDefinition{}), "add");
-    refused(p.world.add(std::vector<BodyDefinition>(2)), "add");
+    refused(p.world.add_all(std::vector<BodyDefinition>(2)), "add_all");
     refused(p.world.remove(a), "remove");
     refused(p.world.kick(a, {}), "kick");
     refused(p.world.advance(1e9, p.probe()), "advance");

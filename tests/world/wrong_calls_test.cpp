@@ -176,11 +176,11 @@ TEST(WrongCalls, LeaveNoTrace) {
     const std::vector<BodyDefinition> last_is_bad{{.radius = 1e-3, .position = {0.1, 0.1, 9.9}},
                                                   {.radius = 1e-3, .position = {0.2, 0.1, 9.9}},
                                                   {.radius = nan, .position = {0.3, 0.1, 9.9}}};
-    EXPECT_FALSE(world.add(last_is_bad));
+    EXPECT_FALSE(world.add_all(last_is_bad));
     const std::vector<BodyDefinition> overlap_each_other{{.radius = 1e-3, .position = {0.1, 0.1, 9.9}},
                                                          {.radius = 1e-3, .position = {0.2, 0.1, 9.9}},
                                                          {.radius = 1e-3, .position = {0.2, 0.1, 9.9}}};
-    EXPECT_FALSE(world.add(overlap_each_other));
+    EXPECT_FALSE(world.add_all(overlap_each_other));
     EXPECT_FALSE(world.kick({12345, 0}, {}));
     EXPECT_FALSE(world.remove(no_body));
     EXPECT_FALSE(world.body({3, 77}));
@@ -203,16 +203,16 @@ TEST(WrongCalls, BatchIsAllOrNothing) {
   World world = World::create({.allow_overlap = false}).value();
   const std::vector<BodyDefinition> bad{
       {.position = {0, 0, 0}}, {.position = {5, 0, 0}}, {.position = {0.5, 0, 0}}};
-  const auto refused = world.add(bad);
+  const auto refused = world.add_all(bad);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::overlapping);
-  EXPECT_EQ(refused.error().message.rfind("add: bodies[2]", 0), 0u) << refused.error().message;
+  EXPECT_EQ(refused.error().message.rfind("add_all: bodies[2]", 0), 0u) << refused.error().message;
   EXPECT_EQ(world.size(), 0u);
   EXPECT_TRUE(world.bodies().empty());
   EXPECT_FALSE(world.contains({0, 0}));
-  const auto ids = world.add(std::vector<BodyDefinition>(bad.begin(), bad.begin() + 2)).value();
+  const auto ids = world.add_all(std::vector<BodyDefinition>(bad.begin(), bad.begin() + 2)).value();
   EXPECT_EQ(ids, (std::vector<BodyId>{{0, 0}, {1, 0}})) << "a refused batch uses up no ids";
-  EXPECT_TRUE(world.add(std::span<const BodyDefinition>{}).value().empty());
+  EXPECT_TRUE(world.add_all(std::span<const BodyDefinition>{}).value().empty());
 }
 
 TEST(WrongCalls, TimeMayStandStillButNotGoBack) {
