@@ -109,7 +109,16 @@ class World::Engine {
   bool has_watch(std::uint32_t number, std::uint32_t partner) const;
   void watch(std::uint32_t number, std::uint32_t partner, double time);
   void unwatch(std::uint32_t number, std::uint32_t partner);
-  double guarded_step(double certificate, double speed_error, double acceleration, const Event& now);
+  /// How far the bodies of a contact may stray from their paths together.
+  struct Promise {
+    double speed_error;
+    double acceleration;
+  };
+  std::optional<bool> touching_now(bool touching, const Event& now);
+  template <class Meeting, class Separation>
+  double next_look(bool touches, const Event& now, const Promise& promise, Meeting meeting,
+                   Separation separation);
+  double guarded_step(double certificate, const Promise& promise, const Event& now);
   bool is_far_from_change(std::uint32_t a, std::uint32_t b, bool touching) const;
   bool is_far_from_walls(std::uint32_t number) const;
 

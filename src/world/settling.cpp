@@ -154,7 +154,7 @@ Result<void> World::Engine::settle_pair(std::uint32_t number, std::uint32_t part
     const Body& a = bodies_[number];
     const Body& b = bodies_[partner];
     if (a.dirty || b.dirty) return {};  // a broken promise came up: its body searches again
-    bool touching = is_touching(number, partner);
+    const bool touching = is_touching(number, partner);
     ++counters_.certificates;
     if (!a.fresh(time_) || !b.fresh(time_)) {
       const double time = touching
@@ -169,32 +169,54 @@ Result<void> World::Engine::settle_pair(std::uint32_t number, std::uint32_t part
       continue;
     }
     const Event now = contact(EventKind::zeno_guard, number, partner);
-    const ContactRule::Change change = rule_.decide(touching, now.gap, now.approach_speed);
-    if (change == ContactRule::Change::begin || change == ContactRule::Change::end) {
+    const std::optional<bool> touches = touching_now(touching, now);
+    if (!touches) {
       unwatch(number, partner);
-      announce(
-          contact(change == ContactRule::Change::begin ? EventKind::contact_begin : EventKind::contact_end,
-                  number, partner));
       return {};
     }
-    if (change == ContactRule::Change::release) {
-      set_touching(number, partner, false);
-      touching = false;
-    }
-    double time;
-    if (touching) {
-      time = earliest_separation(a.bound, b.bound, time_, infinity, rule_.release_gap());
-    } else {
-      time = earliest_meeting(a.bound, b.bound, time_, std::min(a.box_end, b.box_end),
-                              rule_.guarded_gap(now.gap));
-      time = guarded_step(time, a.definition.velocity_error + b.definition.velocity_error,
-                          a.largest_acceleration() + b.largest_acceleration(), now);
-      if (rule_.is_deep(now.gap))
-        time = std::min(time, earliest_separation(a.bound, b.bound, time_, infinity, rule_.surface_gap()));
-    }
-    watch(number, partner, std::max(time, just_after(time_)));
+    if (touching && !*touches) set_touching(number, partner, false);
+    const Promise sum{a.definition.velocity_error + b.definition.velocity_error,
+                      a.largest_acceleration() + b.largest_acceleration()};
+    const double until = std::min(a.box_end, b.box_end);
+    watch(number, partner,
+          next_look(
+              *touches, now, sum,
+              [&](double distance) { return earliest_meeting(a.bound, b.bound, time_, until, distance); },
+              [&](double distance) {
+                return earliest_separation(a.bound, b.bound, time_, infinity, distance);
+              }));
     return {};
   }
+}
+
+/// Holds fresh reports against the contact rule. Announces a begin or an end, or tells whether the two touch.
+std::optional<bool> World::Engine::touching_now(bool touching, const Event& now) {
+  Event change = now;
+  switch (rule_.decide(touching, now.gap, now.approach_speed)) {
+    case ContactRule::Change::none:
+      return touching;
+    case ContactRule::Change::release:
+      return false;
+    case ContactRule::Change::begin:
+      change.kind = now.wall == Wall::none ? EventKind::contact_begin : EventKind::wall_begin;
+      break;
+    case ContactRule::Change::end:
+      change.kind = now.wall == Wall::none ? EventKind::contact_end : EventKind::wall_end;
+      break;
+  }
+  announce(change);
+  return std::nullopt;
+}
+
+/// How long whether they touch cannot change, given fresh reports; `meeting` and `separation` are the
+/// certificates of a gap.
+template <class Meeting, class Separation>
+double World::Engine::next_look(bool touches, const Event& now, const Promise& promise, Meeting meeting,
+                                Separation separation) {
+  if (touches) return std::max(separation(rule_.release_gap()), just_after(time_));
+  double time = guarded_step(meeting(rule_.guarded_gap(now.gap)), promise, now);
+  if (rule_.is_deep(now.gap)) time = std::min(time, separation(rule_.surface_gap()));
+  return std::max(time, just_after(time_));
 }
 
 /// True when the bounds as they are keep away from where the contact changes. If they do not, a certificate
@@ -213,9 +235,8 @@ bool World::Engine::is_far_from_walls(std::uint32_t number) const {
 }
 
 /// The Zeno guard: makes sure that time moves on between two looks at a contact that does not approach.
-double World::Engine::guarded_step(double certificate, double speed_error, double acceleration,
-                                   const Event& now) {
-  const double least = time_ + rule_.least_step(now.gap, speed_error, acceleration);
+double World::Engine::guarded_step(double certificate, const Promise& promise, const Event& now) {
+  const double least = time_ + rule_.least_step(now.gap, promise.speed_error, promise.acceleration);
   if (certificate >= least) return certificate;
   ++counters_.zeno_steps;
   if (rule_.step_breaks_tolerance(now.gap)) announce(now);
@@ -242,29 +263,21 @@ Result<void> World::Engine::settle_walls(std::uint32_t number) {
   double first = infinity;
   for (const Wall wall : walls) {
     const HalfSpace inside = half_space(*definition_.box, wall);
-    bool touching = (body.touching_walls & wall_bit(wall)) != 0;
+    const bool touching = (body.touching_walls & wall_bit(wall)) != 0;
     const Event now = wall_contact(EventKind::zeno_guard, number, wall);
-    const ContactRule::Change change = rule_.decide(touching, now.gap, now.approach_speed);
-    if (change == ContactRule::Change::begin || change == ContactRule::Change::end) {
-      announce(wall_contact(
-          change == ContactRule::Change::begin ? EventKind::wall_begin : EventKind::wall_end, number, wall));
-      continue;
-    }
-    if (change == ContactRule::Change::release) {
-      body.touching_walls &= static_cast<std::uint8_t>(~wall_bit(wall));
-      touching = false;
-    }
-    double time;
-    if (touching) {
-      time = earliest_separation(body.bound, inside, time_, body.box_end, rule_.release_gap());
-    } else {
-      time = earliest_meeting(body.bound, inside, time_, body.box_end, rule_.guarded_gap(now.gap));
-      time = guarded_step(time, body.definition.velocity_error, body.largest_acceleration(), now);
-      if (rule_.is_deep(now.gap))
-        time =
-            std::min(time, earliest_separation(body.bound, inside, time_, body.box_end, rule_.surface_gap()));
-    }
-    first = std::min(first, std::max(time, just_after(time_)));
+    const std::optional<bool> touches = touching_now(touching, now);
+    if (!touches) continue;
+    if (touching && !*touches) body.touching_walls ^= wall_bit(wall);
+    const Promise promise{body.definition.velocity_error, body.largest_acceleration()};
+    first =
+        std::min(first, next_look(
+                            *touches, now, promise,
+                            [&](double distance) {
+                              return earliest_meeting(body.bound, inside, time_, body.box_end, distance);
+                            },
+                            [&](double distance) {
+                              return earliest_separation(body.bound, inside, time_, body.box_end, distance);
+                            }));
   }
   body.wall_time = first;
   return {};
