@@ -16,12 +16,22 @@ namespace kinesphere {
 /// meant for arguments: the callable must outlive the call that it is passed to.
 class Probe {
  public:
+  using Function = void (*)(std::span<const BodyId> ids, double time, std::span<State> states);
+
   template <class Callable>
   requires(std::is_invocable_v<Callable&, std::span<const BodyId>, double, std::span<State>> &&
+           !std::is_function_v<std::remove_reference_t<Callable>> &&
            !std::is_same_v<std::remove_cvref_t<Callable>, Probe>) Probe(Callable&& callable)
-      : target_(const_cast<void*>(static_cast<const void*>(std::addressof(callable)))),
-        call_([](void* target, std::span<const BodyId> ids, double time, std::span<State> states) {
-          (*static_cast<std::remove_reference_t<Callable>*>(target))(ids, time, states);
+      : target_{.object = const_cast<void*>(static_cast<const void*>(std::addressof(callable)))},
+        call_([](Target target, std::span<const BodyId> ids, double time, std::span<State> states) {
+          (*static_cast<std::remove_reference_t<Callable>*>(target.object))(ids, time, states);
+        }) {}
+
+  /// A plain function.
+  Probe(Function function)
+      : target_{.function = function},
+        call_([](Target target, std::span<const BodyId> ids, double time, std::span<State> states) {
+          target.function(ids, time, states);
         }) {}
 
   void operator()(std::span<const BodyId> ids, double time, std::span<State> states) const {
@@ -29,8 +39,13 @@ class Probe {
   }
 
  private:
-  void* target_;
-  void (*call_)(void*, std::span<const BodyId>, double, std::span<State>);
+  union Target {
+    void* object;
+    Function function;
+  };
+
+  Target target_;
+  void (*call_)(Target, std::span<const BodyId>, double, std::span<State>);
 };
 
 }  // namespace kinesphere

@@ -69,27 +69,30 @@ class World {
 
   /// Adds a body at the current time. Errors: not_finite; out_of_range (a negative radius, limit or
   /// error; a coordinate beyond 2^41 contact tolerances, where doubles could no longer keep
-  /// the promise); outside_domain; overlapping. Cost: O(1) here, a grid search at the next advance.
+  /// the promise); outside_domain; overlapping. Cost: O(1) here (a grid search where overlaps are not
+  /// allowed), a grid search at the next advance.
   Result<BodyId> add(const BodyDefinition& body);
-  /// Adds all of them or, on an error, none.
+  /// Adds all of them or, on an error (as above, naming the one), none.
   Result<std::vector<BodyId>> add_all(std::span<const BodyDefinition> bodies);
 
-  /// Removes a body. Its contacts end: the end events come at the next advance, with its last state.
+  /// Removes a body. Its contacts end: the end events come at the next advance, with its state as its last
+  /// report predicts it (ContactMode::impacts has no ends).
   /// Errors: unknown_body, stale_body. Cost: O(log n + contacts).
   Result<void> remove(BodyId body);
 
   /// Tells the world that the velocity of this body is `velocity` from the current time on; the probe
-  /// must answer accordingly. Everything certified about the body so far is void. If it has not been
-  /// probed at this very time (both bodies of a contact have) the next advance does so first.
-  /// Errors: unknown_body, stale_body, not_finite. Cost: O(1) here, a grid search at the next advance.
+  /// must answer accordingly, or a bound_violation says by how much it does not. Everything certified about
+  /// the body so far is void. If it has not been probed at this very time (both bodies of a contact have) the
+  /// next advance does so first. Errors: unknown_body, stale_body, not_finite. Cost: O(1) here, a grid search
+  /// at the next advance.
   Result<void> kick(BodyId body, const Vec3& velocity);
 
   /// Goes on to the next event, at most to time `until`. Returns the event, with time() at its time, or
   /// nothing, with time() == until. Events come in the order of (time, kind, first, second, wall);
   /// those that a kick causes at the same instant follow in a new round of that order.
   /// Errors: time_backwards or not_finite for `until`; not_finite or out_of_range naming the body when
-  /// the probe answers with such a state: that answer is dropped, the world stays where it was, and the
-  /// call may be repeated.
+  /// the probe answers with such a state: that answer is dropped, time() is when it was asked for, no
+  /// event or fact is lost, and the call may be repeated. The same holds when the probe throws.
   Result<std::optional<Event>> advance(double until, Probe probe);
 
   double time() const;

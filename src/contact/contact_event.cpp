@@ -51,6 +51,4 @@ auto delivery_order(const Event& event) {
 
 bool delivered_before(const Event& a, const Event& b) { return delivery_order(a) < delivery_order(b); }
 
-bool same_event(const Event& a, const Event& b) { return delivery_order(a) == delivery_order(b); }
-
 }  // namespace kinesphere

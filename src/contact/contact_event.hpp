@@ -30,7 +30,9 @@ inline constexpr Wall walls[] = {Wall::x_lower, Wall::x_upper, Wall::y_lower,
 
 /// The order in which events of one instant are delivered: kind, first, second, wall.
 bool delivered_before(const Event& a, const Event& b);
-/// True when neither is delivered before the other: at one instant they are the same event.
-bool same_event(const Event& a, const Event& b);
+/// For sets of events of one instant, which hold each event once.
+struct DeliveredBefore {
+  bool operator()(const Event& a, const Event& b) const { return delivered_before(a, b); }
+};
 
 }  // namespace kinesphere

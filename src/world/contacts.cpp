@@ -44,18 +44,14 @@ void World::Engine::release_all(std::uint32_t number) {
 
 /// Queues an event of this instant; the same event is not queued twice.
 void World::Engine::announce(const Event& event) {
-  const auto same = [&](const Event& other) { return same_event(other, event); };
   // A caller who kicks at a Zeno guard must not get the same one again at the same instant, for ever.
-  if (std::any_of(guards_told_.begin(), guards_told_.end(), same)) return;
-  if (std::none_of(pending_.begin(), pending_.end(), same)) pending_.push_back(event);
+  if (!guards_told_.contains(event)) pending_.insert(event);
 }
 
 /// The next event of this instant that still holds after what the caller did at the ones before it.
 std::optional<Event> World::Engine::deliver() {
   while (!pending_.empty()) {
-    const auto next = std::min_element(pending_.begin(), pending_.end(), delivered_before);
-    Event event = *next;
-    pending_.erase(next);
+    Event event = pending_.extract(pending_.begin()).value();
     if (!still_holds(event)) continue;
     take_effect(event);
     ++counters_.events[static_cast<std::size_t>(event.kind)];
@@ -88,18 +84,15 @@ void World::Engine::take_effect(Event& event) {
   const std::uint32_t first = event.first.index;
   const std::uint32_t second = event.second.index;
   switch (event.kind) {
-    case EventKind::contact_begin: {
+    case EventKind::contact_begin:
       event = contact(event.kind, first, second);
-      const bool first_repeated = note_contact(first);
-      const bool second_repeated = note_contact(second);
-      event.repeated = first_repeated || second_repeated;
+      note_contact(event);
       set_touching(first, second, true);
       changed_.emplace_back(first, second);
       break;
-    }
     case EventKind::wall_begin:
       event = wall_contact(event.kind, first, event.wall);
-      event.repeated = note_contact(first);
+      note_contact(event);
       bodies_[first].touching_walls |= wall_bit(event.wall);
       changed_.emplace_back(first, first);
       break;
@@ -116,20 +109,26 @@ void World::Engine::take_effect(Event& event) {
       changed_.emplace_back(first, first);
       break;
     case EventKind::zeno_guard:
-      guards_told_.push_back(event);
+      guards_told_.insert(event);
       break;
     case EventKind::bound_violation:
       break;
   }
 }
 
-/// Notes that the body touches something now; true when the last time was less than its Zeno interval ago.
-bool World::Engine::note_contact(std::uint32_t number) {
-  Body& body = bodies_[number];
-  const bool repeated = time_ - body.last_contact < rule_.zeno_interval(body.largest_acceleration());
-  body.last_contact = time_;
-  if (repeated) ++counters_.repeated_contacts;
-  return repeated;
+/// True when the body touched something less than its Zeno interval ago.
+bool World::Engine::is_repeated(std::uint32_t number) const {
+  const Body& body = bodies_[number];
+  return time_ - body.last_contact < rule_.zeno_interval(body.largest_acceleration());
+}
+
+/// Marks the begin of a contact if it is a repeated one, and remembers it for the next.
+void World::Engine::note_contact(Event& begin) {
+  const bool pair = begin.second != no_body;
+  begin.repeated = is_repeated(begin.first.index) || (pair && is_repeated(begin.second.index));
+  if (begin.repeated) ++counters_.repeated_contacts;
+  bodies_[begin.first.index].last_contact = time_;
+  if (pair) bodies_[begin.second.index].last_contact = time_;
 }
 
 }  // namespace kinesphere

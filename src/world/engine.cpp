@@ -84,7 +84,7 @@ void World::Engine::kick(BodyId id, const Vec3& velocity) {
   if (body.fresh(time_)) {
     body.bound.velocity = velocity;
   } else {
-    body.velocity_unknown = true;
+    body.kicked_since_report = true;
   }
   if (definition_.contacts == ContactMode::impacts) release_all(id.index);
   void_facts(id.index);
@@ -102,13 +102,17 @@ Result<std::optional<Event>> World::Engine::advance(double until, const Probe& p
     gathering_ = false;
     if (!pending_.empty()) continue;
     if (schedule_.empty() || schedule_.earliest().time > until) {
-      time_ = until;
+      move_on_to(until);
       return std::optional<Event>();
     }
-    time_ = schedule_.earliest().time;
-    guards_told_.clear();
+    move_on_to(schedule_.earliest().time);
     gathering_ = true;
   }
+}
+
+void World::Engine::move_on_to(double time) {
+  if (time > time_) guards_told_.clear();
+  time_ = time;
 }
 
 /// Wakes all bodies that are due, so that every event of this instant is known before the first is delivered.
@@ -145,7 +149,9 @@ Result<void> World::Engine::wake(std::uint32_t number) {
       continue;
     }
     ++counters_.pair_checks;
-    if (auto probed = probe_staler(number, partner); !probed) return probed;
+    if (!bodies_[number].fresh(time_) && !bodies_[partner].fresh(time_)) {
+      if (auto probed = probe_staler(number, partner); !probed) return probed;
+    }
     if (auto settled = settle_pair(number, partner); !settled) return settled;
   }
   if (counters_.pair_checks + counters_.wall_checks == checks_before) ++counters_.stale_wakes;

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -48,9 +49,9 @@ struct Body {
   std::uint32_t epoch = 0;
   double last_contact = -std::numeric_limits<double>::infinity();
   bool alive = false;
-  bool dirty = false;             ///< in the list of those to settle before time moves on
-  bool searched = false;          ///< settled in the present round
-  bool velocity_unknown = false;  ///< kicked without a fresh report
+  bool dirty = false;     ///< in the list of those to settle before time moves on
+  bool searched = false;  ///< settled in the present round
+  bool kicked_since_report = false;
 
   bool fresh(double time) const { return bound.time == time; }
   double largest_acceleration() const {
@@ -64,7 +65,6 @@ class World::Engine {
 
   // Changes. Their input has been checked.
   BodyId add(const BodyDefinition& definition);
-  void withdraw(BodyId id);  ///< takes back an add() of this stop
   void remove(BodyId id);
   void kick(BodyId id, const Vec3& velocity);
   Result<std::optional<Event>> advance(double until, const Probe& probe);
@@ -92,6 +92,7 @@ class World::Engine {
   bool certainly_overlap(const Bound& a, const Bound& b) const;
 
   // engine.cpp: the clock.
+  void move_on_to(double time);
   Result<void> gather();
   Result<void> wake(std::uint32_t number);
   void reschedule(std::uint32_t number);
@@ -115,9 +116,10 @@ class World::Engine {
     double acceleration;
   };
   std::optional<bool> touching_now(bool touching, const Event& now);
-  template <class Meeting, class Separation>
-  double next_look(bool touches, const Event& now, const Promise& promise, Meeting meeting,
-                   Separation separation);
+  template <class Partner>
+  struct Outlook;
+  template <class Partner>
+  double next_look(bool touches, const Event& now, const Promise& promise, const Outlook<Partner>& outlook);
   double guarded_step(double certificate, const Promise& promise, const Event& now);
   bool is_far_from_change(std::uint32_t a, std::uint32_t b, bool touching) const;
   bool is_far_from_walls(std::uint32_t number) const;
@@ -138,7 +140,8 @@ class World::Engine {
   std::optional<Event> deliver();
   bool still_holds(const Event& event) const;
   void take_effect(Event& event);
-  bool note_contact(std::uint32_t number);
+  bool is_repeated(std::uint32_t number) const;
+  void note_contact(Event& begin);
 
   WorldDefinition definition_;
   ContactRule rule_;
@@ -151,8 +154,8 @@ class World::Engine {
   std::vector<std::uint32_t> dirty_;
   /// Pairs (a body and itself: its walls) whose contact has just changed, so that no fact holds.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> changed_;
-  std::vector<Event> pending_;      ///< events of this instant that are still to be delivered
-  std::vector<Event> guards_told_;  ///< Zeno guards of this instant that have been delivered
+  std::set<Event, DeliveredBefore> pending_;      ///< events of this instant that are still to be delivered
+  std::set<Event, DeliveredBefore> guards_told_;  ///< Zeno guards of this instant that have been delivered
   Counters counters_;
   bool gathering_ = false;        ///< not all of them have been found: a probe gave a bad answer
   const Probe* probe_ = nullptr;  ///< during advance()

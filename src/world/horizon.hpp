@@ -13,12 +13,14 @@ namespace kinesphere {
 /// registration_cost / (8 density).
 class Horizon {
  public:
-  /// `longest_way` (length) is for a body that is alone.
-  Horizon(double first_way, double longest_way) : way_(first_way), longest_way_(longest_way) {}
+  /// Between these lengths the way is chosen: the longest is for a body that is alone, the shortest for one
+  /// among others at the same place, whom no smaller box would shut out.
+  Horizon(double first_way, double shortest_way, double longest_way)
+      : way_(std::max(first_way, shortest_way)), shortest_way_(shortest_way), longest_way_(longest_way) {}
 
   /// Learns from a search with a box of this extent, and chooses the next way.
   void learn(std::size_t candidates, double box_extent, double body_width) {
-    const double reach = 2.0 * box_extent;
+    const double reach = 2.0 * std::max(box_extent, shortest_way_);
     density_ += learning_rate * (static_cast<double>(candidates) / (reach * reach * reach) - density_);
     const double w = body_width;
     const double target = w * w * w + registration_cost / (8.0 * density_);
@@ -28,7 +30,7 @@ class Horizon {
       way -= excess / (6.0 * way * (way + w));
       way = std::clamp(way, 0.5 * way_, 2.0 * way_);
     }
-    way_ = std::min(way, longest_way_);
+    way_ = std::clamp(way, shortest_way_, longest_way_);
   }
 
   /// The horizon (time) of a body with this speed and acceleration.
@@ -43,6 +45,7 @@ class Horizon {
   static constexpr double longest = 0x1p100;
 
   double way_;
+  double shortest_way_;
   double longest_way_;
   double density_ = 0.0;
 };

@@ -41,12 +41,9 @@ Result<void> World::Engine::probe(std::span<const std::uint32_t> numbers) {
   return {};
 }
 
-/// Probes the body whose report is older, unless one of the two is fresh.
+/// Probes the body whose report is older; the second one, if they are of the same age.
 Result<void> World::Engine::probe_staler(std::uint32_t a, std::uint32_t b) {
-  const double time_a = bodies_[a].bound.time;
-  const double time_b = bodies_[b].bound.time;
-  if (time_a == time_ || time_b == time_) return {};
-  const std::uint32_t staler = time_a <= time_b ? a : b;
+  const std::uint32_t staler = bodies_[a].bound.time < bodies_[b].bound.time ? a : b;
   return probe(std::span(&staler, 1));
 }
 
@@ -57,18 +54,21 @@ void World::Engine::apply_report(std::uint32_t number, const State& state) {
   const double deviation = norm(state.position - body.bound.centre_at(time_));
   const double deviation_limit =
       (body.bound.radius_at(time_) - body.bound.radius) + 2.0 * promise.position_error;
-  const double change = norm(state.velocity - body.bound.velocity_at(time_));
-  const double change_limit = promise.acceleration_limit * s + 2.0 * promise.velocity_error;
+  // After a kick the velocity is the caller's, to be confirmed at the same instant.
+  const bool kicked = body.kicked_since_report;
+  const Vec3 expected = kicked ? promise.velocity : body.bound.velocity_at(time_);
+  const double change = norm(state.velocity - expected);
+  const double change_limit = (kicked ? 0.0 : promise.acceleration_limit * s) + 2.0 * promise.velocity_error;
   // What rounding may do to a faithful report is no violation: it is covered by the contact tolerance.
   const double position_slack = definition_.contact_tolerance / 16.0;
-  const double velocity_slack = 0x1p-30 * (norm(state.velocity) + norm(body.bound.velocity) + change_limit);
+  const double velocity_slack = 0x1p-30 * (norm(state.velocity) + norm(expected) + change_limit);
   const bool left = deviation > deviation_limit + position_slack;
-  const bool jumped = change > change_limit + velocity_slack && !body.velocity_unknown;
+  const bool jumped = change > change_limit + velocity_slack;
 
   body.definition.position = state.position;
   body.definition.velocity = state.velocity;
   body.bound = bound_of(body.definition, state, time_);
-  body.velocity_unknown = false;
+  body.kicked_since_report = false;
   if (!left && !jumped) return;
   Event violation{.kind = EventKind::bound_violation, .time = time_, .first = id_of(number)};
   violation.first_state = state;

@@ -13,6 +13,26 @@ double just_after(double time) { return std::nextafter(time, infinity); }
 
 }  // namespace
 
+/// The certificates of a body and its partner, another bound or a wall, from now on.
+template <class Partner>
+struct World::Engine::Outlook {
+  const Bound& bound;
+  const Partner& partner;
+  double now;
+  double meeting_horizon;
+  double separation_horizon;
+
+  double meeting(double gap) const { return earliest_meeting(bound, partner, now, meeting_horizon, gap); }
+  double separation(double gap) const {
+    return earliest_separation(bound, partner, now, separation_horizon, gap);
+  }
+  /// More than what rounding can hide of the present gap.
+  double resolution() const {
+    const GapLimits limits = gap_limits(bound, partner, now);
+    return 1.25 * (limits.upper - limits.lower);
+  }
+};
+
 /// The body must be settled before time moves on. Facts about it stay.
 void World::Engine::mark_dirty(std::uint32_t number) {
   if (bodies_[number].dirty) return;
@@ -112,7 +132,8 @@ void World::Engine::choose_first_horizons(const std::vector<std::uint32_t>& roun
   const double way = spacing > 0.0 ? 0.25 * spacing : definition_.contact_tolerance;
   for (const std::uint32_t number : round)
     if (!bodies_[number].horizon)
-      bodies_[number].horizon.emplace(way, 0x1p40 * definition_.contact_tolerance);
+      bodies_[number].horizon.emplace(way, 0x1p10 * definition_.contact_tolerance,
+                                      0x1p40 * definition_.contact_tolerance);
 }
 
 void World::Engine::register_box(std::uint32_t number) {
@@ -164,8 +185,7 @@ Result<void> World::Engine::settle_pair(std::uint32_t number, std::uint32_t part
         watch(number, partner, time);
         return {};
       }
-      const std::uint32_t stale = a.bound.time < b.bound.time ? number : partner;
-      if (auto probed = probe(std::span(&stale, 1)); !probed) return probed;
+      if (auto probed = probe_staler(number, partner); !probed) return probed;
       continue;
     }
     const Event now = contact(EventKind::zeno_guard, number, partner);
@@ -177,14 +197,8 @@ Result<void> World::Engine::settle_pair(std::uint32_t number, std::uint32_t part
     if (touching && !*touches) set_touching(number, partner, false);
     const Promise sum{a.definition.velocity_error + b.definition.velocity_error,
                       a.largest_acceleration() + b.largest_acceleration()};
-    const double until = std::min(a.box_end, b.box_end);
-    watch(number, partner,
-          next_look(
-              *touches, now, sum,
-              [&](double distance) { return earliest_meeting(a.bound, b.bound, time_, until, distance); },
-              [&](double distance) {
-                return earliest_separation(a.bound, b.bound, time_, infinity, distance);
-              }));
+    const Outlook<Bound> outlook{a.bound, b.bound, time_, std::min(a.box_end, b.box_end), infinity};
+    watch(number, partner, next_look(*touches, now, sum, outlook));
     return {};
   }
 }
@@ -208,14 +222,15 @@ std::optional<bool> World::Engine::touching_now(bool touching, const Event& now)
   return std::nullopt;
 }
 
-/// How long whether they touch cannot change, given fresh reports; `meeting` and `separation` are the
-/// certificates of a gap.
-template <class Meeting, class Separation>
-double World::Engine::next_look(bool touches, const Event& now, const Promise& promise, Meeting meeting,
-                                Separation separation) {
-  if (touches) return std::max(separation(rule_.release_gap()), just_after(time_));
-  double time = guarded_step(meeting(rule_.guarded_gap(now.gap)), promise, now);
-  if (rule_.is_deep(now.gap)) time = std::min(time, separation(rule_.surface_gap()));
+/// How long whether they touch cannot change, given fresh reports.
+template <class Partner>
+double World::Engine::next_look(bool touches, const Event& now, const Promise& promise,
+                                const Outlook<Partner>& outlook) {
+  if (touches) return std::max(outlook.separation(rule_.release_gap()), just_after(time_));
+  // A certificate cannot guard a gap that lies within its own rounding of the present one.
+  const double gap = now.gap - outlook.resolution();
+  double time = guarded_step(outlook.meeting(rule_.guarded_gap(gap)), promise, now);
+  if (rule_.is_deep(gap)) time = std::min(time, outlook.separation(rule_.surface_gap()));
   return std::max(time, just_after(time_));
 }
 
@@ -269,25 +284,20 @@ Result<void> World::Engine::settle_walls(std::uint32_t number) {
     if (!touches) continue;
     if (touching && !*touches) body.touching_walls ^= wall_bit(wall);
     const Promise promise{body.definition.velocity_error, body.largest_acceleration()};
-    first =
-        std::min(first, next_look(
-                            *touches, now, promise,
-                            [&](double distance) {
-                              return earliest_meeting(body.bound, inside, time_, body.box_end, distance);
-                            },
-                            [&](double distance) {
-                              return earliest_separation(body.bound, inside, time_, body.box_end, distance);
-                            }));
+    const Outlook<HalfSpace> outlook{body.bound, inside, time_, body.box_end, body.box_end};
+    first = std::min(first, next_look(*touches, now, promise, outlook));
   }
   body.wall_time = first;
   return {};
 }
 
+/// True when the body watches this partner, and not only until now.
 bool World::Engine::has_watch(std::uint32_t number, std::uint32_t partner) const {
   const std::uint32_t epoch = bodies_[partner].epoch;
   const auto& watches = bodies_[number].watches;
-  return std::any_of(watches.begin(), watches.end(),
-                     [=](const Watch& w) { return w.partner == partner && w.epoch == epoch; });
+  return std::any_of(watches.begin(), watches.end(), [=, this](const Watch& w) {
+    return w.partner == partner && w.epoch == epoch && w.time > time_;
+  });
 }
 
 /// Records a watch in place of an earlier one; at +infinity there is nothing to watch.

@@ -24,7 +24,7 @@ TEST(Kick, OfABodyNotProbedForLongAsksFirst) {
 }
 
 TEST(Kick, DoesNotTrustTheVelocityOfTheKickForAStaleBody) {
-  // The probe is right and the velocity handed to kick() wrong: the report counts, and is no violation.
+  // The probe is right and the velocity handed to kick() wrong: the report counts, and the caller is told.
   Playground p;
   const BodyId a = p.add({.radius = 1, .velocity = {1, 0, 0}});
   p.add({.radius = 1, .position = {0.5, 0, 20}});
@@ -32,8 +32,10 @@ TEST(Kick, DoesNotTrustTheVelocityOfTheKickForAStaleBody) {
   p.set_velocity(a, {0, 0, 10});
   p.world.kick(a, {0, 0, -10}).value();
   const auto events = p.run(10.0);
-  ASSERT_EQ(events.size(), 2u) << events;
-  EXPECT_NEAR(events[0].time, 0.5 + 1.8, 1e-6);
+  ASSERT_EQ(events.size(), 3u) << events;
+  EXPECT_EQ(events[0].kind, EventKind::bound_violation);
+  EXPECT_NEAR(events[0].velocity_excess, 20.0, 1e-9);
+  EXPECT_NEAR(events[1].time, 0.5 + 1.8, 1e-6);
 }
 
 TEST(Kick, LastOfSeveralAtOneStopCounts) {

@@ -68,5 +68,20 @@ TEST(Standstill, AtTheEdgeOfSeparationDoesNotStopTime) {
   }
 }
 
+TEST(Standstill, OfBouncersDeepInEachOtherDoesNotStopTime) {
+  // No acceleration to scale the smallest step by, and gaps that rounding blurs more the farther out they
+  // are.
+  for (const double place : {1.0, 30.0, 1e3, 1e5, 1e6}) {
+    for (const double receding : {0.0, 0.5}) {
+      Playground p({.contacts = ContactMode::impacts});
+      const Vec3 centre = Vec3{1, 1, 1} * place;
+      p.add({.radius = 1, .position = centre});
+      p.add({.radius = 1, .position = centre + Vec3{1, 0, 0}, .velocity = {receding, 0, 0}});
+      EXPECT_TRUE(p.run(10.0).empty()) << place;
+      EXPECT_LT(p.world.counters().probes, 1000u) << place << " receding at " << receding;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kinesphere

@@ -181,5 +181,46 @@ TEST(Scale, PowersOfTwoScaleEveryBit) {
     }
 }
 
+TEST(UnusualBodies, PointAtTheOriginIsFoundAfterAKick) {
+  // Its box has no size at all, at the one place where rounding gives it none.
+  Playground p;
+  const BodyId point = p.add({.radius = 0});
+  p.add({.radius = 1, .position = {10, 0, 0}});
+  p.run(1.0);
+  p.kick(point, {1, 0, 0});
+  const auto events = p.run(20.0);
+  ASSERT_EQ(events.size(), 2u) << events;
+  EXPECT_NEAR(events[0].time, 10.0, 1e-5);
+}
+
+TEST(UnusualBodies, PointsAtOnePlaceDoNotStopTime) {
+  Playground p;
+  for (int k = 0; k < 10; ++k) p.add({.radius = 0, .velocity = {1, 0, 0}});
+  EXPECT_EQ(p.run(1.0).size(), 45u);
+  EXPECT_LT(p.world.counters().probes, 50000u);
+}
+
+TEST(UnusualBodies, ManyContactsOfOneInstantComeInOrder) {
+  Playground p;
+  for (int k = 0; k < 100; ++k) p.add({.radius = 1, .position = {0.001 * k, 0, 0}});
+  const auto events = p.run(0.5);
+  ASSERT_EQ(events.size(), 100u * 99u / 2u);
+  for (std::size_t k = 1; k < events.size(); ++k)
+    EXPECT_LT(std::pair(events[k - 1].first, events[k - 1].second),
+              std::pair(events[k].first, events[k].second));
+}
+
+void answer_rest(std::span<const BodyId>, double, std::span<State> states) {
+  for (State& state : states) state = {};
+}
+
+TEST(UnusualBodies, ProbeMayBeAPlainFunction) {
+  World world = World::create({}).value();
+  world.add({.radius = 1, .acceleration_limit = 1}).value();
+  EXPECT_TRUE(world.advance(1e3, answer_rest));
+  EXPECT_TRUE(world.advance(2e3, &answer_rest));
+  EXPECT_GT(world.counters().probes, 0u);
+}
+
 }  // namespace
 }  // namespace kinesphere
