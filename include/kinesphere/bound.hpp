@@ -62,8 +62,8 @@ double earliest_meeting(const Bound& a, const Bound& b, double from, double hori
 
 /// The gap between the two bodies stays below `distance` before the returned time (the pair's
 /// end of contact cannot come sooner). Values and conditions as above; returns `from` when the gap
-/// may already be that large. The radii count as reported, r + e0: positions as a later report would
-/// give them.
+/// may already be that large. Radii count as reported, r + e0, and positions without their errors: with
+/// e0 > 0 this is about the bodies as reported, and the true gap may be larger by up to 2 e0 of each.
 ///   solves |c_i - c_j| + growth_i + growth_j = r_i + r_j + distance,  growth = rho - rho(0)
 /// through p(d) = S(d)^2 - |C(d)|^2 >= q0 + q1 d + q2 d^2 with the cubic and quartic terms replaced by
 /// their least values over the step.
@@ -87,7 +87,7 @@ Box swept_box(const Bound& bound, double from, double to);
 
 /// Certified limits of the distance between the surfaces of two bodies at time t >= both report
 /// times: lower = |C| - rho_i - rho_j, upper = |C| - r_i - r_j + growth_i + growth_j, rounded apart.
-/// The upper limit counts the radii as reported (r + e0).
+/// With e0 > 0 the upper limit is about the bodies as reported, as in earliest_separation.
 struct GapLimits {
   double lower;
   double upper;

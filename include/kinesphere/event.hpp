@@ -21,8 +21,8 @@ enum class EventKind : std::uint8_t {
   wall_begin,
   /// A body that touched a wall is clear of it.
   wall_end,
-  /// Time would have stood still at a contact, so the Zeno guard moved it on by the smallest step:
-  /// this pair may overlap by more than the contact tolerance.
+  /// Time would have stood still at a contact that is deep in its tolerance already. The Zeno guard moved it
+  /// on by its least step, in which this pair may come to overlap by more than the contact tolerance.
   zeno_guard,
 };
 inline constexpr int event_kind_count = 6;

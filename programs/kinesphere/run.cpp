@@ -53,6 +53,8 @@ struct Attachments {
 
 Attachments attach(const RunOptions& options, const Scene& scene) {
   Attachments attached;
+  if (!options.contacts.empty() && options.contacts == options.frames)
+    throw ProgramError("--frames: expected another file than that of --contacts, but got " + options.frames);
   if (!options.contacts.empty()) attached.contacts = std::make_unique<ContactLog>(options.contacts);
   if (!options.frames.empty()) attached.frames = std::make_unique<FramesXyz>(options.frames, scene);
   if (!options.quiet && !options.hash_only) {

@@ -149,6 +149,9 @@ Scene scene_of(const Recording& recording, const std::string& file, double dista
 int tracks(const TracksOptions& options) {
   const double distance = positive("--distance", options.distance);
   const double tolerance = positive("--tolerance", options.tolerance.value_or(1e-6 * distance));
+  if (tolerance >= distance)
+    throw ProgramError(
+        fmt::format("--tolerance: expected less than the distance {}, but got {}", distance, tolerance));
   const Recording recording = read_tracks(options.file, options.reading);
   const Scene scene = scene_of(recording, options.file, distance, tolerance);
 

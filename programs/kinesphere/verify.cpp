@@ -36,6 +36,7 @@ void add_comparison(Summary& summary, const ContactComparison& comparison) {
   summary.row("grazing", grouped(comparison.grazing), "too shallow to count as either");
   summary.row("missed", grouped(comparison.missed), "in the oracle only");
   summary.row("invented", grouped(comparison.invented), "in the engine only");
+  if (comparison.oracle_faults > 0) summary.row("oracle faults", grouped(comparison.oracle_faults));
   summary.row("verdict", comparison.agrees() ? "engine and oracle agree" : "engine and oracle DISAGREE");
   if (comparison.first_difference) summary.row("first difference", *comparison.first_difference);
 }

@@ -102,7 +102,9 @@ class Comparison {
     double apart_since = first;
     for (const Interval& contact : found) {
       check_apart(key, gap, apart_since, std::min(contact.begin, last));
-      if (contact.begin < apart_since || gap.gap_at(contact.begin) > tolerance_ + hair())
+      if (contact.begin < apart_since)
+        differ(result_.invented, key, "begins before the last contact ends", contact.begin);
+      if (gap.gap_at(contact.begin) > tolerance_ + hair())
         differ(result_.invented, key, "begins without being near", contact.begin);
       check_touching(key, gap, contact.begin, std::min(contact.end, last));
       if (contact.end < last && gap.gap_at(contact.end) < rule_.separation_distance() - hair())
@@ -122,9 +124,10 @@ class Comparison {
     for (const Interval& contact : truth) {
       const bool at_once = contact.begin == first && gap.gap_at(first) <= 0.0;
       if (!at_once && std::abs(gap.gap_at(contact.begin)) > hair())
-        differ(result_.missed, key, "begin (oracle) where the gap is not zero", contact.begin);
+        differ(result_.oracle_faults, key, "begin (oracle) where the gap is not zero", contact.begin);
       if (contact.end < last && std::abs(gap.gap_at(contact.end) - rule_.separation_distance()) > hair())
-        differ(result_.missed, key, "end (oracle) where the gap is not the separation distance", contact.end);
+        differ(result_.oracle_faults, key, "end (oracle) where the gap is not the separation distance",
+               contact.end);
     }
   }
 

@@ -1,6 +1,7 @@
 // Running a scene under a detector.
 #include <algorithm>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 #include "kinesphere/response.hpp"

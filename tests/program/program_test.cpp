@@ -216,6 +216,8 @@ TEST_F(ProgramTest, RefusesWrongTracks) {
   expect_wrong_input("tracks " + file + " --distance 1", {"t.csv:3:", "column 3", "zero"});
   expect_wrong_input("tracks nowhere.csv --distance 1", {"nowhere.csv", "No such file"});
   expect_wrong_input("tracks " + file + " --distance 0", {"--distance", "> 0"});
+  expect_wrong_input("tracks " + write("good.csv", meeting) + " --distance 0.1 --tolerance 0.2",
+                     {"--tolerance", "0.1"});
   expect_wrong_input("tracks " + file + " --distance 1 --columns id=1", {"--columns", "time="});
   expect_wrong_input("tracks " + file + " --distance 1 --max-gap -1 --columns id=1,time=2,x=2,y=4",
                      {"--max-gap"});
