@@ -9,7 +9,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 block_after() {
   awk -v pattern="$1" '$0 ~ pattern {near = 1; next} near && /^```/ {if (on) exit; on = 1; next} on {print}' README.md
 }
-untimed() { grep -v '^real'; }
+# The width of the columns depends on the timings too.
+untimed() { grep -v '^real' | tr -s ' '; }
 
 diff <(block_after '^## Thirty lines$') examples/first_contact.cpp
 printed=$("$1")
