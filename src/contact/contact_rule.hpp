@@ -15,6 +15,9 @@ class ContactRule {
   enum class Change { none, begin, end, release };
   Change decide(bool touching, double gap, double approach_speed) const;
 
+  /// The contact tolerance.
+  double tolerance() const { return tolerance_; }
+
   /// The gap at which a contact ends.
   double separation_distance() const { return separation_distance_; }
 

@@ -89,9 +89,13 @@ class World::Engine::Audit {
 
   void check_walls(std::uint32_t number) {
     const Body& b = body(number);
-    if (!engine_.definition_.box || !settled(number, number) || b.touching_walls != 0 || !exact(b)) return;
+    if (!engine_.definition_.box || !settled(number, number) || engine_.book_.walls_of(number) != 0 ||
+        !exact(b))
+      return;
     // As for pairs: within the tolerance bouncing bodies follow the contact rule.
-    if (impacts() && !engine_.is_far_from_walls(number)) return;
+    if (impacts() && until_reports_of_walls(engine_.book_.rule(), b.bound, *engine_.definition_.box, now_,
+                                            infinity) <= now_)
+      return;
     const double within = impacts() ? engine_.definition_.contact_tolerance : 0.0;
     const Vec3 room = Vec3{1.0, 1.0, 1.0} * within;
     const Box box{engine_.definition_.box->lower - room, engine_.definition_.box->upper + room};
@@ -101,8 +105,8 @@ class World::Engine::Audit {
   }
 
   void check_pair(std::uint32_t a, std::uint32_t b) {
-    const bool touching = engine_.is_touching(a, b);
-    if (touching != engine_.is_touching(b, a)) return find("contact", pair(a, b) + " touch on one side only");
+    const bool touching = engine_.book_.touch(a, b);
+    if (touching != engine_.book_.touch(b, a)) return find("contact", pair(a, b) + " touch on one side only");
     if (!settled(a, b)) return;
     const double change = earliest_change(a, b, touching);
     bool watched = false;
@@ -123,7 +127,8 @@ class World::Engine::Audit {
 
   double earliest_change(std::uint32_t a, std::uint32_t b, bool touching) const {
     if (touching)
-      return earliest_separation(body(a).bound, body(b).bound, now_, infinity, engine_.rule_.release_gap());
+      return earliest_separation(body(a).bound, body(b).bound, now_, infinity,
+                                 engine_.book_.rule().release_gap());
     const double distance = impacts() ? -engine_.definition_.contact_tolerance : 0.0;
     return earliest_meeting(body(a).bound, body(b).bound, now_, infinity, distance);
   }
@@ -140,10 +145,11 @@ class World::Engine::Audit {
     const auto concerns = [=](const Event& event) {
       return event.first.index == a && (a == b ? event.wall != Wall::none : event.second.index == b);
     };
+    const auto& changed = engine_.book_.changed();
+    const auto& pending = engine_.book_.pending();
     return !body(a).dirty && !body(b).dirty &&
-           std::find(engine_.changed_.begin(), engine_.changed_.end(), std::pair(a, b)) ==
-               engine_.changed_.end() &&
-           std::none_of(engine_.pending_.begin(), engine_.pending_.end(), concerns);
+           std::find(changed.begin(), changed.end(), std::pair(a, b)) == changed.end() &&
+           std::none_of(pending.begin(), pending.end(), concerns);
   }
 
   bool impacts() const { return engine_.definition_.contacts == ContactMode::impacts; }

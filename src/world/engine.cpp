@@ -7,7 +7,7 @@
 namespace kinesphere {
 
 World::Engine::Engine(const WorldDefinition& definition)
-    : definition_(definition), rule_(definition), time_(definition.start_time) {}
+    : definition_(definition), book_(definition), time_(definition.start_time) {}
 
 BodyId World::Engine::add(const BodyDefinition& definition) {
   std::uint32_t number;
@@ -24,6 +24,7 @@ BodyId World::Engine::add(const BodyDefinition& definition) {
   body.box = swept_box(body.bound, time_, time_);
   body.box_end = time_;
   body.alive = true;
+  book_.add(number, body.largest_acceleration());
   grid_.set(number, body.box);
   ++size_;
   mark_dirty(number);
@@ -34,12 +35,12 @@ void World::Engine::remove(BodyId id) {
   const std::uint32_t number = id.index;
   Body& body = bodies_[number];
   if (definition_.contacts == ContactMode::begin_and_end) {
-    for (const std::uint32_t partner : body.touching)
-      announce(contact(EventKind::contact_end, number, partner));
+    for (const std::uint32_t partner : book_.partners_of(number))
+      book_.announce(contact(EventKind::contact_end, number, partner));
     for (const Wall wall : walls)
-      if (body.touching_walls & wall_bit(wall)) announce(wall_contact(EventKind::wall_end, number, wall));
+      if (book_.touches_wall(number, wall)) book_.announce(wall_contact(EventKind::wall_end, number, wall));
   }
-  release_all(number);
+  book_.release_all(number);
   grid_.remove(number);
   schedule_.remove(number);
   std::erase(dirty_, number);
@@ -86,7 +87,7 @@ void World::Engine::kick(BodyId id, const Vec3& velocity) {
   } else {
     body.kicked_since_report = true;
   }
-  if (definition_.contacts == ContactMode::impacts) release_all(id.index);
+  if (definition_.contacts == ContactMode::impacts) book_.release_all(id.index);
   void_facts(id.index);
 }
 
@@ -100,7 +101,7 @@ Result<std::optional<Event>> World::Engine::advance(double until, const Probe& p
     gathering_ = true;
     if (auto settled = settle_all(); !settled) return settled.error();
     gathering_ = false;
-    if (!pending_.empty()) continue;
+    if (!book_.pending().empty()) continue;
     if (schedule_.empty() || schedule_.earliest().time > until) {
       move_on_to(until);
       return std::optional<Event>();
@@ -111,7 +112,7 @@ Result<std::optional<Event>> World::Engine::advance(double until, const Probe& p
 }
 
 void World::Engine::move_on_to(double time) {
-  if (time > time_) guards_told_.clear();
+  if (time > time_) book_.start_instant();
   time_ = time;
 }
 

@@ -12,15 +12,13 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
-#include <set>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "contact/contact_event.hpp"
-#include "contact/contact_rule.hpp"
+#include "contact/contact_book.hpp"
+#include "contact/outlook.hpp"
 #include "kinesphere/world.hpp"
 #include "schedule/schedule.hpp"
 #include "space/hash_grid.hpp"
@@ -43,11 +41,8 @@ struct Body {
   double wall_time = 0.0;  ///< no wall contact begins or ends before this or, if it is infinite, box_end
   std::optional<Horizon> horizon;
   std::vector<Watch> watches;
-  std::vector<std::uint32_t> touching;  ///< partners in contact
-  std::uint8_t touching_walls = 0;      ///< set of wall_bit()
   std::uint32_t generation = 0;
   std::uint32_t epoch = 0;
-  double last_contact = -std::numeric_limits<double>::infinity();
   bool alive = false;
   bool dirty = false;     ///< in the list of those to settle before time moves on
   bool searched = false;  ///< settled in the present round
@@ -110,19 +105,9 @@ class World::Engine {
   bool has_watch(std::uint32_t number, std::uint32_t partner) const;
   void watch(std::uint32_t number, std::uint32_t partner, double time);
   void unwatch(std::uint32_t number, std::uint32_t partner);
-  /// How far the bodies of a contact may stray from their paths together.
-  struct Promise {
-    double speed_error;
-    double acceleration;
-  };
-  std::optional<bool> touching_now(bool touching, const Event& now);
   template <class Partner>
-  struct Outlook;
-  template <class Partner>
-  double next_look(bool touches, const Event& now, const Promise& promise, const Outlook<Partner>& outlook);
-  double guarded_step(double certificate, const Promise& promise, const Event& now);
-  bool is_far_from_change(std::uint32_t a, std::uint32_t b, bool touching) const;
-  bool is_far_from_walls(std::uint32_t number) const;
+  std::optional<double> judge(const Outlook<Partner>& outlook, bool touching, const Event& current,
+                              const Promise& promise);
 
   // probing.cpp: reports.
   Result<void> probe(std::span<const std::uint32_t> numbers);
@@ -133,18 +118,10 @@ class World::Engine {
   Sphere sphere(std::uint32_t number) const;
   Event contact(EventKind kind, std::uint32_t a, std::uint32_t b) const;
   Event wall_contact(EventKind kind, std::uint32_t number, Wall wall) const;
-  bool is_touching(std::uint32_t a, std::uint32_t b) const;
-  void set_touching(std::uint32_t a, std::uint32_t b, bool touching);
-  void release_all(std::uint32_t number);
-  void announce(const Event& event);
   std::optional<Event> deliver();
-  bool still_holds(const Event& event) const;
-  void take_effect(Event& event);
-  bool is_repeated(std::uint32_t number) const;
-  void note_contact(Event& begin);
 
   WorldDefinition definition_;
-  ContactRule rule_;
+  ContactBook book_;
   double time_;
   std::size_t size_ = 0;
   std::vector<Body> bodies_;
@@ -152,10 +129,6 @@ class World::Engine {
   HashGrid grid_;
   HeapSchedule schedule_;
   std::vector<std::uint32_t> dirty_;
-  /// Pairs (a body and itself: its walls) whose contact has just changed, so that no fact holds.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> changed_;
-  std::set<Event, DeliveredBefore> pending_;      ///< events of this instant that are still to be delivered
-  std::set<Event, DeliveredBefore> guards_told_;  ///< Zeno guards of this instant that have been delivered
   Counters counters_;
   bool gathering_ = false;        ///< not all of them have been found: a probe gave a bad answer
   const Probe* probe_ = nullptr;  ///< during advance()

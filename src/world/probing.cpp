@@ -75,7 +75,7 @@ void World::Engine::apply_report(std::uint32_t number, const State& state) {
   violation.point = state.position;
   if (left) violation.position_excess = deviation - deviation_limit;
   if (jumped) violation.velocity_excess = change - change_limit;
-  announce(violation);
+  book_.announce(violation);
   void_facts(number);
 }
 

@@ -9,29 +9,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double just_after(double time) { return std::nextafter(time, infinity); }
-
 }  // namespace
-
-/// The certificates of a body and its partner, another bound or a wall, from now on.
-template <class Partner>
-struct World::Engine::Outlook {
-  const Bound& bound;
-  const Partner& partner;
-  double now;
-  double meeting_horizon;
-  double separation_horizon;
-
-  double meeting(double gap) const { return earliest_meeting(bound, partner, now, meeting_horizon, gap); }
-  double separation(double gap) const {
-    return earliest_separation(bound, partner, now, separation_horizon, gap);
-  }
-  /// More than what rounding can hide of the present gap.
-  double resolution() const {
-    const GapLimits limits = gap_limits(bound, partner, now);
-    return 1.25 * (limits.upper - limits.lower);
-  }
-};
 
 /// The body must be settled before time moves on. Facts about it stay.
 void World::Engine::mark_dirty(std::uint32_t number) {
@@ -49,13 +27,17 @@ void World::Engine::void_facts(std::uint32_t number) {
 }
 
 Result<void> World::Engine::settle_all() {
-  while (!changed_.empty()) {
-    const auto [a, b] = changed_.back();
+  auto& changed = book_.changed();
+  while (!changed.empty()) {
+    const auto [a, b] = changed.back();
+    // What either body watches of the other concerns the old state.
+    unwatch(a, b);
+    unwatch(b, a);
     if (bodies_[a].alive && bodies_[b].alive && !bodies_[a].dirty && !bodies_[b].dirty) {
       if (auto settled = a == b ? settle_walls(a) : settle_pair(a, b); !settled) return settled;
       if (!bodies_[a].dirty) reschedule(a);
     }
-    changed_.pop_back();
+    changed.pop_back();
   }
   // Settling may find broken promises, which make further bodies dirty.
   while (!dirty_.empty()) {
@@ -149,7 +131,7 @@ Result<void> World::Engine::search(std::uint32_t number) {
   ++counters_.searches;
   std::erase_if(bodies_[number].watches,
                 [this](const Watch& w) { return w.epoch != bodies_[w.partner].epoch; });
-  partners_ = bodies_[number].touching;
+  partners_ = book_.partners_of(number);
   const std::size_t touching = partners_.size();
   grid_.for_each_overlap(bodies_[number].box, [&](std::uint32_t other) {
     if (other != number) partners_.push_back(other);
@@ -175,87 +157,43 @@ Result<void> World::Engine::settle_pair(std::uint32_t number, std::uint32_t part
     const Body& a = bodies_[number];
     const Body& b = bodies_[partner];
     if (a.dirty || b.dirty) return {};  // a broken promise came up: its body searches again
-    const bool touching = is_touching(number, partner);
+    const bool touching = book_.touch(number, partner);
+    const Outlook<Bound> outlook(book_.rule(), a.bound, b.bound, time_, {std::min(a.box_end, b.box_end)});
     ++counters_.certificates;
     if (!a.fresh(time_) || !b.fresh(time_)) {
-      const double time = touching
-                              ? earliest_separation(a.bound, b.bound, time_, infinity, rule_.release_gap())
-                              : earliest_meeting(a.bound, b.bound, time_, std::min(a.box_end, b.box_end));
-      if (time > time_ && (time == infinity || is_far_from_change(number, partner, touching))) {
+      const double time = outlook.until_reports(touching);
+      if (time > time_) {
         watch(number, partner, time);
         return {};
       }
       if (auto probed = probe_staler(number, partner); !probed) return probed;
       continue;
     }
-    const Event now = contact(EventKind::zeno_guard, number, partner);
-    const std::optional<bool> touches = touching_now(touching, now);
-    if (!touches) {
-      unwatch(number, partner);
-      return {};
-    }
-    if (touching && !*touches) set_touching(number, partner, false);
     const Promise sum{a.definition.velocity_error + b.definition.velocity_error,
                       a.largest_acceleration() + b.largest_acceleration()};
-    const Outlook<Bound> outlook{a.bound, b.bound, time_, std::min(a.box_end, b.box_end), infinity};
-    watch(number, partner, next_look(*touches, now, sum, outlook));
+    const auto next_look = judge(outlook, touching, contact(EventKind::zeno_guard, number, partner), sum);
+    unwatch(number, partner);
+    if (next_look) watch(number, partner, *next_look);
     return {};
   }
 }
 
-/// Holds fresh reports against the contact rule. Announces a begin or an end, or tells whether the two touch.
-std::optional<bool> World::Engine::touching_now(bool touching, const Event& now) {
-  Event change = now;
-  switch (rule_.decide(touching, now.gap, now.approach_speed)) {
-    case ContactRule::Change::none:
-      return touching;
-    case ContactRule::Change::release:
-      return false;
-    case ContactRule::Change::begin:
-      change.kind = now.wall == Wall::none ? EventKind::contact_begin : EventKind::wall_begin;
-      break;
-    case ContactRule::Change::end:
-      change.kind = now.wall == Wall::none ? EventKind::contact_end : EventKind::wall_end;
-      break;
-  }
-  announce(change);
-  return std::nullopt;
-}
-
-/// How long whether they touch cannot change, given fresh reports.
+/// Holds fresh reports against the contact rule. Announces what is news; unless that is a begin or an end,
+/// tells how long whether the two touch cannot change.
 template <class Partner>
-double World::Engine::next_look(bool touches, const Event& now, const Promise& promise,
-                                const Outlook<Partner>& outlook) {
-  if (touches) return std::max(outlook.separation(rule_.release_gap()), just_after(time_));
-  // A certificate cannot guard a gap that lies within its own rounding of the present one.
-  const double gap = now.gap - outlook.resolution();
-  double time = guarded_step(outlook.meeting(rule_.guarded_gap(gap)), promise, now);
-  if (rule_.is_deep(gap)) time = std::min(time, outlook.separation(rule_.surface_gap()));
-  return std::max(time, just_after(time_));
-}
-
-/// True when the bounds as they are keep away from where the contact changes. If they do not, a certificate
-/// may be as short as one likes, and a second report is better: with two the rule decides, or the certificate
-/// spans a tolerance.
-bool World::Engine::is_far_from_change(std::uint32_t a, std::uint32_t b, bool touching) const {
-  const GapLimits gap = gap_limits(bodies_[a].bound, bodies_[b].bound, time_);
-  return touching ? gap.upper < rule_.separation_distance() : gap.lower > definition_.contact_tolerance;
-}
-
-/// As above, for a body that touches no wall.
-bool World::Engine::is_far_from_walls(std::uint32_t number) const {
-  const Vec3 tolerance = Vec3{1.0, 1.0, 1.0} * definition_.contact_tolerance;
-  const Box inner{definition_.box->lower + tolerance, definition_.box->upper - tolerance};
-  return earliest_exit(bodies_[number].bound, inner, time_, infinity) > time_;
-}
-
-/// The Zeno guard: makes sure that time moves on between two looks at a contact that does not approach.
-double World::Engine::guarded_step(double certificate, const Promise& promise, const Event& now) {
-  const double least = time_ + rule_.least_step(now.gap, promise.speed_error, promise.acceleration);
-  if (certificate >= least) return certificate;
-  ++counters_.zeno_steps;
-  if (rule_.step_breaks_tolerance(now.gap)) announce(now);
-  return least;
+std::optional<double> World::Engine::judge(const Outlook<Partner>& outlook, bool touching,
+                                           const Event& current, const Promise& promise) {
+  const Verdict verdict = outlook.judge(touching, current, promise);
+  if (verdict.is_news()) {
+    Event news = current;
+    news.kind = kind_of(verdict.change, current.wall);
+    book_.announce(news);
+    return std::nullopt;
+  }
+  if (verdict.change == ContactRule::Change::release) book_.release(current);
+  if (verdict.zeno_step) ++counters_.zeno_steps;
+  if (verdict.breaks_tolerance) book_.announce(current);
+  return verdict.next_look;
 }
 
 /// Records how long no wall contact of the body can begin or end.
@@ -268,9 +206,10 @@ Result<void> World::Engine::settle_walls(std::uint32_t number) {
     Body& body = bodies_[number];
     if (body.dirty) return {};
     body.wall_time =
-        body.touching_walls != 0 ? time_ : earliest_exit(body.bound, *definition_.box, time_, body.box_end);
-    if (body.wall_time == infinity) return {};
-    if (body.wall_time > time_ && is_far_from_walls(number)) return {};
+        book_.walls_of(number) != 0
+            ? time_
+            : until_reports_of_walls(book_.rule(), body.bound, *definition_.box, time_, body.box_end);
+    if (body.wall_time > time_) return {};
     if (body.fresh(time_)) break;
     if (auto probed = probe(std::span(&number, 1)); !probed) return probed;
   }
@@ -278,14 +217,11 @@ Result<void> World::Engine::settle_walls(std::uint32_t number) {
   double first = infinity;
   for (const Wall wall : walls) {
     const HalfSpace inside = half_space(*definition_.box, wall);
-    const bool touching = (body.touching_walls & wall_bit(wall)) != 0;
-    const Event now = wall_contact(EventKind::zeno_guard, number, wall);
-    const std::optional<bool> touches = touching_now(touching, now);
-    if (!touches) continue;
-    if (touching && !*touches) body.touching_walls ^= wall_bit(wall);
+    const Outlook<HalfSpace> outlook(book_.rule(), body.bound, inside, time_, {body.box_end, body.box_end});
     const Promise promise{body.definition.velocity_error, body.largest_acceleration()};
-    const Outlook<HalfSpace> outlook{body.bound, inside, time_, body.box_end, body.box_end};
-    first = std::min(first, next_look(*touches, now, promise, outlook));
+    const auto next_look = judge(outlook, book_.touches_wall(number, wall),
+                                 wall_contact(EventKind::zeno_guard, number, wall), promise);
+    if (next_look) first = std::min(first, *next_look);
   }
   body.wall_time = first;
   return {};

@@ -1,0 +1,80 @@
+#include "contact/contact_book.hpp"
+
+#include <algorithm>
+
+namespace kinesphere {
+
+void ContactBook::add(std::uint32_t body, double largest_acceleration) {
+  if (body >= entries_.size()) entries_.resize(body + 1);
+  entries_[body] = Entry{.partners = {}, .zeno_interval = rule_.zeno_interval(largest_acceleration)};
+}
+
+bool ContactBook::touch(std::uint32_t a, std::uint32_t b) const {
+  const auto& partners = entries_[a].partners;
+  return std::find(partners.begin(), partners.end(), b) != partners.end();
+}
+
+/// Of the bodies, or of the body and the wall, that the event names.
+void ContactBook::set_touching(const Event& contact, bool touching) {
+  const std::uint32_t a = contact.first.index;
+  const std::uint32_t b = contact.second.index;
+  if (contact.wall != Wall::none) {
+    std::uint8_t& set = entries_[a].walls;
+    const std::uint8_t bit = wall_bit(contact.wall);
+    set = static_cast<std::uint8_t>(touching ? set | bit : set & ~bit);
+  } else if (touching) {
+    entries_[a].partners.push_back(b);
+    entries_[b].partners.push_back(a);
+  } else {
+    std::erase(entries_[a].partners, b);
+    std::erase(entries_[b].partners, a);
+  }
+}
+
+void ContactBook::release_all(std::uint32_t body) {
+  for (const std::uint32_t partner : entries_[body].partners) std::erase(entries_[partner].partners, body);
+  entries_[body].partners.clear();
+  entries_[body].walls = 0;
+}
+
+void ContactBook::announce(const Event& event) {
+  // A caller who kicks at a Zeno guard must not get the same one again at the same instant, for ever.
+  if (!guards_told_.contains(event)) pending_.insert(event);
+}
+
+/// Changes the contact's state and brings the event up to date with kicks of this instant. False when it does
+/// not hold any more.
+bool ContactBook::take_effect(Event& event, const Sphere& first, const Sphere& second,
+                              const std::optional<Box>& box) {
+  const bool wall = event.wall != Wall::none;
+  const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
+  if (event.kind == EventKind::zeno_guard) guards_told_.insert(event);
+  if (event.kind == EventKind::zeno_guard || event.kind == EventKind::bound_violation) return true;
+  const Event now = wall ? wall_event(event.kind, event.time, first, *box, event.wall)
+                         : contact_event(event.kind, event.time, first, second);
+  if (begins && !still_begins(now)) return false;
+  event = now;
+  if (begins) note_contact(event);
+  set_touching(event, begins);
+  changed_.emplace_back(first.id.index, second.id.index);
+  return true;
+}
+
+bool ContactBook::still_begins(const Event& now) const {
+  return rule_.decide(false, now.gap, now.approach_speed) == ContactRule::Change::begin;
+}
+
+/// True when the body touched something less than its Zeno interval ago.
+bool ContactBook::is_repeated(const Event& begin, std::uint32_t body) const {
+  return begin.time - entries_[body].last_contact < entries_[body].zeno_interval;
+}
+
+/// Marks the begin of a contact if it is a repeated one, and remembers it for the next.
+void ContactBook::note_contact(Event& begin) {
+  const bool pair = begin.second != no_body;
+  begin.repeated = is_repeated(begin, begin.first.index) || (pair && is_repeated(begin, begin.second.index));
+  entries_[begin.first.index].last_contact = begin.time;
+  if (pair) entries_[begin.second.index].last_contact = begin.time;
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,87 @@
+// Who touches whom, and the events of the present instant on their way to the caller.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "contact/contact_event.hpp"
+#include "contact/contact_rule.hpp"
+
+namespace kinesphere {
+
+class ContactBook {
+ public:
+  explicit ContactBook(const WorldDefinition& definition) : rule_(definition) {}
+
+  const ContactRule& rule() const { return rule_; }
+
+  /// A body that touches nothing. `largest_acceleration` sets its Zeno interval.
+  void add(std::uint32_t body, double largest_acceleration);
+
+  // Who touches whom.
+  bool touch(std::uint32_t a, std::uint32_t b) const;
+  bool touches_wall(std::uint32_t body, Wall wall) const { return (walls_of(body) & wall_bit(wall)) != 0; }
+  const std::vector<std::uint32_t>& partners_of(std::uint32_t body) const { return entries_[body].partners; }
+  /// A set of wall_bit().
+  std::uint8_t walls_of(std::uint32_t body) const { return entries_[body].walls; }
+  // They do not touch any more, and nobody is told.
+  void release(const Event& contact) { set_touching(contact, false); }
+  void release_all(std::uint32_t body);
+
+  // Events of this instant.
+  /// Time moves on.
+  void start_instant() { guards_told_.clear(); }
+  /// Queues an event; the same event is not queued twice.
+  void announce(const Event& event);
+  const std::set<Event, DeliveredBefore>& pending() const { return pending_; }
+  /// The next event that still holds after what the caller did at the ones before it. `sphere_of(id)` gives
+  /// the sphere as it is now, or nothing when it is gone.
+  template <class SphereOf>
+  std::optional<Event> deliver(SphereOf sphere_of, const std::optional<Box>& box) {
+    while (!pending_.empty()) {
+      Event event = pending_.extract(pending_.begin()).value();
+      const std::optional<Sphere> first = sphere_of(event.first);
+      const std::optional<Sphere> second =
+          event.second == no_body ? std::nullopt : std::optional<Sphere>(sphere_of(event.second));
+      if (first && (second || event.second == no_body)) {
+        const Sphere& other = second ? *second : *first;
+        if (!take_effect(event, *first, other, box)) continue;
+      } else if (event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin) {
+        continue;
+      }
+      return event;
+    }
+    return std::nullopt;
+  }
+
+  /// Pairs (a body and itself: its walls) whose contact has been changed by a delivered event, so that
+  /// nothing is known of them; for the caller to take out.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>>& changed() { return changed_; }
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& changed() const { return changed_; }
+
+ private:
+  struct Entry {
+    std::vector<std::uint32_t> partners;
+    std::uint8_t walls = 0;
+    double zeno_interval = 0.0;
+    double last_contact = -std::numeric_limits<double>::infinity();
+  };
+
+  void set_touching(const Event& contact, bool touching);
+  bool take_effect(Event& event, const Sphere& first, const Sphere& second, const std::optional<Box>& box);
+  bool still_begins(const Event& now) const;
+  bool is_repeated(const Event& begin, std::uint32_t body) const;
+  void note_contact(Event& begin);
+
+  ContactRule rule_;
+  std::vector<Entry> entries_;
+  std::set<Event, DeliveredBefore> pending_;
+  std::set<Event, DeliveredBefore> guards_told_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> changed_;
+};
+
+}  // namespace kinesphere

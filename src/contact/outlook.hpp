@@ -1,0 +1,83 @@
+// How long what is known of a contact stays true: from bounds as they are, and from fresh reports.
+#pragma once
+
+#include <limits>
+
+#include "contact/contact_rule.hpp"
+#include "kinesphere/bound.hpp"
+#include "kinesphere/event.hpp"
+
+namespace kinesphere {
+
+/// How far the bodies of a contact may stray from their paths together.
+struct Promise {
+  double speed_error;
+  double acceleration;
+};
+
+/// How far an outlook has to reach: it is of no use beyond.
+struct Horizons {
+  double meeting = std::numeric_limits<double>::infinity();
+  double separation = std::numeric_limits<double>::infinity();
+};
+
+/// What fresh reports say of a contact.
+struct Verdict {
+  /// A begin or an end has to be delivered first; then no time is known.
+  ContactRule::Change change = ContactRule::Change::none;
+  /// Else: whether they touch cannot change before this.
+  double next_look = 0.0;
+  /// The Zeno guard has put next_look off, and in the second case by so much that the caller must be told.
+  bool zeno_step = false;
+  bool breaks_tolerance = false;
+
+  bool is_news() const { return change == ContactRule::Change::begin || change == ContactRule::Change::end; }
+};
+
+/// The kind of event that announces a change, a begin or an end, of a contact with a body or with `wall`.
+EventKind kind_of(ContactRule::Change change, Wall wall);
+
+/// A body and its partner, another body's Bound or the HalfSpace inside a wall, seen from now on.
+template <class Partner>
+class Outlook {
+ public:
+  Outlook(const ContactRule& rule, const Bound& bound, const Partner& partner, double now,
+          const Horizons& horizons)
+      : rule_(rule), bound_(bound), partner_(partner), now_(now), horizons_(horizons) {}
+
+  /// From bounds as they are: whether the two touch cannot change before this time. `now` when fresh reports
+  /// are needed: bounds that keep away from where the contact changes give a useful certificate; if they do
+  /// not, it may be as short as one likes, and with fresh reports the rule decides, or the certificate spans
+  /// a tolerance.
+  double until_reports(bool touching) const;
+
+  /// From fresh reports; `current` is an event that describes the two now.
+  Verdict judge(bool touching, const Event& current, const Promise& promise) const;
+
+ private:
+  double meeting(double gap) const {
+    return earliest_meeting(bound_, partner_, now_, horizons_.meeting, gap);
+  }
+  double separation(double gap) const {
+    return earliest_separation(bound_, partner_, now_, horizons_.separation, gap);
+  }
+  double resolution() const;
+
+  const ContactRule& rule_;
+  const Bound& bound_;
+  const Partner& partner_;
+  double now_;
+  Horizons horizons_;
+};
+
+extern template class Outlook<Bound>;
+extern template class Outlook<HalfSpace>;
+
+/// Outlook::until_reports for a body that touches none of the walls of the box, all walls at once.
+double until_reports_of_walls(const ContactRule& rule, const Bound& bound, const Box& box, double now,
+                              double horizon);
+
+/// The least time after this one.
+double just_after(double time);
+
+}  // namespace kinesphere

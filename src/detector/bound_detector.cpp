@@ -1,0 +1,152 @@
+#include "detector/bound_detector.hpp"
+
+#include <algorithm>
+
+namespace kinesphere {
+
+Result<void> BoundDetector::add(std::uint32_t number, const BodyDefinition& definition) {
+  Body& body = bodies_[number];
+  body = {.definition = definition,
+          .bound = bound_of(definition, {definition.position, definition.velocity}, time_),
+          .present = true,
+          .new_course = true};
+  book_.add(number, body.largest_acceleration());
+  new_courses_.push_back(number);
+  bodies_added_ = true;
+  return {};
+}
+
+Result<void> BoundDetector::remove(std::uint32_t number) {
+  if (definition_.contacts == ContactMode::begin_and_end) {
+    for (const std::uint32_t partner : touching(number))
+      book_.announce(contact_event(EventKind::contact_end, time_, sphere(number), sphere(partner)));
+    for (const Wall wall : walls)
+      if (book_.touches_wall(number, wall))
+        book_.announce(wall_event(EventKind::wall_end, time_, sphere(number), *definition_.box, wall));
+  }
+  book_.release_all(number);
+  std::erase(new_courses_, number);
+  bodies_[number] = Body{};
+  on_removed(number);
+  return {};
+}
+
+Result<void> BoundDetector::kick(std::uint32_t number, const Vec3& velocity) {
+  Body& body = bodies_[number];
+  if (!fresh(number)) probe(number);
+  body.bound.velocity = velocity;
+  if (definition_.contacts == ContactMode::impacts) book_.release_all(number);
+  if (!body.new_course) new_courses_.push_back(number);
+  body.new_course = true;
+  return {};
+}
+
+Result<std::optional<Event>> BoundDetector::advance(double until) {
+  for (;;) {
+    if (std::optional<Event> event = deliver()) return event;
+    settle();
+    while (next_time() <= time_) handle_next();
+    if (!book_.pending().empty()) continue;
+    if (next_time() > until) {
+      move_on_to(until);
+      return std::optional<Event>();
+    }
+    move_on_to(next_time());
+    while (next_time() <= time_) handle_next();
+  }
+}
+
+void BoundDetector::move_on_to(double time) {
+  if (time > time_) book_.start_instant();
+  time_ = time;
+}
+
+std::optional<Event> BoundDetector::deliver() {
+  const auto sphere_of = [this](BodyId id) {
+    return bodies_[id.index].present ? std::optional(sphere(id.index)) : std::nullopt;
+  };
+  std::optional<Event> event = book_.deliver(sphere_of, definition_.box);
+  if (!event) return event;
+  ++counters_.events[static_cast<std::size_t>(event->kind)];
+  if (event->repeated) ++counters_.repeated_contacts;
+  return event;
+}
+
+/// Predicts what has changed at this instant.
+void BoundDetector::settle() {
+  if (bodies_added_) prepare();
+  bodies_added_ = false;
+  while (!new_courses_.empty()) {
+    const std::uint32_t number = new_courses_.back();
+    new_courses_.pop_back();
+    if (!fresh(number)) probe(number);
+    bodies_[number].new_course = false;
+    on_new_course(number);
+  }
+  auto& changed = book_.changed();
+  while (!changed.empty()) {
+    const auto [a, b] = changed.back();
+    changed.pop_back();
+    if (bodies_[a].present && bodies_[b].present) on_contact_change(a, b);
+  }
+}
+
+Sphere BoundDetector::sphere(std::uint32_t number) const {
+  const Bound& bound = bodies_[number].bound;
+  return {{number, 0}, bound.radius, {bound.centre_at(time_), bound.velocity_at(time_)}};
+}
+
+void BoundDetector::probe(std::uint32_t number) {
+  ++counters_.probes;
+  Body& body = bodies_[number];
+  body.bound = bound_of(body.definition, motion_.state(number, time_), time_);
+}
+
+double BoundDetector::pair_outlook(std::uint32_t a, std::uint32_t b, double horizon) {
+  ++counters_.certificates;
+  const Body& first = bodies_[a];
+  const Body& second = bodies_[b];
+  const bool touching = book_.touch(a, b);
+  const Outlook<Bound> outlook(rule(), first.bound, second.bound, time_, {horizon, horizon});
+  if (!fresh(a) || !fresh(b)) return outlook.until_reports(touching);
+  const Promise sum{first.definition.velocity_error + second.definition.velocity_error,
+                    first.largest_acceleration() + second.largest_acceleration()};
+  return judge(outlook, touching, contact_event(EventKind::zeno_guard, time_, sphere(a), sphere(b)), sum);
+}
+
+double BoundDetector::wall_outlook(std::uint32_t number, double horizon) {
+  if (!definition_.box) return infinity;
+  const Body& body = bodies_[number];
+  const double time = book_.walls_of(number) != 0
+                          ? time_
+                          : until_reports_of_walls(rule(), body.bound, *definition_.box, time_, horizon);
+  if (time > time_ || !fresh(number)) return time;
+  double first = infinity;
+  for (const Wall wall : walls) {
+    const HalfSpace inside = half_space(*definition_.box, wall);
+    const Outlook<HalfSpace> outlook(rule(), body.bound, inside, time_, {horizon, horizon});
+    const Event current = wall_event(EventKind::zeno_guard, time_, sphere(number), *definition_.box, wall);
+    first = std::min(first, judge(outlook, book_.touches_wall(number, wall), current,
+                                  {body.definition.velocity_error, body.largest_acceleration()}));
+  }
+  return first;
+}
+
+/// Holds fresh reports against the contact rule.
+template <class Partner>
+double BoundDetector::judge(const Outlook<Partner>& outlook, bool touching, const Event& current,
+                            const Promise& promise) {
+  const Verdict verdict = outlook.judge(touching, current, promise);
+  if (verdict.is_news()) {
+    Event news = current;
+    news.kind = kind_of(verdict.change, current.wall);
+    book_.announce(news);
+    return infinity;
+  }
+  if (verdict.change == ContactRule::Change::release) book_.release(current);
+  if (verdict.zeno_step) ++counters_.zeno_steps;
+  if (verdict.breaks_tolerance) book_.announce(current);
+  return verdict.next_look;
+}
+
+}  // namespace kinesphere
