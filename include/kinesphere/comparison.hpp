@@ -15,7 +15,9 @@ struct ContactComparison {
   std::uint64_t matched = 0;
   /// Those that one of the two reports and the promise leaves open: the gap only grazes the tolerance.
   std::uint64_t grazing = 0;
-  /// What the detector should have reported and did not, and the reverse.
+  /// What the detector reported, but later than the promise allows.
+  std::uint64_t late = 0;
+  /// What it should have reported and did not, and the reverse.
   std::uint64_t missed = 0;
   std::uint64_t invented = 0;
   /// Times of the oracle at which the bare distance is not what it should be: a fault of the oracle.
@@ -23,7 +25,7 @@ struct ContactComparison {
   double largest_time_difference = 0.0;  ///< among the matched
   std::optional<std::string> first_difference;
 
-  bool agrees() const { return missed == 0 && invented == 0 && oracle_faults == 0; }
+  bool agrees() const { return late == 0 && missed == 0 && invented == 0 && oracle_faults == 0; }
 };
 
 /// Compares the events of a run of `scene` with the truth. Only for scenes in which nobody bounces: with

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "kinesphere/event.hpp"
 #include "kinesphere/motion/motion.hpp"
 #include "kinesphere/result.hpp"
+#include "kinesphere/unit_costs.hpp"
 #include "kinesphere/world.hpp"
 
 namespace kinesphere {
@@ -38,6 +40,10 @@ class Detector {
   virtual std::optional<AuditFinding> audit() const { return std::nullopt; }
 };
 
+/// Makes the detector that is to watch the bodies of a motion.
+using DetectorMaker =
+    std::function<Result<std::unique_ptr<Detector>>(const WorldDefinition& definition, const Motion& motion)>;
+
 // Detectors read `motion` through state() alone, the oracle through trajectory() too; it must outlive them.
 
 /// The default engine: a World.
@@ -46,8 +52,59 @@ Result<std::unique_ptr<Detector>> make_world_detector(const WorldDefinition& def
 /// Brute force over exact trajectories: every root of every pair's distance polynomial, isolated
 /// rigorously. O(n^2) memory and time; the truth to compare with.
 Result<std::unique_ptr<Detector>> make_oracle(const WorldDefinition& definition, const Motion& motion);
-/// Looks at all bodies every `step`, through a grid: late by up to a step, and blind in between.
+
+/// How the paper's detector solves eq 9 for the time of a colliding event.
+enum class MeetingSolver {
+  certified,    ///< Newton steps along the line of centres (earliest_meeting): never late
+  numeric,      ///< the quartic of eq 10, numerically, as the paper did
+  closed_form,  ///< its closed form; uses the machine's mathematical library, so runs may differ between
+                ///< machines
+};
+
+struct PaperOptions {
+  /// Edge of the finest cells (length) > 0, or 0: the cost model chooses it when the first bodies are there.
+  double cell_edge = 0.0;
+  /// Leave candidates out of the event tree that come after the reset of their body (paper, section 3.3).
+  bool trimming = true;
+  MeetingSolver solver = MeetingSolver::certified;
+  /// What the cost model reckons with. Measured ones (calibrate_unit_costs) suit this machine better, but two
+  /// runs may then differ in their probes and in the last digits of their contacts.
+  UnitCosts unit_costs = UnitCosts::reference();
+};
+
+/// The paper's algorithm (Kim, Guibas and Shin 2005): hierarchical grids, entering, leaving, resetting and
+/// colliding events. Errors: out_of_range for options.
+Result<std::unique_ptr<Detector>> make_paper_detector(const WorldDefinition& definition, const Motion& motion,
+                                                      const PaperOptions& options = {});
+/// Its ancestor for ballistic spheres (Kim, Guibas and Shin 1998): exact event times, no probes. add()
+/// answers unsupported for a body with a limit or with errors, and for one with a plan of its own.
+Result<std::unique_ptr<Detector>> make_ballistic_detector(const WorldDefinition& definition,
+                                                          const Motion& motion);
+
+struct HubbardOptions {
+  /// How long space-time bounds are built for (time) > 0, or 0: twice the running mean of the time to their
+  /// first meeting.
+  double interval = 0.0;
+  /// Find all crossings of faces in the interval, and not only those up to the first meeting. The contacts
+  /// are the same, the work is not.
+  bool all_crossings = false;
+};
+
+/// The broad phase of Hubbard (1995): space-time bounds of all bodies, rebuilt after each of their
+/// collisions, and a sweep over time through their faces. Errors: out_of_range for options.
+Result<std::unique_ptr<Detector>> make_hubbard_detector(const WorldDefinition& definition,
+                                                        const Motion& motion,
+                                                        const HubbardOptions& options = {});
+/// The predictor of Hayward and others (1995): a safe interval for every pair, and the urgent ones looked at
+/// first. O(n^2) memory.
+Result<std::unique_ptr<Detector>> make_hayward_detector(const WorldDefinition& definition,
+                                                        const Motion& motion);
+
+enum class FixedStepSearch { grid, all_pairs };
+/// Looks at all bodies every `step` (time) > 0, through a grid or pair by pair: late by up to a step, and
+/// blind in between. Errors: out_of_range for the step.
 Result<std::unique_ptr<Detector>> make_fixed_step_detector(const WorldDefinition& definition,
-                                                           const Motion& motion, double step);
+                                                           const Motion& motion, double step,
+                                                           FixedStepSearch search = FixedStepSearch::grid);
 
 }  // namespace kinesphere

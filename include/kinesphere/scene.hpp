@@ -54,10 +54,6 @@ struct SimulationResult {
   std::uint64_t contact_hash = 0;  ///< of all events, in order; see EventHash
 };
 
-/// Makes the detector that is to watch a scene.
-using DetectorMaker =
-    std::function<Result<std::unique_ptr<Detector>>(const WorldDefinition& definition, const Motion& motion)>;
-
 /// Runs a scene under a detector that `make` creates: adds and removes bodies when their time comes, answers
 /// contacts as the scene's response says.
 Result<SimulationResult> simulate(const Scene& scene, const DetectorMaker& make,

@@ -18,23 +18,6 @@
 namespace kinesphere::program {
 namespace {
 
-DetectorMaker detector_of(const RunOptions& options) {
-  const bool steps = options.detector == "fixed-step";
-  if (steps != options.step.has_value()) {
-    throw ProgramError(steps ? "--detector fixed-step: expected --step with the step's length"
-                             : "--step: expected only with --detector fixed-step");
-  }
-  if (options.detector == "world") return make_world_detector;
-  if (options.detector == "oracle") return make_oracle;
-  if (steps) {
-    return [step = *options.step](const WorldDefinition& world, const Motion& motion) {
-      return make_fixed_step_detector(world, motion, step);
-    };
-  }
-  throw ProgramError(
-      fmt::format("--detector: expected one of world, oracle, fixed-step, but got '{}'", options.detector));
-}
-
 double frame_interval_of(const RunOptions& options, const Scene& scene) {
   const double duration = scene.end_time - scene.world.start_time;
   const double interval = options.frame_interval.value_or(duration > 0 ? duration / 100 : 1.0);
@@ -98,14 +81,32 @@ void add_wakes(Summary& summary, const Counters& counters) {
   summary.row("  wall checks", grouped(counters.wall_checks), share(counters.wall_checks));
 }
 
+/// What came to pass in the detectors of the papers.
+void add_paper_events(Summary& summary, const Counters& counters) {
+  const std::uint64_t crossings = counters.entering + counters.leaving;
+  const std::uint64_t events = crossings + counters.resetting + counters.colliding;
+  const auto row = [&](const char* kind, std::uint64_t count) {
+    summary.row(kind, grouped(count), percent(static_cast<double>(count), static_cast<double>(events)));
+  };
+  if (events > 0) {
+    summary.row("candidates", grouped(counters.event_insertions),
+                fmt::format("{} of them removed, at most {} at a time", grouped(counters.event_removals),
+                            grouped(counters.largest_queue)));
+    row("  entering", counters.entering);
+    row("  leaving", counters.leaving);
+    row("  resetting", counters.resetting);
+    row("  colliding", counters.colliding);
+  }
+  if (counters.rebuilds > 0) summary.row("rebuilds", grouped(counters.rebuilds), "of all bounds");
+}
+
 std::string summary_of(const SceneParameters& parameters, const RunOptions& options, const Scene& scene,
                        const SimulationResult& result, double real_seconds) {
   const Counters& counters = result.counters;
   const auto probes = static_cast<double>(counters.probes);
   Summary summary;
   add_scene(summary, parameters);
-  summary.row("detector", options.step ? fmt::format("{}, {} s", options.detector, number(*options.step))
-                                       : options.detector);
+  summary.row("detector", options.detector.description());
   summary.row("simulated", fmt::format("{} s", number(result.simulated_time)),
               fmt::format("{} body-seconds", number(result.body_time)));
   summary.space();
@@ -114,6 +115,7 @@ std::string summary_of(const SceneParameters& parameters, const RunOptions& opti
   summary.row("probes", grouped(counters.probes),
               fmt::format("{} per body-second", number(probes / result.body_time)));
   add_wakes(summary, counters);
+  add_paper_events(summary, counters);
   if (counters.searches > 0) {
     summary.row("searches", grouped(counters.searches),
                 fmt::format("{} candidates", grouped(counters.candidates)));
@@ -131,10 +133,7 @@ CLI::App* add_run_command(CLI::App& program, RunOptions& options) {
   CLI::App* command = program.add_subcommand("run", "Simulate a scene and summarise it");
   add_scene_options(*command, options.scene);
   add_response_options(*command, options.scene);
-  command->add_option("--detector", options.detector, "Who looks for contacts")
-      ->type_name("world|oracle|fixed-step")
-      ->capture_default_str();
-  command->add_option("--step", options.step, "Time step of --detector fixed-step")->check(finite_number());
+  add_detector_options(*command, options.detector);
   command->add_option("--contacts", options.contacts, "Write every event to this .csv or .jsonl file")
       ->type_name("FILE");
   command->add_option("--frames", options.frames, "Write snapshots to this file (extended XYZ, for OVITO)")
@@ -151,7 +150,7 @@ CLI::App* add_run_command(CLI::App& program, RunOptions& options) {
 
 int run(const RunOptions& options) {
   const SceneSource source = options.scene.source();
-  const DetectorMaker make_detector = detector_of(options);
+  const DetectorMaker make_detector = options.detector.maker();
   const Scene scene = make_scene(source);
   Attachments attached = attach(options, scene);
   const SimulationObserver observer = observer_of(options, scene, attached);

@@ -5,14 +5,14 @@
 #include <optional>
 #include <string>
 
+#include "detector_options.hpp"
 #include "scene_options.hpp"
 
 namespace kinesphere::program {
 
 struct RunOptions {
   SceneOptions scene;
-  std::string detector = "world";
-  std::optional<double> step;
+  DetectorOptions detector;
   std::string contacts;
   std::string frames;
   std::optional<double> frame_interval;

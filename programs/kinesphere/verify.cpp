@@ -1,4 +1,4 @@
-// `kinesphere verify`: the engine and the oracle on the same scene, every begin and end compared.
+// `kinesphere verify`: a detector and the oracle on the same scene, every begin and end compared.
 #include "verify.hpp"
 
 #include <fmt/format.h>
@@ -13,16 +13,19 @@ CLI::App* add_verify_command(CLI::App& program, VerifyOptions& options) {
   CLI::App* command = program.add_subcommand(
       "verify", "Compare every contact of a scene with an exact oracle (bodies pass through each other)");
   add_scene_options(*command, options.scene);
+  add_detector_options(*command, options.detector);
   return command;
 }
 
 int verify(const VerifyOptions& options) {
   SceneSource source = options.scene.source();
   source.parameters.response = Response::pass_through;
+  const DetectorMaker make_detector = options.detector.maker();
   const Scene scene = make_scene(source);
-  const ContactComparison comparison = require(kinesphere::verify(scene, make_world_detector));
+  const ContactComparison comparison = require(kinesphere::verify(scene, make_detector));
   Summary summary;
   add_scene(summary, source.parameters);
+  summary.row("detector", options.detector.description());
   summary.row("seconds", number(source.parameters.seconds));
   summary.space();
   add_comparison(summary, comparison);
@@ -34,10 +37,11 @@ void add_comparison(Summary& summary, const ContactComparison& comparison) {
   summary.row("matched", grouped(comparison.matched),
               fmt::format("begins and ends, at most {} s apart", number(comparison.largest_time_difference)));
   summary.row("grazing", grouped(comparison.grazing), "too shallow to count as either");
+  summary.row("late", grouped(comparison.late), "later than the tolerance allows");
   summary.row("missed", grouped(comparison.missed), "in the oracle only");
-  summary.row("invented", grouped(comparison.invented), "in the engine only");
+  summary.row("invented", grouped(comparison.invented), "in the detector only");
   if (comparison.oracle_faults > 0) summary.row("oracle faults", grouped(comparison.oracle_faults));
-  summary.row("verdict", comparison.agrees() ? "engine and oracle agree" : "engine and oracle DISAGREE");
+  summary.row("verdict", comparison.agrees() ? "detector and oracle agree" : "detector and oracle DISAGREE");
   if (comparison.first_difference) summary.row("first difference", *comparison.first_difference);
 }
 

@@ -1,8 +1,9 @@
-// `kinesphere verify`: the engine and the oracle on the same scene, every begin and end compared.
+// `kinesphere verify`: a detector and the oracle on the same scene, every begin and end compared.
 #pragma once
 
 #include <CLI/App.hpp>
 
+#include "detector_options.hpp"
 #include "kinesphere/comparison.hpp"
 #include "scene_options.hpp"
 #include "summary.hpp"
@@ -11,6 +12,7 @@ namespace kinesphere::program {
 
 struct VerifyOptions {
   SceneOptions scene;
+  DetectorOptions detector;
 };
 
 /// `options` must live until the command line has been parsed.

@@ -96,10 +96,14 @@ Sphere BoundDetector::sphere(std::uint32_t number) const {
   return {{number, 0}, bound.radius, {bound.centre_at(time_), bound.velocity_at(time_)}};
 }
 
-void BoundDetector::probe(std::uint32_t number) {
+State BoundDetector::report(std::uint32_t number) {
   ++counters_.probes;
+  return motion_.state(number, time_);
+}
+
+void BoundDetector::probe(std::uint32_t number) {
   Body& body = bodies_[number];
-  body.bound = bound_of(body.definition, motion_.state(number, time_), time_);
+  body.bound = bound_of(body.definition, report(number), time_);
 }
 
 double BoundDetector::pair_outlook(std::uint32_t a, std::uint32_t b, double horizon) {

@@ -62,13 +62,15 @@ class BoundDetector : public Detector {
   virtual double next_time() const = 0;
   /// Does the thing that is due now.
   virtual void handle_next() = 0;
+  /// The state of a body now: a probe, unless the detector knows better.
+  virtual State report(std::uint32_t number);
 
   // Offered to it.
   std::uint32_t size() const { return static_cast<std::uint32_t>(bodies_.size()); }
   const Body& body(std::uint32_t number) const { return bodies_[number]; }
   /// True when the body's report is of this instant.
   bool fresh(std::uint32_t number) const { return bodies_[number].bound.time == time_; }
-  /// Asks the motion for the body's state and shrinks its bound to it. Not needed when fresh.
+  /// Asks for the body's report and shrinks its bound to it. Not needed when fresh.
   void probe(std::uint32_t number);
   /// Partners in contact.
   const std::vector<std::uint32_t>& touching(std::uint32_t number) const { return book_.partners_of(number); }

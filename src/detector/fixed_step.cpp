@@ -17,16 +17,19 @@ namespace {
 
 class FixedStep final : public Detector {
  public:
-  FixedStep(const WorldDefinition& definition, const Motion& motion, double step)
+  FixedStep(const WorldDefinition& definition, const Motion& motion, double step, FixedStepSearch search)
       : definition_(definition),
         rule_(definition),
         motion_(motion),
         step_(step),
+        search_(search),
         time_(definition.start_time) {
     bodies_.resize(motion.size());
   }
 
-  std::string_view name() const override { return "fixed-step"; }
+  std::string_view name() const override {
+    return search_ == FixedStepSearch::grid ? "fixed-step" : "brute-force";
+  }
 
   Result<void> add(std::uint32_t number, const BodyDefinition& definition) override {
     bodies_[number] = {.active = true,
@@ -47,7 +50,7 @@ class FixedStep final : public Detector {
       if (bodies_[number].walls & wall_bit(wall) && !rule_.impacts_only())
         pending_.push_back(wall_event(EventKind::wall_end, time_, sphere(number), *definition_.box, wall));
     bodies_[number].active = false;
-    grid_.remove(number);
+    if (search_ == FixedStepSearch::grid) grid_.remove(number);
     std::sort(pending_.begin(), pending_.end(), delivered_before);
     return {};
   }
@@ -102,12 +105,11 @@ class FixedStep final : public Detector {
       if (!body.active) continue;
       body.state = motion_.state(number, time_);
       ++counters_.probes;
-      grid_.set(number, box_of(body));
+      if (search_ == FixedStepSearch::grid) grid_.set(number, box_of(body));
     }
     for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
       if (!bodies_[number].active) continue;
-      ++counters_.searches;
-      grid_.for_each_overlap(box_of(bodies_[number]), [&](std::uint32_t other) {
+      for_each_neighbour(number, [&](std::uint32_t other) {
         if (other < number && !touching_.contains({other, number})) look_at_pair({other, number}, false);
       });
       if (definition_.box)
@@ -118,6 +120,17 @@ class FixedStep final : public Detector {
     std::sort(pending_.begin(), pending_.end(), delivered_before);
     for (const Pair& pair : begun_) touching_.insert(pair);
     begun_.clear();
+  }
+
+  template <class Visit>
+  void for_each_neighbour(std::uint32_t number, Visit visit) {
+    if (search_ == FixedStepSearch::grid) {
+      ++counters_.searches;
+      grid_.for_each_overlap(box_of(bodies_[number]), visit);
+      return;
+    }
+    for (std::uint32_t other = 0; other < number; ++other)
+      if (bodies_[other].active) visit(other);
   }
 
   Box box_of(const Body& body) const {
@@ -153,6 +166,7 @@ class FixedStep final : public Detector {
   ContactRule rule_;
   const Motion& motion_;
   double step_;
+  FixedStepSearch search_;
   double time_;
   std::uint64_t next_step_ = 0;
   std::vector<Body> bodies_;
@@ -166,11 +180,12 @@ class FixedStep final : public Detector {
 }  // namespace
 
 Result<std::unique_ptr<Detector>> make_fixed_step_detector(const WorldDefinition& definition,
-                                                           const Motion& motion, double step) {
+                                                           const Motion& motion, double step,
+                                                           FixedStepSearch search) {
   if (auto world = World::create(definition); !world) return world.error();
   if (auto valid = InputCheck("make_fixed_step_detector").positive({"step"}, step).result(); !valid)
     return valid.error();
-  return std::unique_ptr<Detector>(std::make_unique<FixedStep>(definition, motion, step));
+  return std::unique_ptr<Detector>(std::make_unique<FixedStep>(definition, motion, step, search));
 }
 
 }  // namespace kinesphere

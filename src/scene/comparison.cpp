@@ -101,7 +101,7 @@ class Comparison {
     const double last = last_time(key);
     double apart_since = first;
     for (const Interval& contact : found) {
-      check_apart(key, gap, apart_since, std::min(contact.begin, last));
+      check_apart(key, gap, apart_since, std::min(contact.begin, last), found, truth);
       if (contact.begin < apart_since)
         differ(result_.invented, key, "begins before the last contact ends", contact.begin);
       if (gap.gap_at(contact.begin) > tolerance_ + hair())
@@ -113,7 +113,7 @@ class Comparison {
         differ(result_.invented, key, "ends too late", contact.end);
       apart_since = contact.end;
     }
-    check_apart(key, gap, apart_since, last);
+    check_apart(key, gap, apart_since, last, found, truth);
     check_truth(key, gap, truth, first, last);
     match(found, truth);
   }
@@ -131,18 +131,34 @@ class Comparison {
     }
   }
 
-  /// While apart the gap never falls below -tolerance.
-  void check_apart(const Key& key, const GapCourse& gap, double from, double to) {
-    if (!(from < to)) return;
-    if (const auto deep = gap.first_time(Crossing::falls_to, -tolerance_ - hair(), from, to))
-      differ(result_.missed, key, "touch unreported", *deep);
+  /// While apart the gap never falls below -tolerance. Where it does, the contact is a late one if it has
+  /// been noticed before it ended.
+  void check_apart(const Key& key, const GapCourse& gap, double from, double to,
+                   const std::vector<Interval>& found, const std::vector<Interval>& truth) {
+    while (from < to) {
+      const auto deep = gap.first_time(Crossing::falls_to, -tolerance_ - hair(), from, to);
+      if (!deep) return;
+      const auto contact = std::find_if(truth.begin(), truth.end(), [&](const Interval& interval) {
+        return interval.begin <= *deep && *deep <= interval.end;
+      });
+      const double end = contact == truth.end() ? infinity : contact->end;
+      const bool noticed = std::any_of(found.begin(), found.end(), [&](const Interval& interval) {
+        return *deep <= interval.begin && interval.begin <= end;
+      });
+      if (noticed) {
+        differ(result_.late, key, "begins late", *deep);
+      } else {
+        differ(result_.missed, key, "touch unreported", *deep);
+      }
+      from = end;
+    }
   }
 
   /// While touching it never grows beyond the separation distance and the tolerance.
   void check_touching(const Key& key, const GapCourse& gap, double from, double to) {
     if (!(from < to)) return;
     if (const auto wide = gap.first_time(Crossing::rises_to, rule_.release_gap() + hair(), from, to))
-      differ(result_.missed, key, "end unreported", *wide);
+      differ(to < last_time(key) ? result_.late : result_.missed, key, "end unreported", *wide);
   }
 
   /// Counts how many begins and ends stand in both lists; contacts that overlap in time are the same one.

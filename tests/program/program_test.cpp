@@ -54,7 +54,7 @@ TEST_F(ProgramTest, ListsTheScenes) {
 
 TEST_F(ProgramTest, RefusesWrongOptions) {
   const std::string scene = write("s.json", small_scene);
-  expect_wrong_input("", {"expected a command: run, tracks, verify or scenes"});
+  expect_wrong_input("", {"expected a command: run, tracks, verify, scenes or bench"});
   expect_wrong_input("fly", {"fly"});
   expect_wrong_input("run", {"SCENE"});
   expect_wrong_input("run " + scene + " --fast", {"--fast"});
@@ -68,7 +68,9 @@ TEST_F(ProgramTest, RefusesWrongOptions) {
   expect_wrong_input("run " + scene + " --radius -1 2", {"radius"});
   expect_wrong_input("run " + scene + " --seconds soon", {"--seconds", "expected a finite number", "soon"});
   expect_wrong_input("run " + scene + " --response stick", {"--response", "pass_through", "stick"});
-  expect_wrong_input("run " + scene + " --detector eye", {"--detector", "world, oracle, fixed-step", "eye"});
+  expect_wrong_input(
+      "run " + scene + " --detector eye",
+      {"--detector", "world, paper, ballistic, hubbard, hayward, fixed-step, brute-force, oracle", "eye"});
   expect_wrong_input("run " + scene + " --detector fixed-step", {"--step"});
   expect_wrong_input("run " + scene + " --step 0.1", {"--step", "fixed-step"});
   expect_wrong_input("run " + scene + " --frames " + path("f.xyz") + " --frame-interval 0",
@@ -156,7 +158,7 @@ TEST_F(ProgramTest, LeavesNothingHalfWritten) {
 TEST_F(ProgramTest, VerifiesAScene) {
   const ProgramRun result = run("verify " + write("s.json", small_scene));
   EXPECT_EQ(result.exit_code, 0) << result.out;
-  EXPECT_NE(result.out.find("engine and oracle agree"), std::string::npos);
+  EXPECT_NE(result.out.find("detector and oracle agree"), std::string::npos);
 }
 
 TEST_F(ProgramTest, EngineAndOracleWriteTheSameContacts) {
@@ -231,7 +233,7 @@ TEST_P(TracksOfRecording, AgreesWithTheOracle) {
   if (file.empty()) GTEST_SKIP() << "no recording " << GetParam().first << " (see KINESPHERE_DATA)";
   const ProgramRun result = run("tracks '" + file + "' --verify --distance " + GetParam().second);
   EXPECT_EQ(result.exit_code, 0) << result.err << result.out;
-  EXPECT_NE(result.out.find("engine and oracle agree"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("detector and oracle agree"), std::string::npos) << result.out;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, TracksOfRecording,
