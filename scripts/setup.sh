@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that are missing here. Where none is, it does nothing, without network.
-# Usage: setup.sh run | test | coverage
+# Usage: setup.sh run | bench | test | coverage
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev)
 testing=(libgtest-dev librapidcheck-dev clang clang-format clang-tidy pkg-config)
 case ${1:-} in
   run) ;;
+  bench) packages+=(gnuplot-nox) ;;
   test) packages+=("${testing[@]}") ;;
   coverage) packages+=("${testing[@]}" gcovr) ;;
-  *) echo "setup: usage: setup.sh run | test | coverage" >&2 && exit 2 ;;
+  *) echo "setup: usage: setup.sh run | bench | test | coverage" >&2 && exit 2 ;;
 esac
 
 if ! command -v apt-get >/dev/null; then

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "kinesphere/body.hpp"
+#include "kinesphere/bound.hpp"
 #include "kinesphere/counters.hpp"
 #include "kinesphere/event.hpp"
 #include "kinesphere/motion/motion.hpp"
@@ -19,7 +20,8 @@
 namespace kinesphere {
 
 /// A detector watches bodies that are named by their number in a motion; ids in its events
-/// have that number as index and generation 0. The calls mean what they mean in World.
+/// have that number as index and generation 0. The calls mean what they mean in World, and so do their
+/// errors.
 class Detector {
  public:
   virtual ~Detector() = default;
@@ -33,9 +35,9 @@ class Detector {
   virtual Result<std::optional<Event>> advance(double until) = 0;
   virtual double time() const = 0;
   virtual Counters counters() const = 0;
-  /// The radius of what the detector knows to contain the body at the current time (the body's own
-  /// radius where it keeps no bound).
-  virtual double bound_radius(std::uint32_t body) const = 0;
+  /// What the detector knows to contain the body, as of its last report; a sphere that does not grow where it
+  /// keeps no bound. Errors: unknown_body, stale_body.
+  virtual Result<Bound> bound(std::uint32_t body) const = 0;
   /// Differences that an audit finds, if the detector has one.
   virtual std::optional<AuditFinding> audit() const { return std::nullopt; }
 };

@@ -13,8 +13,8 @@ namespace kinesphere {
 struct DetectorSettings {
   /// Time step > 0 of those that take one.
   std::optional<double> step{};
-  /// For the paper's detector.
   PaperOptions paper{};
+  HubbardOptions hubbard{};
 };
 
 struct DetectorEntry {

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <vector>
 
+#include "program_error.hpp"
+
 namespace kinesphere::program {
 namespace {
 
@@ -41,7 +43,7 @@ void FramesXyz::write(const Detector& detector, const Motion& motion, double tim
     const State state = motion.state(body, time);
     fmt::format_to(std::back_inserter(frame), "S {} {} {} {} {} {} {} {} {}\n", body, state.position.x,
                    state.position.y, state.position.z, state.velocity.x, state.velocity.y, state.velocity.z,
-                   scene_.bodies[body].radius, detector.bound_radius(body));
+                   scene_.bodies[body].radius, require(detector.bound(body)).radius_at(time));
   }
   file_.write(frame);
 }

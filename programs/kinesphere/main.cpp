@@ -6,6 +6,7 @@
 #include <exception>
 #include <string>
 
+#include "bench/bench.hpp"
 #include "kinesphere/version.hpp"
 #include "list_scenes.hpp"
 #include "program_error.hpp"
@@ -29,10 +30,12 @@ int main(int argc, char** argv) {
   RunOptions run_options;
   VerifyOptions verify_options;
   TracksOptions tracks_options;
+  BenchOptions bench_options;
   const CLI::App* const run_command = add_run_command(app, run_options);
   const CLI::App* const tracks_command = add_tracks_command(app, tracks_options);
   const CLI::App* const verify_command = add_verify_command(app, verify_options);
   const CLI::App* const scenes_command = add_scenes_command(app);
+  const CLI::App* const bench_command = add_bench_command(app, bench_options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -44,7 +47,8 @@ int main(int argc, char** argv) {
   if (*tracks_command) return tracks(tracks_options);
   if (*verify_command) return verify(verify_options);
   if (*scenes_command) return list_scenes();
-  throw ProgramError("expected a command: run, tracks, verify or scenes (see --help)");
+  if (*bench_command) return bench_paper(bench_options);
+  throw ProgramError("expected a command: run, tracks, verify, scenes or bench (see --help)");
 }
 
 }  // namespace

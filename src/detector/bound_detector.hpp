@@ -25,7 +25,7 @@ class BoundDetector : public Detector {
   Result<std::optional<Event>> advance(double until) override;
   double time() const override { return time_; }
   Counters counters() const override { return counters_; }
-  double bound_radius(std::uint32_t number) const override { return bodies_[number].bound.radius_at(time_); }
+  Result<Bound> bound(std::uint32_t number) const override { return bodies_[number].bound; }
 
  protected:
   static constexpr double infinity = std::numeric_limits<double>::infinity();

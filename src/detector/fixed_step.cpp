@@ -8,6 +8,7 @@
 
 #include "contact/contact_event.hpp"
 #include "contact/contact_rule.hpp"
+#include "detector/checked_detector.hpp"
 #include "input/input_check.hpp"
 #include "kinesphere/detector.hpp"
 #include "space/hash_grid.hpp"
@@ -84,7 +85,10 @@ class FixedStep final : public Detector {
 
   double time() const override { return time_; }
   Counters counters() const override { return counters_; }
-  double bound_radius(std::uint32_t number) const override { return bodies_[number].radius; }
+  Result<Bound> bound(std::uint32_t number) const override {
+    const auto& [active, radius, state, walls] = bodies_[number];
+    return Bound{.time = time_, .position = state.position, .velocity = state.velocity, .radius = radius};
+  }
 
  private:
   struct Body {
@@ -182,10 +186,9 @@ class FixedStep final : public Detector {
 Result<std::unique_ptr<Detector>> make_fixed_step_detector(const WorldDefinition& definition,
                                                            const Motion& motion, double step,
                                                            FixedStepSearch search) {
-  if (auto world = World::create(definition); !world) return world.error();
   if (auto valid = InputCheck("make_fixed_step_detector").positive({"step"}, step).result(); !valid)
     return valid.error();
-  return std::unique_ptr<Detector>(std::make_unique<FixedStep>(definition, motion, step, search));
+  return make_checked<FixedStep>(definition, motion, step, search);
 }
 
 }  // namespace kinesphere

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "detector/bound_detector.hpp"
+#include "detector/checked_detector.hpp"
 #include "schedule/schedule.hpp"
 
 namespace kinesphere {
@@ -94,13 +95,12 @@ class Hayward final : public BoundDetector {
 
 Result<std::unique_ptr<Detector>> make_hayward_detector(const WorldDefinition& definition,
                                                         const Motion& motion) {
-  if (auto world = World::create(definition); !world) return world.error();
   if (motion.size() > most_bodies) {
     return Error{ErrorCode::unsupported, "motion", no_body,
                  "make_hayward_detector: motion must have at most " + std::to_string(most_bodies) +
                      " bodies, but has " + std::to_string(motion.size())};
   }
-  return std::unique_ptr<Detector>(std::make_unique<Hayward>(definition, motion));
+  return make_checked<Hayward>(definition, motion);
 }
 
 }  // namespace kinesphere

@@ -8,6 +8,7 @@
 
 #include "contact/contact_event.hpp"
 #include "contact/contact_rule.hpp"
+#include "detector/checked_detector.hpp"
 #include "detector/gap_course.hpp"
 #include "detector/pair_table.hpp"
 #include "kinesphere/detector.hpp"
@@ -79,7 +80,10 @@ class Oracle final : public Detector {
 
   double time() const override { return time_; }
   Counters counters() const override { return counters_; }
-  double bound_radius(std::uint32_t number) const override { return bodies_[number].radius; }
+  Result<Bound> bound(std::uint32_t number) const override {
+    const auto [id, radius, state] = sphere(number);
+    return Bound{.time = time_, .position = state.position, .velocity = state.velocity, .radius = radius};
+  }
 
  private:
   struct Body {
@@ -262,8 +266,7 @@ class Oracle final : public Detector {
 }  // namespace
 
 Result<std::unique_ptr<Detector>> make_oracle(const WorldDefinition& definition, const Motion& motion) {
-  if (auto world = World::create(definition); !world) return world.error();
-  return std::unique_ptr<Detector>(std::make_unique<Oracle>(definition, motion));
+  return make_checked<Oracle>(definition, motion);
 }
 
 }  // namespace kinesphere

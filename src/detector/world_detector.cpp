@@ -1,6 +1,7 @@
 // The default engine as a detector.
 #include <vector>
 
+#include "detector/checked_detector.hpp"
 #include "kinesphere/detector.hpp"
 
 namespace kinesphere {
@@ -44,9 +45,7 @@ class WorldDetector final : public Detector {
 
   double time() const override { return world_.time(); }
   Counters counters() const override { return world_.counters(); }
-  double bound_radius(std::uint32_t number) const override {
-    return world_.body(ids_[number]).value().bound.radius_at(world_.time());
-  }
+  Result<Bound> bound(std::uint32_t number) const override { return world_.body(ids_[number])->bound; }
   std::optional<AuditFinding> audit() const override { return world_.audit(); }
 
  private:
@@ -87,7 +86,8 @@ Result<std::unique_ptr<Detector>> make_world_detector(const WorldDefinition& def
                                                       const Motion& motion) {
   auto world = World::create(definition);
   if (!world) return world.error();
-  return std::unique_ptr<Detector>(std::make_unique<WorldDetector>(std::move(*world), motion));
+  return with_checked_input(std::make_unique<WorldDetector>(std::move(*world), motion), definition,
+                            motion.size());
 }
 
 }  // namespace kinesphere

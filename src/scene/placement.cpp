@@ -4,17 +4,18 @@
 #include <numeric>
 
 #include "kinesphere/random.hpp"
+#include "scene/relaxation.hpp"
 #include "space/hash_grid.hpp"
 
 namespace kinesphere {
 namespace {
 
-/// Tries for one sphere before the box counts as full.
+/// Tries for one sphere before the box counts as too full for random placement.
 constexpr int max_tries = 200000;
 
-class Placement {
+class RandomPlacement {
  public:
-  Placement(const std::vector<double>& radii, const Box& box, double clearance, std::uint64_t seed)
+  RandomPlacement(const std::vector<double>& radii, const Box& box, double clearance, std::uint64_t seed)
       : radii_(radii),
         box_(box),
         clearance_(clearance),
@@ -67,11 +68,22 @@ class Placement {
   std::vector<Vec3> centres_;
 };
 
+/// No packing has less than no gaps.
+bool exceed(const std::vector<double>& radii, const Box& box) {
+  const double ball = 4.1887;  // volume of the ball of radius 1, rounded down
+  double volume = 0.0;
+  for (const double radius : radii) volume += ball * radius * radius * radius;
+  const Vec3 size = box.upper - box.lower;
+  return volume > size.x * size.y * size.z;
+}
+
 }  // namespace
 
 std::optional<std::vector<Vec3>> place_spheres(const std::vector<double>& radii, const Box& box,
                                                double clearance, std::uint64_t seed) {
-  return Placement(radii, box, clearance, seed).run();
+  if (exceed(radii, box)) return std::nullopt;
+  auto centres = RandomPlacement(radii, box, clearance, seed).run();
+  return centres ? centres : relax_spheres(radii, box, clearance, seed);
 }
 
 }  // namespace kinesphere

@@ -19,7 +19,7 @@ class StillDetector : public Detector {
   Result<std::optional<Event>> advance(double) override { return std::optional<Event>{}; }
   double time() const override { return 0; }
   Counters counters() const override { return {}; }
-  double bound_radius(std::uint32_t body) const override { return 10.0 + body; }
+  Result<Bound> bound(std::uint32_t body) const override { return Bound{.radius = 10.0 + body}; }
 };
 
 /// Body 0 is there during [0, 4], body 1 during [0, 2] only.

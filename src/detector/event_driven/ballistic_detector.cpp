@@ -4,6 +4,7 @@
 
 #include "bound/relative_motion.hpp"
 #include "bound/rounding.hpp"
+#include "detector/checked_detector.hpp"
 #include "detector/event_driven/event_driven_detector.hpp"
 #include "input/input_check.hpp"
 
@@ -83,8 +84,7 @@ class BallisticDetector final : public EventDrivenDetector {
 
 Result<std::unique_ptr<Detector>> make_ballistic_detector(const WorldDefinition& definition,
                                                           const Motion& motion) {
-  if (auto world = World::create(definition); !world) return world.error();
-  return std::unique_ptr<Detector>(std::make_unique<BallisticDetector>(definition, motion));
+  return make_checked<BallisticDetector>(definition, motion);
 }
 
 }  // namespace kinesphere

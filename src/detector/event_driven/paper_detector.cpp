@@ -3,6 +3,7 @@
 #include <array>
 
 #include "bound/quartic.hpp"
+#include "detector/checked_detector.hpp"
 #include "detector/event_driven/event_driven_detector.hpp"
 #include "input/input_check.hpp"
 
@@ -53,13 +54,12 @@ class PaperDetector final : public EventDrivenDetector {
 
 Result<std::unique_ptr<Detector>> make_paper_detector(const WorldDefinition& definition, const Motion& motion,
                                                       const PaperOptions& options) {
-  if (auto world = World::create(definition); !world) return world.error();
   if (auto valid = InputCheck("make_paper_detector")
                        .not_negative({"options", no_body, "cell_edge"}, options.cell_edge)
                        .result();
       !valid)
     return valid.error();
-  return std::unique_ptr<Detector>(std::make_unique<PaperDetector>(definition, motion, options));
+  return make_checked<PaperDetector>(definition, motion, options);
 }
 
 }  // namespace kinesphere

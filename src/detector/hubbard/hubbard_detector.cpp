@@ -29,6 +29,7 @@
 
 #include "bound/rounding.hpp"
 #include "detector/bound_detector.hpp"
+#include "detector/checked_detector.hpp"
 #include "detector/hubbard/hypertrapezoid.hpp"
 #include "detector/hubbard/space_time_sweep.hpp"
 #include "input/input_check.hpp"
@@ -258,13 +259,12 @@ std::optional<AuditFinding> HubbardDetector::audit() const {
 
 Result<std::unique_ptr<Detector>> make_hubbard_detector(const WorldDefinition& definition,
                                                         const Motion& motion, const HubbardOptions& options) {
-  if (auto world = World::create(definition); !world) return world.error();
   if (auto valid = InputCheck("make_hubbard_detector")
                        .not_negative({"options", no_body, "interval"}, options.interval)
                        .result();
       !valid)
     return valid.error();
-  return std::unique_ptr<Detector>(std::make_unique<HubbardDetector>(definition, motion, options));
+  return make_checked<HubbardDetector>(definition, motion, options);
 }
 
 }  // namespace kinesphere

@@ -1,0 +1,30 @@
+// The sections of `kinesphere bench paper`, each about one claim of the paper.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "bench/report.hpp"
+
+namespace kinesphere::program {
+
+void bench_figure5(const Report& report);
+void bench_figure6(const Report& report);
+void bench_table1(const Report& report);
+void bench_intervals(const Report& report);
+void bench_circulation(const Report& report);
+void bench_growth(const Report& report);
+void bench_trimming(const Report& report);
+void bench_cells(const Report& report);
+void bench_solvers(const Report& report);
+
+struct Section {
+  std::string_view name;  ///< for --only
+  std::string_view title;
+  void (*run)(const Report& report);
+};
+
+/// All of them, in the order of the paper.
+std::span<const Section> bench_sections();
+
+}  // namespace kinesphere::program

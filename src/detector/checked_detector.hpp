@@ -1,0 +1,24 @@
+// A detector that checks what it is handed, in front of one that does not.
+#pragma once
+
+#include <memory>
+
+#include "kinesphere/detector.hpp"
+#include "world/validation.hpp"
+
+namespace kinesphere {
+
+/// `bodies` is how many the motion has.
+std::unique_ptr<Detector> with_checked_input(std::unique_ptr<Detector> detector,
+                                             const WorldDefinition& definition, std::size_t bodies);
+
+/// A detector made by its constructor, once the world has been found to be fit, and with checked input.
+template <class Made, class... Options>
+Result<std::unique_ptr<Detector>> make_checked(const WorldDefinition& definition, const Motion& motion,
+                                               Options&&... options) {
+  if (auto valid = check_world(definition); !valid) return valid.error();
+  return with_checked_input(std::make_unique<Made>(definition, motion, std::forward<Options>(options)...),
+                            definition, motion.size());
+}
+
+}  // namespace kinesphere
