@@ -57,14 +57,17 @@ Result<std::unique_ptr<Detector>> make_oracle(const WorldDefinition& definition,
 
 /// How the paper's detector solves eq 9 for the time of a colliding event.
 enum class MeetingSolver {
-  certified,    ///< Newton steps along the line of centres (earliest_meeting): never late
-  numeric,      ///< the quartic of eq 10, numerically, as the paper did
-  closed_form,  ///< its closed form; uses the machine's mathematical library, so runs may differ between
-                ///< machines
+  certified,  ///< Newton steps along the line of centres (earliest_meeting): never late
+  numeric,    ///< the quartic of eq 10, numerically, as the paper did
+  /// Its closed form: may miss contacts, most of all where limits are small. Uses the machine's mathematical
+  /// library, so runs may differ between machines.
+  closed_form,
 };
 
 struct PaperOptions {
-  /// Edge of the finest cells (length) > 0, or 0: the cost model chooses it when the first bodies are there.
+  /// Edge of the finest cells (length), 0 < cell_edge <= 1e200, at least 1024 contact tolerances being used;
+  /// 0: the cost model chooses, and again whenever the bodies have doubled in number. A body crosses about
+  /// speed / cell_edge faces per unit of time, each an event.
   double cell_edge = 0.0;
   /// Leave candidates out of the event tree that come after the reset of their body (paper, section 3.3).
   bool trimming = true;
@@ -84,8 +87,8 @@ Result<std::unique_ptr<Detector>> make_ballistic_detector(const WorldDefinition&
                                                           const Motion& motion);
 
 struct HubbardOptions {
-  /// How long space-time bounds are built for (time) > 0, or 0: twice the running mean of the time to their
-  /// first meeting.
+  /// How long space-time bounds are built for (time) > 0, each time a rebuild of all, or 0: twice the running
+  /// mean of the time to their first meeting.
   double interval = 0.0;
   /// Find all crossings of faces in the interval, and not only those up to the first meeting. The contacts
   /// are the same, the work is not.

@@ -69,7 +69,9 @@ void add_detector_options(CLI::App& command, DetectorOptions& options) {
                   "Edge of the finest cells of paper; its cost model's choice when not given")
       ->check(finite_number())
       ->group(group);
-  command.add_option("--solver", options.solver, "How paper predicts the meeting of two bounds")
+  command
+      .add_option("--solver", options.solver,
+                  "How paper predicts the meeting of two bounds; closed_form may miss contacts")
       ->check(CLI::IsMember({"certified", "numeric", "closed_form"}))
       ->group(group);
   command

@@ -31,6 +31,19 @@ class ContactBook {
   // They do not touch any more, and nobody is told.
   void release(const Event& contact) { set_touching(contact, false); }
   void release_all(std::uint32_t body);
+  /// The body is about to go: its contacts end, which is announced where ends are. `sphere(number)` gives a
+  /// body as it is now.
+  template <class SphereNow>
+  void depart(std::uint32_t body, double time, SphereNow sphere, const std::optional<Box>& box) {
+    if (!rule_.impacts_only()) {
+      for (const std::uint32_t partner : partners_of(body))
+        announce(contact_event(EventKind::contact_end, time, sphere(body), sphere(partner)));
+      for (const Wall wall : walls)
+        if (touches_wall(body, wall))
+          announce(wall_event(EventKind::wall_end, time, sphere(body), *box, wall));
+    }
+    release_all(body);
+  }
 
   // Events of this instant.
   /// Time moves on.

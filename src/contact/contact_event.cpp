@@ -31,6 +31,15 @@ Event wall_event(EventKind kind, double time, const Sphere& sphere, const Box& b
   return event;
 }
 
+Event violation_event(double time, BodyId body, const State& report, const BrokenPromise& broken) {
+  Event event{.kind = EventKind::bound_violation, .time = time, .first = body};
+  event.first_state = report;
+  event.point = report.position;
+  event.position_excess = broken.position_excess;
+  event.velocity_excess = broken.velocity_excess;
+  return event;
+}
+
 HalfSpace half_space(const Box& box, Wall wall) {
   const int index = static_cast<int>(wall) - 1;
   const int axis = index / 2;

@@ -1,6 +1,7 @@
 // What a contact event says, from the spheres as they are at that instant.
 #pragma once
 
+#include "bound/broken_promise.hpp"
 #include "kinesphere/bound.hpp"
 #include "kinesphere/event.hpp"
 
@@ -15,6 +16,8 @@ struct Sphere {
 /// Event::first is the one with the smaller id, whichever comes first here.
 Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& b);
 Event wall_event(EventKind kind, double time, const Sphere& sphere, const Box& box, Wall wall);
+/// A bound_violation.
+Event violation_event(double time, BodyId body, const State& report, const BrokenPromise& broken);
 
 /// The half-space inside a wall of the box.
 HalfSpace half_space(const Box& box, Wall wall);

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "bound/broken_promise.hpp"
+#include "world/validation.hpp"
+
 namespace kinesphere {
 
 Result<void> BoundDetector::add(std::uint32_t number, const BodyDefinition& definition) {
@@ -17,14 +20,8 @@ Result<void> BoundDetector::add(std::uint32_t number, const BodyDefinition& defi
 }
 
 Result<void> BoundDetector::remove(std::uint32_t number) {
-  if (definition_.contacts == ContactMode::begin_and_end) {
-    for (const std::uint32_t partner : touching(number))
-      book_.announce(contact_event(EventKind::contact_end, time_, sphere(number), sphere(partner)));
-    for (const Wall wall : walls)
-      if (book_.touches_wall(number, wall))
-        book_.announce(wall_event(EventKind::wall_end, time_, sphere(number), *definition_.box, wall));
-  }
-  book_.release_all(number);
+  book_.depart(
+      number, time_, [this](std::uint32_t body) { return sphere(body); }, definition_.box);
   std::erase(new_courses_, number);
   bodies_[number] = Body{};
   on_removed(number);
@@ -33,27 +30,38 @@ Result<void> BoundDetector::remove(std::uint32_t number) {
 
 Result<void> BoundDetector::kick(std::uint32_t number, const Vec3& velocity) {
   Body& body = bodies_[number];
+  body.kicked_to = velocity;
   if (!fresh(number)) probe(number);
   body.bound.velocity = velocity;
+  body.kicked_to.reset();
   if (definition_.contacts == ContactMode::impacts) book_.release_all(number);
-  if (!body.new_course) new_courses_.push_back(number);
-  body.new_course = true;
+  begin_new_course(number);
   return {};
+}
+
+void BoundDetector::begin_new_course(std::uint32_t number) {
+  if (!bodies_[number].new_course) new_courses_.push_back(number);
+  bodies_[number].new_course = true;
 }
 
 Result<std::optional<Event>> BoundDetector::advance(double until) {
   for (;;) {
+    if (error_) return *error_;
     if (std::optional<Event> event = deliver()) return event;
     settle();
-    while (next_time() <= time_) handle_next();
-    if (!book_.pending().empty()) continue;
+    handle_all_due();
+    if (error_ || !book_.pending().empty()) continue;
     if (next_time() > until) {
       move_on_to(until);
       return std::optional<Event>();
     }
     move_on_to(next_time());
-    while (next_time() <= time_) handle_next();
+    handle_all_due();
   }
+}
+
+void BoundDetector::handle_all_due() {
+  while (!error_ && next_time() <= time_) handle_next();
 }
 
 void BoundDetector::move_on_to(double time) {
@@ -103,7 +111,17 @@ State BoundDetector::report(std::uint32_t number) {
 
 void BoundDetector::probe(std::uint32_t number) {
   Body& body = bodies_[number];
-  body.bound = bound_of(body.definition, report(number), time_);
+  State state = report(number);
+  if (auto valid = check_report(state, {number, 0}, time_, definition_); !valid) {
+    if (!error_) error_ = valid.error();
+    state = {body.bound.centre_at(time_), body.bound.velocity_at(time_)};
+  }
+  const auto broken = broken_promise(body.definition, body.bound, state, time_, body.kicked_to,
+                                     definition_.contact_tolerance);
+  body.bound = bound_of(body.definition, state, time_);
+  if (!broken) return;
+  book_.announce(violation_event(time_, {number, 0}, state, *broken));
+  begin_new_course(number);
 }
 
 double BoundDetector::pair_outlook(std::uint32_t a, std::uint32_t b, double horizon) {

@@ -34,7 +34,8 @@ class BoundDetector : public Detector {
     BodyDefinition definition;
     Bound bound;  ///< since its last report
     bool present = false;
-    bool new_course = false;  ///< nothing is predicted of it
+    bool new_course = false;          ///< nothing is predicted of it
+    std::optional<Vec3> kicked_to{};  ///< since its last report
 
     double largest_acceleration() const {
       return definition.acceleration_limit + norm(definition.planned_acceleration);
@@ -70,8 +71,12 @@ class BoundDetector : public Detector {
   const Body& body(std::uint32_t number) const { return bodies_[number]; }
   /// True when the body's report is of this instant.
   bool fresh(std::uint32_t number) const { return bodies_[number].bound.time == time_; }
-  /// Asks for the body's report and shrinks its bound to it. Not needed when fresh.
+  /// Asks for the body's report and shrinks its bound to it. Not needed when fresh. A report that breaks the
+  /// body's promise is announced, and on_new_course follows. One that is not fit is an error, which advance()
+  /// answers from then on; until it does, the bound is what was expected.
   void probe(std::uint32_t number);
+  /// True when the two are in contact.
+  bool touch(std::uint32_t a, std::uint32_t b) const { return book_.touch(a, b); }
   /// Partners in contact.
   const std::vector<std::uint32_t>& touching(std::uint32_t number) const { return book_.partners_of(number); }
   const WorldDefinition& definition() const { return definition_; }
@@ -92,6 +97,8 @@ class BoundDetector : public Detector {
   Sphere sphere(std::uint32_t number) const;
   std::optional<Event> deliver();
   void settle();
+  void handle_all_due();
+  void begin_new_course(std::uint32_t number);
   template <class Partner>
   double judge(const Outlook<Partner>& outlook, bool touching, const Event& current, const Promise& promise);
 
@@ -102,6 +109,7 @@ class BoundDetector : public Detector {
   std::vector<Body> bodies_;
   std::vector<std::uint32_t> new_courses_;
   bool bodies_added_ = false;
+  std::optional<Error> error_;  ///< of a report
 };
 
 }  // namespace kinesphere

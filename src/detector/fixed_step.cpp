@@ -1,17 +1,14 @@
 // Fixed steps: what most programs do. Every step all bodies are moved, and pairs that overlap then are
 // contacts.
-#include <algorithm>
-#include <limits>
-#include <set>
-#include <utility>
 #include <vector>
 
-#include "contact/contact_event.hpp"
-#include "contact/contact_rule.hpp"
+#include "contact/contact_book.hpp"
+#include "contact/outlook.hpp"
 #include "detector/checked_detector.hpp"
 #include "input/input_check.hpp"
 #include "kinesphere/detector.hpp"
 #include "space/hash_grid.hpp"
+#include "world/validation.hpp"
 
 namespace kinesphere {
 namespace {
@@ -20,7 +17,7 @@ class FixedStep final : public Detector {
  public:
   FixedStep(const WorldDefinition& definition, const Motion& motion, double step, FixedStepSearch search)
       : definition_(definition),
-        rule_(definition),
+        book_(definition),
         motion_(motion),
         step_(step),
         search_(search),
@@ -33,52 +30,39 @@ class FixedStep final : public Detector {
   }
 
   Result<void> add(std::uint32_t number, const BodyDefinition& definition) override {
-    bodies_[number] = {.active = true,
+    bodies_[number] = {.present = true,
                        .radius = definition.radius + definition.position_error,
-                       .state = {definition.position, definition.velocity}};
+                       .state = {definition.position, definition.velocity},
+                       .seen = time_};
+    book_.add(number, definition.acceleration_limit + norm(definition.planned_acceleration));
     return {};
   }
 
   Result<void> remove(std::uint32_t number) override {
-    for (auto pair = touching_.begin(); pair != touching_.end();) {
-      const bool concerned = pair->first == number || pair->second == number;
-      if (concerned && !rule_.impacts_only())
-        pending_.push_back(
-            contact_event(EventKind::contact_end, time_, sphere(pair->first), sphere(pair->second)));
-      pair = concerned ? touching_.erase(pair) : std::next(pair);
-    }
-    for (const Wall wall : walls)
-      if (bodies_[number].walls & wall_bit(wall) && !rule_.impacts_only())
-        pending_.push_back(wall_event(EventKind::wall_end, time_, sphere(number), *definition_.box, wall));
-    bodies_[number].active = false;
+    book_.depart(
+        number, time_, [this](std::uint32_t body) { return sphere(body); }, definition_.box);
+    bodies_[number].present = false;
     if (search_ == FixedStepSearch::grid) grid_.remove(number);
-    std::sort(pending_.begin(), pending_.end(), delivered_before);
     return {};
   }
 
   Result<void> kick(std::uint32_t number, const Vec3& velocity) override {
     bodies_[number].state.velocity = velocity;
-    if (!rule_.impacts_only()) return {};
-    std::erase_if(touching_, [=](const auto& pair) { return pair.first == number || pair.second == number; });
-    bodies_[number].walls = 0;
+    if (book_.rule().impacts_only()) book_.release_all(number);
     return {};
   }
 
   Result<std::optional<Event>> advance(double until) override {
     for (;;) {
-      if (!pending_.empty()) {
-        const Event event = pending_.front();
-        pending_.erase(pending_.begin());
-        ++counters_.events[static_cast<std::size_t>(event.kind)];
-        return std::optional(event);
-      }
+      if (std::optional<Event> event = deliver()) return event;
       const double next = definition_.start_time + static_cast<double>(next_step_) * step_;
       if (next > until) {
-        time_ = until;
+        move_on_to(until);
         return std::optional<Event>();
       }
-      time_ = next;
+      move_on_to(next);
       ++next_step_;
+      if (auto moved = move_all(); !moved) return moved.error();
       look();
     }
   }
@@ -86,44 +70,69 @@ class FixedStep final : public Detector {
   double time() const override { return time_; }
   Counters counters() const override { return counters_; }
   Result<Bound> bound(std::uint32_t number) const override {
-    const auto& [active, radius, state, walls] = bodies_[number];
-    return Bound{.time = time_, .position = state.position, .velocity = state.velocity, .radius = radius};
+    const Body& body = bodies_[number];
+    return Bound{.time = body.seen,
+                 .position = body.state.position,
+                 .velocity = body.state.velocity,
+                 .radius = body.radius};
   }
 
  private:
   struct Body {
-    bool active = false;
+    bool present = false;
     double radius = 0.0;
     State state{};
-    std::uint8_t walls = 0;
+    double seen = 0.0;  ///< when it was in this state
   };
-  using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
   Sphere sphere(std::uint32_t number) const {
     return {{number, 0}, bodies_[number].radius, bodies_[number].state};
   }
 
-  void look() {
+  void move_on_to(double time) {
+    if (time > time_) book_.start_instant();
+    time_ = time;
+  }
+
+  std::optional<Event> deliver() {
+    const auto sphere_of = [this](BodyId id) {
+      return bodies_[id.index].present ? std::optional(sphere(id.index)) : std::nullopt;
+    };
+    std::optional<Event> event = book_.deliver(sphere_of, definition_.box);
+    book_.changed().clear();
+    if (!event) return event;
+    ++counters_.events[static_cast<std::size_t>(event->kind)];
+    if (event->repeated) ++counters_.repeated_contacts;
+    return event;
+  }
+
+  Result<void> move_all() {
     for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
       Body& body = bodies_[number];
-      if (!body.active) continue;
-      body.state = motion_.state(number, time_);
+      if (!body.present) continue;
+      const State state = motion_.state(number, time_);
       ++counters_.probes;
+      if (auto valid = check_report(state, {number, 0}, time_, definition_); !valid) return valid;
+      body.state = state;
+      body.seen = time_;
       if (search_ == FixedStepSearch::grid) grid_.set(number, box_of(body));
     }
+    return {};
+  }
+
+  void look() {
     for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
-      if (!bodies_[number].active) continue;
+      if (!bodies_[number].present) continue;
+      // Partners that have parted far may not be neighbours any more.
+      const std::vector<std::uint32_t> partners = book_.partners_of(number);
+      for (const std::uint32_t partner : partners)
+        if (partner < number) look_at_pair(partner, number, true);
       for_each_neighbour(number, [&](std::uint32_t other) {
-        if (other < number && !touching_.contains({other, number})) look_at_pair({other, number}, false);
+        if (other < number && !book_.touch(other, number)) look_at_pair(other, number, false);
       });
       if (definition_.box)
         for (const Wall wall : walls) look_at_wall(number, wall);
     }
-    const std::vector<Pair> touching(touching_.begin(), touching_.end());
-    for (const Pair& pair : touching) look_at_pair(pair, true);
-    std::sort(pending_.begin(), pending_.end(), delivered_before);
-    for (const Pair& pair : begun_) touching_.insert(pair);
-    begun_.clear();
   }
 
   template <class Visit>
@@ -134,40 +143,35 @@ class FixedStep final : public Detector {
       return;
     }
     for (std::uint32_t other = 0; other < number; ++other)
-      if (bodies_[other].active) visit(other);
+      if (bodies_[other].present) visit(other);
   }
 
   Box box_of(const Body& body) const {
-    const double reach = body.radius + rule_.release_gap();
+    const double reach = body.radius + book_.rule().release_gap();
     const Vec3 half{reach, reach, reach};
     return {body.state.position - half, body.state.position + half};
   }
 
-  void look_at_pair(const Pair& pair, bool touching) {
+  void look_at_pair(std::uint32_t a, std::uint32_t b, bool touching) {
     ++counters_.certificates;
-    Event event = contact_event(EventKind::contact_begin, time_, sphere(pair.first), sphere(pair.second));
-    const auto change = rule_.decide(touching, event.gap, event.approach_speed);
-    if (change == ContactRule::Change::none) return;
-    if (touching) touching_.erase(pair);
-    if (change == ContactRule::Change::release) return;
-    if (change == ContactRule::Change::begin) begun_.push_back(pair);
-    if (change == ContactRule::Change::end) event.kind = EventKind::contact_end;
-    pending_.push_back(event);
+    judge(contact_event(EventKind::contact_begin, time_, sphere(a), sphere(b)), touching);
   }
 
   void look_at_wall(std::uint32_t number, Wall wall) {
-    const bool touching = (bodies_[number].walls & wall_bit(wall)) != 0;
-    Event event = wall_event(EventKind::wall_begin, time_, sphere(number), *definition_.box, wall);
-    const auto change = rule_.decide(touching, event.gap, event.approach_speed);
+    judge(wall_event(EventKind::wall_begin, time_, sphere(number), *definition_.box, wall),
+          book_.touches_wall(number, wall));
+  }
+
+  void judge(Event event, bool touching) {
+    const auto change = book_.rule().decide(touching, event.gap, event.approach_speed);
     if (change == ContactRule::Change::none) return;
-    bodies_[number].walls ^= wall_bit(wall);
-    if (change == ContactRule::Change::release) return;
-    if (change == ContactRule::Change::end) event.kind = EventKind::wall_end;
-    pending_.push_back(event);
+    if (change == ContactRule::Change::release) return book_.release(event);
+    event.kind = kind_of(change, event.wall);
+    book_.announce(event);
   }
 
   WorldDefinition definition_;
-  ContactRule rule_;
+  ContactBook book_;
   const Motion& motion_;
   double step_;
   FixedStepSearch search_;
@@ -175,9 +179,6 @@ class FixedStep final : public Detector {
   std::uint64_t next_step_ = 0;
   std::vector<Body> bodies_;
   HashGrid grid_;
-  std::set<Pair> touching_;
-  std::vector<Pair> begun_;
-  std::vector<Event> pending_;
   Counters counters_;
 };
 
@@ -186,7 +187,13 @@ class FixedStep final : public Detector {
 Result<std::unique_ptr<Detector>> make_fixed_step_detector(const WorldDefinition& definition,
                                                            const Motion& motion, double step,
                                                            FixedStepSearch search) {
-  if (auto valid = InputCheck("make_fixed_step_detector").positive({"step"}, step).result(); !valid)
+  if (auto valid = check_world(definition); !valid) return valid.error();
+  if (auto valid = InputCheck("make_fixed_step_detector")
+                       .positive({"step"}, step)
+                       .require(definition.start_time + step > definition.start_time, ErrorCode::out_of_range,
+                                {"step"}, "must be long enough for the clock to move", step)
+                       .result();
+      !valid)
     return valid.error();
   return make_checked<FixedStep>(definition, motion, step, search);
 }

@@ -34,13 +34,8 @@ BodyId World::Engine::add(const BodyDefinition& definition) {
 void World::Engine::remove(BodyId id) {
   const std::uint32_t number = id.index;
   Body& body = bodies_[number];
-  if (definition_.contacts == ContactMode::begin_and_end) {
-    for (const std::uint32_t partner : book_.partners_of(number))
-      book_.announce(contact(EventKind::contact_end, number, partner));
-    for (const Wall wall : walls)
-      if (book_.touches_wall(number, wall)) book_.announce(wall_contact(EventKind::wall_end, number, wall));
-  }
-  book_.release_all(number);
+  book_.depart(
+      number, time_, [this](std::uint32_t other) { return sphere(other); }, definition_.box);
   grid_.remove(number);
   schedule_.remove(number);
   std::erase(dirty_, number);

@@ -1,7 +1,7 @@
 // Reports: asking for states, refusing bad ones, and noticing broken promises.
-#include <cmath>
 #include <string>
 
+#include "bound/broken_promise.hpp"
 #include "world/engine.hpp"
 #include "world/validation.hpp"
 
@@ -49,32 +49,15 @@ Result<void> World::Engine::probe_staler(std::uint32_t a, std::uint32_t b) {
 
 void World::Engine::apply_report(std::uint32_t number, const State& state) {
   Body& body = bodies_[number];
-  const BodyDefinition& promise = body.definition;
-  const double s = time_ - body.bound.time;
-  const double deviation = norm(state.position - body.bound.centre_at(time_));
-  const double deviation_limit =
-      (body.bound.radius_at(time_) - body.bound.radius) + 2.0 * promise.position_error;
-  // After a kick the velocity is the caller's, to be confirmed at the same instant.
-  const bool kicked = body.kicked_since_report;
-  const Vec3 expected = kicked ? promise.velocity : body.bound.velocity_at(time_);
-  const double change = norm(state.velocity - expected);
-  const double change_limit = (kicked ? 0.0 : promise.acceleration_limit * s) + 2.0 * promise.velocity_error;
-  // What rounding may do to a faithful report is no violation: it is covered by the contact tolerance.
-  const double position_slack = definition_.contact_tolerance / 16.0;
-  const double velocity_slack = 0x1p-30 * (norm(state.velocity) + norm(expected) + change_limit);
-  const bool left = deviation > deviation_limit + position_slack;
-  const bool jumped = change > change_limit + velocity_slack;
-
+  const auto kicked_to = body.kicked_since_report ? std::optional(body.definition.velocity) : std::nullopt;
+  const auto broken =
+      broken_promise(body.definition, body.bound, state, time_, kicked_to, definition_.contact_tolerance);
   body.definition.position = state.position;
   body.definition.velocity = state.velocity;
   body.bound = bound_of(body.definition, state, time_);
   body.kicked_since_report = false;
-  if (!left && !jumped) return;
-  Event violation{.kind = EventKind::bound_violation, .time = time_, .first = id_of(number)};
-  violation.first_state = state;
-  violation.point = state.position;
-  if (left) violation.position_excess = deviation - deviation_limit;
-  if (jumped) violation.velocity_excess = change - change_limit;
+  if (!broken) return;
+  const Event violation = violation_event(time_, id_of(number), state, *broken);
   book_.announce(violation);
   void_facts(number);
 }

@@ -127,7 +127,8 @@ TEST_F(BenchTest, SpheresAreDrawn) {
 
 TEST_F(BenchTest, OnlyTheSectionsChosen) {
   bench("--only trimming,solvers");
-  EXPECT_EQ(written(), (std::set<std::string>{"machine.txt", "solvers.csv", "trimming.csv"}));
+  EXPECT_EQ(written(),
+            (std::set<std::string>{"machine.txt", "solvers.csv", "solvers_engine.csv", "trimming.csv"}));
 }
 
 TEST_F(BenchTest, RefusesWrongOptions) {

@@ -54,7 +54,7 @@ void add_case(Tables& tables, const Case& what, const BenchSettings& settings) {
   const double chosen = model.choose_cell_edge();
 
   std::vector<NamedDetector> detectors;
-  for (const double factor : settings.cell_factors) detectors.push_back(paper_engine(factor * chosen));
+  for (const double factor : settings.cell_factors) detectors.push_back(paper_engine({.cell_edge = factor * chosen}));
   const auto series = measure(detectors, scenes, settings.repetitions);
   std::size_t best = 0, own = 0;
   for (std::size_t k = 0; k < series.size(); ++k) {

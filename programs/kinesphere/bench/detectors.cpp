@@ -13,26 +13,13 @@ NamedDetector named(const std::string& name, const DetectorSettings& settings = 
 
 }  // namespace
 
-NamedDetector paper_engine(double cell_edge, bool trimming) {
-  DetectorSettings settings;
-  settings.paper.cell_edge = cell_edge;
-  settings.paper.trimming = trimming;
-  return named("paper", settings);
-}
+NamedDetector paper_engine(const PaperOptions& options) { return named("paper", {.paper = options}); }
 
-NamedDetector hubbard_engine(double interval, bool all_crossings) {
-  DetectorSettings settings;
-  settings.hubbard = {.interval = interval, .all_crossings = all_crossings};
-  return named("hubbard", settings);
-}
+NamedDetector hubbard_engine(const HubbardOptions& options) { return named("hubbard", {.hubbard = options}); }
 
 NamedDetector hayward_engine() { return named("hayward"); }
 
-NamedDetector fixed_step_engine(double step) {
-  DetectorSettings settings;
-  settings.step = step;
-  return named("fixed-step", settings);
-}
+NamedDetector fixed_step_engine(double step) { return named("fixed-step", {.step = step}); }
 
 NamedDetector world_engine() { return named("world"); }
 

@@ -12,10 +12,8 @@ struct NamedDetector {
   DetectorMaker make;
 };
 
-/// `cell_edge` of its finest grid (length), 0: as its cost model chooses; `trimming` as in section 3.3.
-NamedDetector paper_engine(double cell_edge = 0.0, bool trimming = true);
-/// Options as HubbardOptions.
-NamedDetector hubbard_engine(double interval = 0.0, bool all_crossings = false);
+NamedDetector paper_engine(const PaperOptions& options = {});
+NamedDetector hubbard_engine(const HubbardOptions& options = {});
 NamedDetector hayward_engine();
 NamedDetector fixed_step_engine(double step);
 NamedDetector world_engine();

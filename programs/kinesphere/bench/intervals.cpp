@@ -11,12 +11,8 @@
 namespace kinesphere::program {
 namespace {
 
-struct Interval {
-  double length;  ///< 0: adapted
-  bool all_crossings;
-};
-
-constexpr Interval intervals[] = {{0.0, false}, {0.0, true}, {0.01, true}, {0.1, true}, {1.0, true}};
+constexpr HubbardOptions intervals[] = {{0.0, false}, {0.0, true}, {0.01, true},
+                                        {0.1, true},  {0.3, true}, {1.0, true}};
 
 double per_rebuild(const Run& run) {
   const auto rebuilds = static_cast<double>(run.count(&Counters::rebuilds));
@@ -30,15 +26,15 @@ void bench_intervals(const Report& report) {
                      "hubbard_s", "paper_s", "ratio", "published_ratio", "hash"});
   for (const Trial& trial : report.settings().intervals) {
     const auto published = published_times(trial.bodies);
-    for (const Interval& interval : intervals) {
+    for (const HubbardOptions& options : intervals) {
       const SceneParameters parameters = first_experiment(trial.bodies, trial.seconds);
-      const auto series = measure({paper_engine(), hubbard_engine(interval.length, interval.all_crossings)},
-                                  seeded_scenes(parameters, trial.seeds), 1);
+      const auto series =
+          measure({paper_engine(), hubbard_engine(options)}, seeded_scenes(parameters, trial.seeds), 1);
       const Run& hubbard = series[1].runs.front();
       const double rebuilds = static_cast<double>(hubbard.count(&Counters::rebuilds));
       table.row({std::uint64_t{trial.bodies}, trial.seconds,
-                 interval.length > 0.0 ? Cell(interval.length) : Cell(std::string("adapted")),
-                 std::string(interval.all_crossings ? "all" : "to the first meeting"),
+                 options.interval > 0.0 ? Cell(options.interval) : Cell(std::string("adapted")),
+                 std::string(options.all_crossings ? "all" : "to the first meeting"),
                  rebuilds / hubbard.result.simulated_time, per_rebuild(hubbard),
                  series[1].per_simulated_second(), series[0].per_simulated_second(),
                  ratio(series[1], series[0]), published ? Cell(published->ratio) : Cell(), series[1].hash()});

@@ -11,7 +11,7 @@ void bench_trimming(const Report& report) {
   for (const Trial& trial : report.settings().trimming) {
     const auto scenes = seeded_scenes(first_experiment(trial.bodies, trial.seconds), trial.seeds);
     const auto series =
-        measure({paper_engine(0.0, true), paper_engine(0.0, false)}, scenes, report.settings().repetitions);
+        measure({paper_engine(), paper_engine({.trimming = false})}, scenes, report.settings().repetitions);
     for (const bool trimming : {true, false}) {
       const Series& one = series[trimming ? 0 : 1];
       const Counters& c = one.result().counters;

@@ -107,7 +107,7 @@ class EventDrivenDetector::Audit {
     if (!checkable(a, b)) return;
     const Bound& first = detector_.body(a).bound;
     const Bound& second = detector_.body(b).bound;
-    const bool touching = detector_.in_contact(a, b);
+    const bool touching = detector_.touch(a, b);
     // Rounding alone makes parallel courses meet in the far future.
     const double horizon = std::min({detector_.horizon(a), detector_.horizon(b), now_ + 0x1p30});
     // Apart and not linked: no cell holds a part of both.
@@ -136,7 +136,7 @@ class EventDrivenDetector::Audit {
     const GapLimits gap = gap_limits(detector_.body(a).bound, detector_.body(b).bound, now_);
     const bool just_seen = detector_.fresh(a) && detector_.fresh(b);
     const double undecided = just_seen ? rule.release_gap() : rule.tolerance();
-    return gap.lower > undecided || (detector_.in_contact(a, b) && !just_seen);
+    return gap.lower > undecided || (detector_.touch(a, b) && !just_seen);
   }
 
   bool impacts() const { return detector_.rule().impacts_only(); }

@@ -64,7 +64,7 @@ class BallisticDetector final : public EventDrivenDetector {
   /// Trajectories are known: nobody is asked.
   State report(std::uint32_t number) override {
     const Bound& bound = body(number).bound;
-    return {bound.centre_at(time()), bound.velocity_at(time())};
+    return {bound.centre_at(time()), body(number).kicked_to.value_or(bound.velocity_at(time()))};
   }
 
   /// Never due: no bound grows.
@@ -72,6 +72,7 @@ class BallisticDetector final : public EventDrivenDetector {
 
   /// Whatever else is predicted of the two stays true.
   void on_meeting(std::uint32_t a, std::uint32_t b) override {
+    ++counters_.colliding;
     for (const std::uint32_t number : {a, b})
       if (!fresh(number)) probe(number);
     predict_pair(a, b);

@@ -44,9 +44,32 @@ Counters EventDrivenDetector::counters() const {
 }
 
 void EventDrivenDetector::prepare() {
-  if (grids_) return;
-  const double edge = options_.cell_edge > 0.0 ? options_.cell_edge : chosen_cell_edge();
-  grids_.emplace(std::max(edge, least_edge_in_tolerances * definition().contact_tolerance));
+  if (options_.cell_edge > 0.0) {
+    if (!grids_) grids_.emplace(fit_edge(options_.cell_edge));
+    return;
+  }
+  std::size_t present = 0;
+  for (std::uint32_t number = 0; number < size(); ++number) present += body(number).present ? 1 : 0;
+  if (present < 2 * bodies_at_choice_) return;
+  bodies_at_choice_ = present;
+  change_grids(fit_edge(chosen_cell_edge()));
+}
+
+double EventDrivenDetector::fit_edge(double edge) const {
+  return std::max(edge, least_edge_in_tolerances * definition().contact_tolerance);
+}
+
+/// Everybody moves into new cells.
+void EventDrivenDetector::change_grids(double edge) {
+  std::vector<std::uint32_t> placed;
+  for (std::uint32_t number = 0; number < size(); ++number)
+    if (residents_[number].placed) placed.push_back(number);
+  for (const std::uint32_t number : placed) {
+    on_removed(number);
+    if (!fresh(number)) probe(number);
+  }
+  grids_.emplace(edge);
+  reset(placed);
 }
 
 /// What the cost model says of the bodies present, in the box or, without one, in what they span.
@@ -95,7 +118,6 @@ void EventDrivenDetector::handle_next() {
     case CandidateKind::leaving:
       return leave(due.first, due.face);
     case CandidateKind::colliding:
-      ++counters_.colliding;
       return on_meeting(due.first, due.second);
   }
 }
@@ -115,7 +137,7 @@ void EventDrivenDetector::enter(std::uint32_t number, std::uint8_t face) {
   subspaces_.for_each_neighbour(layer(resident.cells, face), [&](std::uint32_t other) {
     if (seen_[other] == search_) return;
     seen_[other] = search_;
-    const bool known = intersect(before, residents_[other].cells) || in_contact(number, other);
+    const bool known = intersect(before, residents_[other].cells) || touch(number, other);
     if (!known) predict_pair(number, other);
   });
 }
@@ -219,20 +241,15 @@ void EventDrivenDetector::predict_pair(std::uint32_t a, std::uint32_t b) {
 double EventDrivenDetector::outlook(std::uint32_t a, std::uint32_t b, double horizon) {
   const Bound& first = body(a).bound;
   const Bound& second = body(b).bound;
-  if (options_.meeting_time == nullptr || in_contact(a, b) ||
+  if (options_.meeting_time == nullptr || touch(a, b) ||
       gap_limits(first, second, time()).lower <= rule().tolerance())
     return pair_outlook(a, b, horizon);
   ++counters_.certificates;
   return std::max(options_.meeting_time(first, second, time(), horizon, 0.0), just_after(time()));
 }
 
-bool EventDrivenDetector::in_contact(std::uint32_t a, std::uint32_t b) const {
-  const auto& partners = touching(a);
-  return std::find(partners.begin(), partners.end(), b) != partners.end();
-}
-
 bool EventDrivenDetector::linked(std::uint32_t a, std::uint32_t b) const {
-  return intersect(residents_[a].cells, residents_[b].cells) || in_contact(a, b);
+  return intersect(residents_[a].cells, residents_[b].cells) || touch(a, b);
 }
 
 void EventDrivenDetector::schedule(double time, CandidateKind kind, std::uint32_t first, std::uint32_t second,

@@ -66,7 +66,10 @@ class EventDrivenDetector : public BoundDetector {
     bool placed = false;
   };
 
+  /// Chooses the cells, and again whenever the bodies have doubled in number.
   void prepare() override;
+  double fit_edge(double edge) const;
+  void change_grids(double edge);
   double chosen_cell_edge() const;
   void on_removed(std::uint32_t number) override;
   void on_contact_change(std::uint32_t a, std::uint32_t b) override;
@@ -80,7 +83,6 @@ class EventDrivenDetector : public BoundDetector {
   void predict_crossings(std::uint32_t number, std::size_t axis);
   void predict_partners(std::uint32_t number);
   double outlook(std::uint32_t a, std::uint32_t b, double horizon);
-  bool in_contact(std::uint32_t a, std::uint32_t b) const;
   bool linked(std::uint32_t a, std::uint32_t b) const;
   /// Candidates after this are not inserted: the body's reset renews them anyway.
   double horizon(std::uint32_t number) const {
@@ -91,6 +93,7 @@ class EventDrivenDetector : public BoundDetector {
 
   Options options_;
   std::optional<Grids> grids_;
+  std::size_t bodies_at_choice_ = 0;
   SubspaceTree subspaces_;
   EventTree events_;
   std::vector<Resident> residents_;

@@ -10,6 +10,9 @@
 namespace kinesphere {
 namespace {
 
+/// Planes are products of an edge and an index: none may overflow.
+constexpr double largest_edge = 1e200;
+
 MeetingTime meeting_time_of(MeetingSolver solver) {
   switch (solver) {
     case MeetingSolver::numeric:
@@ -45,6 +48,7 @@ class PaperDetector final : public EventDrivenDetector {
     if (b != a && !fresh(b)) stale[count++] = b;
     // Both have been reset at this instant.
     if (count == 0) return predict_pair(a, b);
+    ++counters_.colliding;
     for (std::size_t k = 0; k < count; ++k) probe(stale[k]);
     reset(std::span(stale.data(), count));
   }
@@ -54,9 +58,12 @@ class PaperDetector final : public EventDrivenDetector {
 
 Result<std::unique_ptr<Detector>> make_paper_detector(const WorldDefinition& definition, const Motion& motion,
                                                       const PaperOptions& options) {
-  if (auto valid = InputCheck("make_paper_detector")
-                       .not_negative({"options", no_body, "cell_edge"}, options.cell_edge)
-                       .result();
+  if (auto valid =
+          InputCheck("make_paper_detector")
+              .not_negative({"options", no_body, "cell_edge"}, options.cell_edge)
+              .require(options.cell_edge <= largest_edge, ErrorCode::out_of_range,
+                       {"options", no_body, "cell_edge"}, "must be at most", largest_edge, options.cell_edge)
+              .result();
       !valid)
     return valid.error();
   return make_checked<PaperDetector>(definition, motion, options);

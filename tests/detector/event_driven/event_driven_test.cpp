@@ -238,6 +238,15 @@ TEST(EventDriven, follows_a_contact_beyond_shared_cells) {
 }
 
 /// So many that they share the outermost cells, or move so fast that crossings crowd.
+/// Cells that suit the first body alone would hold the whole crowd.
+TEST(EventDriven, suits_a_crowd_that_comes_later) {
+  Scene scene = scene_of("paper1", 600, 0.5);
+  const auto together = outcome_of(scene, paper(), 500).result.counters;
+  for (std::uint32_t body = 1; body < 600; ++body) scene.bodies[body].appears = 1e-4;
+  const auto later = outcome_of(scene, paper(), 500).result.counters;
+  EXPECT_LT(later.certificates, together.certificates + together.certificates / 2);
+}
+
 TEST(EventDriven, takes_bodies_far_away_and_in_a_hurry) {
   for (const double distance : {0.0, 1e3, 1e5}) {
     std::vector<State> start;

@@ -1,0 +1,23 @@
+#include "bound/broken_promise.hpp"
+
+namespace kinesphere {
+
+std::optional<BrokenPromise> broken_promise(const BodyDefinition& promise, const Bound& bound,
+                                            const State& report, double time,
+                                            const std::optional<Vec3>& kicked_to, double contact_tolerance) {
+  const double s = time - bound.time;
+  const double deviation = norm(report.position - bound.centre_at(time));
+  const double deviation_limit = (bound.radius_at(time) - bound.radius) + 2.0 * promise.position_error;
+  const Vec3 expected = kicked_to.value_or(bound.velocity_at(time));
+  const double change = norm(report.velocity - expected);
+  const double change_limit =
+      (kicked_to ? 0.0 : promise.acceleration_limit * s) + 2.0 * promise.velocity_error;
+  const double position_slack = contact_tolerance / 16.0;
+  const double velocity_slack = 0x1p-30 * (norm(report.velocity) + norm(expected) + change_limit);
+  const bool left = deviation > deviation_limit + position_slack;
+  const bool jumped = change > change_limit + velocity_slack;
+  if (!left && !jumped) return std::nullopt;
+  return BrokenPromise{left ? deviation - deviation_limit : 0.0, jumped ? change - change_limit : 0.0};
+}
+
+}  // namespace kinesphere
