@@ -72,9 +72,11 @@ struct PaperOptions {
   /// Leave candidates out of the event tree that come after the reset of their body (paper, section 3.3).
   bool trimming = true;
   MeetingSolver solver = MeetingSolver::certified;
-  /// What the cost model reckons with. Measured ones (calibrate_unit_costs) suit this machine better, but two
-  /// runs may then differ in their probes and in the last digits of their contacts.
+  /// What the cost model reckons with.
   UnitCosts unit_costs = UnitCosts::reference();
+  /// Reckon with costs that are measured at start-up (calibrate_unit_costs) instead. They suit this machine
+  /// better, but two runs may then differ in their probes and in the last digits of their contacts.
+  bool calibrated = false;
 };
 
 /// The paper's algorithm (Kim, Guibas and Shin 2005): hierarchical grids, entering, leaving, resetting and

@@ -43,11 +43,13 @@ DetectorMaker DetectorOptions::maker() const {
     throw ProgramError(fmt::format("--detector {}: expected --step with the step's length", name));
   if (!entry.takes_step && step)
     throw ProgramError("--step: expected only with --detector fixed-step or brute-force");
-  if (name != "paper" && (cell_edge || no_trimming || !solver.empty()))
-    throw ProgramError("--cell-edge, --solver, --no-trimming: expected only with --detector paper");
+  if (name != "paper" && (cell_edge || no_trimming || calibrate || !solver.empty()))
+    throw ProgramError(
+        "--cell-edge, --solver, --no-trimming, --calibrate: expected only with --detector paper");
   DetectorSettings settings{.step = step};
   if (cell_edge) settings.paper.cell_edge = *cell_edge;
   settings.paper.trimming = !no_trimming;
+  settings.paper.calibrated = calibrate;
   if (!solver.empty()) settings.paper.solver = solvers.at(solver);
   return require(detector_maker(name, settings));
 }
@@ -77,6 +79,10 @@ void add_detector_options(CLI::App& command, DetectorOptions& options) {
   command
       .add_flag("--no-trimming", options.no_trimming,
                 "Let paper keep candidates that come after the reset of their body")
+      ->group(group);
+  command
+      .add_flag("--calibrate", options.calibrate,
+                "Let the cost model of paper measure its unit costs at start-up; runs may then differ")
       ->group(group);
 }
 

@@ -58,6 +58,7 @@ class PaperDetector final : public EventDrivenDetector {
 
 Result<std::unique_ptr<Detector>> make_paper_detector(const WorldDefinition& definition, const Motion& motion,
                                                       const PaperOptions& options) {
+  if (auto valid = check_world(definition); !valid) return valid.error();
   if (auto valid =
           InputCheck("make_paper_detector")
               .not_negative({"options", no_body, "cell_edge"}, options.cell_edge)
@@ -66,7 +67,9 @@ Result<std::unique_ptr<Detector>> make_paper_detector(const WorldDefinition& def
               .result();
       !valid)
     return valid.error();
-  return make_checked<PaperDetector>(definition, motion, options);
+  PaperOptions settled = options;
+  if (options.calibrated) settled.unit_costs = calibrate_unit_costs(motion, definition.start_time);
+  return make_checked<PaperDetector>(definition, motion, settled);
 }
 
 }  // namespace kinesphere

@@ -106,6 +106,11 @@ TEST_P(PaperDetector, finds_the_same_first_contacts_with_every_solver) {
   }
 }
 
+TEST_P(PaperDetector, finds_the_same_first_contacts_with_measured_costs) {
+  const Scene scene = scene_of(GetParam(), 100, 2.0);
+  EXPECT_GE(common_events(outcome_of(scene, paper()), outcome_of(scene, paper({.calibrated = true}))), 10u);
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, PaperDetector, testing::Values("paper1", "paper2", "gas", "rain"),
                          [](const auto& scene) { return std::string(scene.param); });
 
