@@ -1,25 +1,13 @@
 // What a body is to the library: an id, a state, and what it promises about its motion.
 #pragma once
 
-#include <compare>
 #include <cstdint>
-#include <limits>
 
+#include "kinesphere/body_id.hpp"
+#include "kinesphere/filter.hpp"
 #include "kinesphere/vec3.hpp"
 
 namespace kinesphere {
-
-/// Names a body for as long as it lives. When a body is removed its index may be used again, with
-/// another generation, so an old id is recognised as stale and never mistaken for a newer body.
-struct BodyId {
-  std::uint32_t index = std::numeric_limits<std::uint32_t>::max();
-  std::uint32_t generation = 0;
-
-  friend constexpr auto operator<=>(const BodyId&, const BodyId&) = default;
-};
-
-/// The id that names no body: the second body of a wall event, for one.
-inline constexpr BodyId no_body{};
 
 /// Position and velocity at one instant, as a probe reports them.
 struct State {
@@ -46,6 +34,31 @@ struct BodyDefinition {
   /// State at the world's current time.
   Vec3 position{};
   Vec3 velocity{};
+  /// Which other bodies it may touch.
+  Filter filter{};
+  /// For the caller: the world only keeps it.
+  std::uint64_t user_data = 0;
 };
+
+/// What a body promises about its motion and its reports, apart from its shape and place: see BodyDefinition.
+struct MotionPromise {
+  double acceleration_limit = 0.0;
+  Vec3 planned_acceleration{};
+  double position_error = 0.0;
+  double velocity_error = 0.0;
+};
+
+inline MotionPromise promise_of(const BodyDefinition& body) {
+  return {body.acceleration_limit, body.planned_acceleration, body.position_error, body.velocity_error};
+}
+
+/// The same body with another promise.
+inline BodyDefinition with_promise(BodyDefinition body, const MotionPromise& promise) {
+  body.acceleration_limit = promise.acceleration_limit;
+  body.planned_acceleration = promise.planned_acceleration;
+  body.position_error = promise.position_error;
+  body.velocity_error = promise.velocity_error;
+  return body;
+}
 
 }  // namespace kinesphere

@@ -23,6 +23,8 @@ enum class ErrorCode {
   time_backwards,     ///< a time lies before the world's current time
   unknown_body,       ///< an id that this world never gave out
   stale_body,         ///< an id of a body that has been removed
+  disabled_body,      ///< the call needs a body that is enabled
+  enabled_body,       ///< the call needs a body that is disabled
   outside_domain,     ///< a body does not lie inside the box of its world
   overlapping,        ///< two bodies overlap where the world does not allow it
   probe_in_progress,  ///< the world was called from inside its own probe

@@ -21,12 +21,14 @@
 //   // now world.time() == 60
 //
 // The caller moves the bodies and the world watches them: it asks the probe for the state of a body
-// only when that can matter, and stops at each event. Between stops bodies may be kicked, added and
-// removed. The guarantee: as long as bodies keep their promises (BodyDefinition), no two of them
-// overlap by more than the contact tolerance unreported. docs/guarantee.md has the proof.
+// only when that can matter, and stops at each event. At each stop, also between the events of one instant,
+// bodies may be kicked, added, removed and changed in any way. The guarantee: as long as bodies keep their
+// promises (BodyDefinition), no two of them overlap by more than the contact tolerance unreported.
+// docs/guarantee.md has the proof.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -38,6 +40,7 @@
 #include "kinesphere/bound.hpp"
 #include "kinesphere/counters.hpp"
 #include "kinesphere/event.hpp"
+#include "kinesphere/filter.hpp"
 #include "kinesphere/probe.hpp"
 #include "kinesphere/result.hpp"
 #include "kinesphere/world_definition.hpp"
@@ -50,11 +53,12 @@ struct BodyView {
   Bound bound{};                ///< since the last report
   Box box{};                    ///< which holds the body until box_end
   double box_end;
+  bool enabled;  ///< a disabled body has no bound and no box: they are what they were
 };
 
 /// The first thing that audit() found wrong.
 struct AuditFinding {
-  std::string where;  ///< "registration", "certificate", "contact", "wall" or "queue"
+  std::string where;  ///< "registration", "certificate", "contact", "wall", "filter" or "queue"
   std::string what;   ///< which bodies, what is recorded, what it should be
 };
 
@@ -79,17 +83,58 @@ class World {
   /// report predicts it (ContactMode::impacts has no ends).
   /// Errors: unknown_body, stale_body. Cost: O(log n + contacts).
   Result<void> remove(BodyId body);
+  /// Removes all of them or, on an error (as above, naming the one; a body that is named twice is stale the
+  /// second time), none.
+  Result<void> remove_all(std::span<const BodyId> bodies);
 
   /// Tells the world that the velocity of this body is `velocity` from the current time on; the probe
   /// must answer accordingly, or a bound_violation says by how much it does not. Everything certified about
   /// the body so far is void. If it has not been probed at this very time (both bodies of a contact have) the
-  /// next advance does so first. Errors: unknown_body, stale_body, not_finite. Cost: O(1) here, a grid search
-  /// at the next advance.
+  /// next advance does so first. Errors: unknown_body, stale_body, disabled_body, not_finite, out_of_range.
+  /// Cost: O(1) here, a grid search at the next advance.
   Result<void> kick(BodyId body, const Vec3& velocity);
+
+  // Further changes. A contact that one of them certainly ends is reported as ended at the next advance,
+  // before all other events, with the states from before the change; one that goes on through it goes on
+  // without events; an overlap that it creates begins at once. Each costs O(log n + contacts) here (and a
+  // grid search where overlaps are not allowed: then what add() refuses is refused here too) and a grid
+  // search at the next advance, which first probes the body if its last report is older than the change.
+  // Errors of all: unknown_body, stale_body, probe_in_progress, and as add() for what they set.
+
+  /// The body is in another state from the current time on. ContactMode::impacts: its next approach to
+  /// anything is a new contact, as after a kick. Errors: disabled_body.
+  Result<void> teleport(BodyId body, const State& state);
+  Result<void> set_radius(BodyId body, double radius);
+  /// From the current time on the body promises this.
+  Result<void> set_promise(BodyId body, const MotionPromise& promise);
+
+  /// A disabled body touches nobody and is never probed. It keeps its id, and all but its state may be set.
+  /// Its contacts end as in remove(). Errors: disabled_body.
+  Result<void> disable(BodyId body);
+  /// It is back, in this state at the current time. Errors: enabled_body.
+  Result<void> enable(BodyId body, const State& state);
+
+  /// Contacts that the filter does not let pass end; overlaps that it newly lets pass begin at once, also
+  /// where overlaps are not allowed.
+  Result<void> set_filter(BodyId body, const Filter& filter);
+  /// A predicate of one's own, asked about pairs whose filters let them touch; an empty one lets all touch.
+  /// It is asked when a body looks for its neighbours, by audit(), by whatever looks for certain overlaps
+  /// (about the id that a new body is going to have), and about the contacts of a body by the two calls
+  /// below; between those its answers are taken to stay as they are. It must not throw, must be symmetric,
+  /// and may not call this world except for reading. Errors: probe_in_progress. Cost: all bodies search again
+  /// at the next advance.
+  Result<void> set_pair_filter(PairFilter filter);
+  /// Tells the world that the pair filter's answers about this body have changed.
+  Result<void> refilter(BodyId body);
+
+  Result<void> set_user_data(BodyId body, std::uint64_t data);
+  /// Errors: unknown_body, stale_body.
+  Result<std::uint64_t> user_data(BodyId body) const;
 
   /// Goes on to the next event, at most to time `until`. Returns the event, with time() at its time, or
   /// nothing, with time() == until. Events come in the order of (time, kind, first, second, wall);
-  /// those that a kick causes at the same instant follow in a new round of that order.
+  /// those that a kick causes at the same instant follow in a new round of that order, and contacts that
+  /// other changes have ended come first.
   /// Errors: time_backwards or not_finite for `until`; not_finite or out_of_range naming the body when
   /// the probe answers with such a state: that answer is dropped, time() is when it was asked for, no
   /// event or fact is lost, and the call may be repeated. The same holds when the probe throws.
@@ -101,7 +146,7 @@ class World {
   bool contains(BodyId body) const;
   /// Errors: unknown_body, stale_body.
   Result<BodyView> body(BodyId id) const;
-  /// The living bodies, by index.
+  /// The living bodies, disabled ones too, by index.
   std::vector<BodyId> bodies() const;
   const Counters& counters() const;
 
@@ -112,8 +157,14 @@ class World {
  private:
   class Engine;
   explicit World(std::unique_ptr<Engine> engine);
-  Result<void> check_new(const BodyDefinition& body, std::string_view call) const;
+  Result<void> check_new(const BodyDefinition& body, BodyId id, std::string_view call) const;
   Result<void> check_alive(BodyId body, std::string_view call) const;
+  Result<void> check_call(BodyId body, std::string_view call) const;
+  Result<void> check_enabled(BodyId body, bool enabled, std::string_view call) const;
+  Result<void> check_room(const BodyDefinition& body, BodyId id, std::string_view call) const;
+  Result<void> check_moved(BodyId id, const State& state, std::string_view call) const;
+  Result<void> check_growth(const BodyDefinition& changed, BodyId id, std::string_view argument,
+                            std::string_view call) const;
   std::unique_ptr<Engine> engine_;
 };
 

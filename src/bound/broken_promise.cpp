@@ -7,11 +7,13 @@ std::optional<BrokenPromise> broken_promise(const BodyDefinition& promise, const
                                             const std::optional<Vec3>& kicked_to, double contact_tolerance) {
   const double s = time - bound.time;
   const double deviation = norm(report.position - bound.centre_at(time));
-  const double deviation_limit = (bound.radius_at(time) - bound.radius) + 2.0 * promise.position_error;
+  const double position_error = bound.radius - promise.radius;  // of the report before
+  const double growth = bound.radius_at(time) - bound.radius;
+  const double deviation_limit = growth + (position_error + promise.position_error);
   const Vec3 expected = kicked_to.value_or(bound.velocity_at(time));
   const double change = norm(report.velocity - expected);
   const double change_limit =
-      (kicked_to ? 0.0 : promise.acceleration_limit * s) + 2.0 * promise.velocity_error;
+      (kicked_to ? 0.0 : bound.growth_acceleration * s) + (bound.growth_speed + promise.velocity_error);
   const double position_slack = contact_tolerance / 16.0;
   const double velocity_slack = 0x1p-30 * (norm(report.velocity) + norm(expected) + change_limit);
   const bool left = deviation > deviation_limit + position_slack;

@@ -37,6 +37,13 @@ void ContactBook::release_all(std::uint32_t body) {
   entries_[body].walls = 0;
 }
 
+void ContactBook::end(const Event& contact) {
+  set_touching(contact, false);
+  // An end that had come by itself has not taken effect yet.
+  pending_.erase(contact);
+  if (!rule_.impacts_only()) ended_.insert(contact);
+}
+
 void ContactBook::announce(const Event& event) {
   // A caller who kicks at a Zeno guard must not get the same one again at the same instant, for ever.
   if (!guards_told_.contains(event)) pending_.insert(event);

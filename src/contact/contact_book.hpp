@@ -21,6 +21,9 @@ class ContactBook {
 
   /// A body that touches nothing. `largest_acceleration` sets its Zeno interval.
   void add(std::uint32_t body, double largest_acceleration);
+  void set_largest_acceleration(std::uint32_t body, double largest_acceleration) {
+    entries_[body].zeno_interval = rule_.zeno_interval(largest_acceleration);
+  }
 
   // Who touches whom.
   bool touch(std::uint32_t a, std::uint32_t b) const;
@@ -31,18 +34,24 @@ class ContactBook {
   // They do not touch any more, and nobody is told.
   void release(const Event& contact) { set_touching(contact, false); }
   void release_all(std::uint32_t body);
-  /// The body is about to go: its contacts end, which is announced where ends are. `sphere(number)` gives a
-  /// body as it is now.
+  /// The caller is about to change a body, and its contacts with those partners and walls that the predicates
+  /// pick end with that. `sphere(number)` gives a body as it is before the change.
+  template <class SphereNow, class PicksPartner, class PicksWall>
+  void end_contacts(std::uint32_t body, double time, SphereNow sphere, const std::optional<Box>& box,
+                    PicksPartner picks_partner, PicksWall picks_wall) {
+    const std::vector<std::uint32_t> partners = partners_of(body);
+    for (const std::uint32_t partner : partners)
+      if (picks_partner(partner))
+        end(contact_event(EventKind::contact_end, time, sphere(body), sphere(partner)));
+    for (const Wall wall : walls)
+      if (touches_wall(body, wall) && picks_wall(wall))
+        end(wall_event(EventKind::wall_end, time, sphere(body), *box, wall));
+  }
+  /// The body is about to go, and all its contacts end.
   template <class SphereNow>
   void depart(std::uint32_t body, double time, SphereNow sphere, const std::optional<Box>& box) {
-    if (!rule_.impacts_only()) {
-      for (const std::uint32_t partner : partners_of(body))
-        announce(contact_event(EventKind::contact_end, time, sphere(body), sphere(partner)));
-      for (const Wall wall : walls)
-        if (touches_wall(body, wall))
-          announce(wall_event(EventKind::wall_end, time, sphere(body), *box, wall));
-    }
-    release_all(body);
+    const auto all = [](auto) { return true; };
+    end_contacts(body, time, sphere, box, all, all);
   }
 
   // Events of this instant.
@@ -51,10 +60,20 @@ class ContactBook {
   /// Queues an event; the same event is not queued twice.
   void announce(const Event& event);
   const std::set<Event, DeliveredBefore>& pending() const { return pending_; }
-  /// The next event that still holds after what the caller did at the ones before it. `sphere_of(id)` gives
+  /// What is pending about pairs that may not touch any more, with `body` in them, is dropped.
+  template <class MayTouch>
+  void drop_filtered(std::uint32_t body, MayTouch may_touch) {
+    std::erase_if(pending_, [&](const Event& event) {
+      return event.second != no_body && (event.first.index == body || event.second.index == body) &&
+             !may_touch(event.first.index, event.second.index);
+    });
+  }
+  /// The next event that still holds after what the caller did at the ones before it; first of all the ends
+  /// that the caller brought about, which stay as they were then. `sphere_of(id)` gives
   /// the sphere as it is now, or nothing when it is gone.
   template <class SphereOf>
   std::optional<Event> deliver(SphereOf sphere_of, const std::optional<Box>& box) {
+    if (!ended_.empty()) return ended_.extract(ended_.begin()).value();
     while (!pending_.empty()) {
       Event event = pending_.extract(pending_.begin()).value();
       const std::optional<Sphere> first = sphere_of(event.first);
@@ -85,6 +104,7 @@ class ContactBook {
   };
 
   void set_touching(const Event& contact, bool touching);
+  void end(const Event& contact);
   bool take_effect(Event& event, const Sphere& first, const Sphere& second, const std::optional<Box>& box);
   bool still_begins(const Event& now) const;
   bool is_repeated(const Event& begin, std::uint32_t body) const;
@@ -93,6 +113,7 @@ class ContactBook {
   ContactRule rule_;
   std::vector<Entry> entries_;
   std::set<Event, DeliveredBefore> pending_;
+  std::set<Event, DeliveredBefore> ended_;  ///< by the caller's changes
   std::set<Event, DeliveredBefore> guards_told_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> changed_;
 };

@@ -33,12 +33,15 @@ class World::Engine::Audit {
   std::optional<AuditFinding> run() {
     const auto count = static_cast<std::uint32_t>(engine_.bodies_.size());
     for (std::uint32_t a = 0; a < count && !finding_; ++a) {
-      if (!body(a).alive) continue;
+      if (!body(a).present()) {
+        check_absence(a);
+        continue;
+      }
       check_registration(a);
       check_schedule(a);
       check_walls(a);
       for (std::uint32_t b = a + 1; b < count && !finding_; ++b)
-        if (body(b).alive) check_pair(a, b);
+        if (body(b).present()) check_pair(a, b);
     }
     check_earliest();
     return finding_;
@@ -55,6 +58,13 @@ class World::Engine::Audit {
   /// A noisy report may lie outside what an earlier one promised, though the body does not.
   static bool exact(const Body& body) {
     return body.definition.position_error == 0.0 && body.definition.velocity_error == 0.0;
+  }
+
+  void check_absence(std::uint32_t number) {
+    if (engine_.grid_.contains(number)) find("registration", name(number) + " is not here but registered");
+    if (engine_.schedule_.contains(number)) find("queue", name(number) + " is not here but scheduled");
+    if (!engine_.book_.partners_of(number).empty() || engine_.book_.walls_of(number) != 0)
+      find("contact", name(number) + " is not here but touches something");
   }
 
   void check_registration(std::uint32_t number) {
@@ -82,7 +92,7 @@ class World::Engine::Audit {
   void check_earliest() {
     double first = infinity;
     for (std::uint32_t number = 0; number < engine_.bodies_.size(); ++number)
-      if (body(number).alive) first = std::min(first, engine_.schedule_.time_of(number));
+      if (body(number).present()) first = std::min(first, engine_.schedule_.time_of(number));
     if (!engine_.schedule_.empty() && engine_.schedule_.earliest().time != first)
       find("queue", "its earliest time is not the least" + times(engine_.schedule_.earliest().time, first));
   }
@@ -107,6 +117,12 @@ class World::Engine::Audit {
   void check_pair(std::uint32_t a, std::uint32_t b) {
     const bool touching = engine_.book_.touch(a, b);
     if (touching != engine_.book_.touch(b, a)) return find("contact", pair(a, b) + " touch on one side only");
+    if (engine_.may_touch(a, b) != engine_.may_touch(b, a))
+      return find("filter", "the pair filter is not symmetric for " + pair(a, b));
+    if (!engine_.may_touch(a, b)) {
+      if (touching) find("filter", pair(a, b) + " touch though they may not");
+      return;
+    }
     if (!settled(a, b)) return;
     const double change = earliest_change(a, b, touching);
     bool watched = false;

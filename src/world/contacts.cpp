@@ -18,7 +18,8 @@ Event World::Engine::wall_contact(EventKind kind, std::uint32_t number, Wall wal
 
 std::optional<Event> World::Engine::deliver() {
   const auto sphere_of = [this](BodyId id) {
-    return id == id_of(id.index) ? std::optional(sphere(id.index)) : std::nullopt;
+    return id == id_of(id.index) && bodies_[id.index].present() ? std::optional(sphere(id.index))
+                                                                : std::nullopt;
   };
   std::optional<Event> event = book_.deliver(sphere_of, definition_.box);
   if (!event) return event;

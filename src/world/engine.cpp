@@ -20,25 +20,42 @@ BodyId World::Engine::add(const BodyDefinition& definition) {
   }
   Body& body = bodies_[number];
   body.definition = definition;
-  body.bound = bound_now(definition);
-  body.box = swept_box(body.bound, time_, time_);
-  body.box_end = time_;
   body.alive = true;
+  if (definition.filter != Filter{}) filtering_ = true;
   book_.add(number, body.largest_acceleration());
-  grid_.set(number, body.box);
   ++size_;
-  mark_dirty(number);
+  appear(number, bound_now(definition));
   return id_of(number);
+}
+
+BodyId World::Engine::next_id(std::size_t additions_before) const {
+  if (additions_before < free_.size()) return id_of(free_[free_.size() - 1 - additions_before]);
+  return {static_cast<std::uint32_t>(bodies_.size() + (additions_before - free_.size())), 0};
+}
+
+/// The body is where `bound` says, for everyone to find. The next advance looks what it meets there.
+void World::Engine::appear(std::uint32_t number, const Bound& bound) {
+  Body& body = bodies_[number];
+  body.bound = bound;
+  body.box = box_now(bound);
+  body.box_end = time_;
+  grid_.set(number, body.box);
+  mark_dirty(number);
+}
+
+/// The body's contacts end, and nobody finds it any more.
+void World::Engine::withdraw(std::uint32_t number) {
+  book_.depart(
+      number, time_, [this](std::uint32_t other) { return sphere(other); }, definition_.box);
+  grid_.remove(number);
+  schedule_.remove(number);
+  bodies_[number].dirty = false;
 }
 
 void World::Engine::remove(BodyId id) {
   const std::uint32_t number = id.index;
   Body& body = bodies_[number];
-  book_.depart(
-      number, time_, [this](std::uint32_t other) { return sphere(other); }, definition_.box);
-  grid_.remove(number);
-  schedule_.remove(number);
-  std::erase(dirty_, number);
+  withdraw(number);
   const std::uint32_t generation = body.generation + 1;
   const std::uint32_t epoch = body.epoch + 1;
   body = Body{};
@@ -52,23 +69,17 @@ Bound World::Engine::bound_now(const BodyDefinition& body) const {
   return bound_of(body, {body.position, body.velocity}, time_);
 }
 
-Box World::Engine::box_of(const BodyDefinition& body) const {
-  return swept_box(bound_now(body), time_, time_);
-}
-
-bool World::Engine::certainly_overlap(const BodyDefinition& a, const BodyDefinition& b) const {
-  return certainly_overlap(bound_now(a), bound_now(b));
-}
-
 bool World::Engine::certainly_overlap(const Bound& a, const Bound& b) const {
   return gap_limits(a, b, time_).upper < -definition_.contact_tolerance;
 }
 
-std::optional<BodyId> World::Engine::certain_overlap(const BodyDefinition& definition) const {
-  const Bound bound = bound_now(definition);
+std::optional<BodyId> World::Engine::certain_overlap(BodyId id, const Bound& bound,
+                                                     const Filter& filter) const {
   std::optional<BodyId> found;
-  grid_.for_each_overlap(swept_box(bound, time_, time_), [&](std::uint32_t other) {
-    const bool certain = certainly_overlap(bound, bodies_[other].bound);
+  grid_.for_each_overlap(box_now(bound), [&](std::uint32_t other) {
+    const Body& body = bodies_[other];
+    const bool certain = other != id.index && certainly_overlap(bound, body.bound) &&
+                         may_touch(id, filter, id_of(other), body.definition.filter);
     if (certain && (!found || other < found->index)) found = id_of(other);
   });
   return found;

@@ -3,12 +3,14 @@
 // For every pair of living bodies one of these facts is recorded whenever time moves on:
 //   - their boxes do not overlap, and each body stays in its box until its box_end; or
 //   - one of the two watches the other: whether they touch cannot change before the watch's time; or
-//   - both are apart until the earlier of the two box ends.
+//   - both are apart until the earlier of the two box ends; or
+//   - the filters keep them from touching.
 // A fact is about the true bodies, so later probes leave it true. Only a discontinuity (a kick, a broken
-// promise, a removal) ends it: it raises the body's epoch, which voids the watches that others keep of it,
-// and makes the body dirty. A dirty body gets a new box and looks for its neighbours again before time moves
-// on; so does a body whose box has run out, which renews the first and the last kind of fact. Each body is
-// scheduled at the earliest of its box end, its wall time and its watches.
+// promise, a change that the caller makes) ends it: it raises the body's epoch, which voids the watches that
+// others keep of it, and makes the body dirty. A dirty body gets a new box and looks for its neighbours again
+// before time moves on (a disabled one is out of the grid and the schedule instead); so does a body whose box
+// has run out, which renews the first and the last kind of fact. Each body is scheduled at the earliest of
+// its box end, its wall time and its watches.
 #pragma once
 
 #include <cstdint>
@@ -44,10 +46,12 @@ struct Body {
   std::uint32_t generation = 0;
   std::uint32_t epoch = 0;
   bool alive = false;
+  bool enabled = true;
   bool dirty = false;     ///< in the list of those to settle before time moves on
   bool searched = false;  ///< settled in the present round
   bool kicked_since_report = false;
 
+  bool present() const { return alive && enabled; }
   bool fresh(double time) const { return bound.time == time; }
   double largest_acceleration() const {
     return definition.acceleration_limit + norm(definition.planned_acceleration);
@@ -63,6 +67,16 @@ class World::Engine {
   void remove(BodyId id);
   void kick(BodyId id, const Vec3& velocity);
   Result<std::optional<Event>> advance(double until, const Probe& probe);
+  // changes.cpp: further ones.
+  void teleport(BodyId id, const State& state);
+  void set_radius(BodyId id, double radius);
+  void set_promise(BodyId id, const MotionPromise& promise);
+  void disable(BodyId id);
+  void enable(BodyId id, const State& state);
+  void set_filter(BodyId id, const Filter& filter);
+  void set_pair_filter(PairFilter filter);
+  void refilter(BodyId id);
+  void set_user_data(BodyId id, std::uint64_t data) { bodies_[id.index].definition.user_data = data; }
 
   double time() const { return time_; }
   std::size_t size() const { return size_; }
@@ -71,26 +85,41 @@ class World::Engine {
   const std::vector<Body>& table() const { return bodies_; }
   BodyId id_of(std::uint32_t number) const { return {number, bodies_[number].generation}; }
   bool probing() const { return probing_; }
+  /// The ids that the next bodies added will have, in their order.
+  BodyId next_id(std::size_t additions_before = 0) const;
   /// Where a body with this definition would be now.
-  Box box_of(const BodyDefinition& body) const;
-  /// Whether two bodies with these definitions would overlap by more than the tolerance now.
-  bool certainly_overlap(const BodyDefinition& a, const BodyDefinition& b) const;
-  /// The first living body that certainly overlaps one with this definition.
-  std::optional<BodyId> certain_overlap(const BodyDefinition& definition) const;
+  Bound bound_now(const BodyDefinition& body) const;
+  /// The body's bound, if its radius and errors were those of `changed`.
+  Bound bound_with(BodyId id, const BodyDefinition& changed) const;
+  Box box_now(const Bound& bound) const { return swept_box(bound, time_, time_); }
+  /// Whether the two overlap by more than the tolerance now, whatever the bodies do within them.
+  bool certainly_overlap(const Bound& a, const Bound& b) const;
+  std::optional<Wall> certain_overlap_of_wall(const Bound& bound) const;
+  /// The first other body that certainly overlaps body `id` with this bound and filter, and may touch it.
+  std::optional<BodyId> certain_overlap(BodyId id, const Bound& bound, const Filter& filter) const;
+  /// Whether the filters, and the predicate, let two bodies touch.
+  bool may_touch(BodyId a, const Filter& filter_of_a, BodyId b, const Filter& filter_of_b) const;
   std::optional<AuditFinding> audit() const;
 
  private:
   class Audit;
   class RoundInProgress;
 
-  Bound bound_now(const BodyDefinition& body) const;
-  bool certainly_overlap(const Bound& a, const Bound& b) const;
-
   // engine.cpp: the clock.
   void move_on_to(double time);
   Result<void> gather();
   Result<void> wake(std::uint32_t number);
   void reschedule(std::uint32_t number);
+  void appear(std::uint32_t number, const Bound& bound);
+  void withdraw(std::uint32_t number);
+
+  // changes.cpp
+  void replace(std::uint32_t number, const Bound& bound);
+  void end_filtered_contacts(std::uint32_t number);
+  bool may_touch(std::uint32_t a, std::uint32_t b) const {
+    return !filtering_ ||
+           may_touch(id_of(a), bodies_[a].definition.filter, id_of(b), bodies_[b].definition.filter);
+  }
 
   // settling.cpp: facts.
   void mark_dirty(std::uint32_t number);
@@ -130,6 +159,8 @@ class World::Engine {
   HeapSchedule schedule_;
   std::vector<std::uint32_t> dirty_;
   Counters counters_;
+  PairFilter pair_filter_;
+  bool filtering_ = false;        ///< a body has had a filter of its own, or there is a predicate
   bool gathering_ = false;        ///< not all of them have been found: a probe gave a bad answer
   const Probe* probe_ = nullptr;  ///< during advance()
   bool probing_ = false;

@@ -33,7 +33,7 @@ Result<void> World::Engine::settle_all() {
     // What either body watches of the other concerns the old state.
     unwatch(a, b);
     unwatch(b, a);
-    if (bodies_[a].alive && bodies_[b].alive && !bodies_[a].dirty && !bodies_[b].dirty) {
+    if (bodies_[a].present() && bodies_[b].present() && !bodies_[a].dirty && !bodies_[b].dirty) {
       if (auto settled = a == b ? settle_walls(a) : settle_pair(a, b); !settled) return settled;
       if (!bodies_[a].dirty) reschedule(a);
     }
@@ -45,6 +45,8 @@ Result<void> World::Engine::settle_all() {
     round.swap(dirty_);
     std::sort(round.begin(), round.end());
     round.erase(std::unique(round.begin(), round.end()), round.end());
+    // Some have been removed or disabled since.
+    std::erase_if(round, [this](std::uint32_t number) { return !bodies_[number].dirty; });
     if (auto settled = settle_round(round); !settled) return settled;
   }
   return {};
@@ -142,6 +144,7 @@ Result<void> World::Engine::search(std::uint32_t number) {
     // A dirty partner will search itself; one that has searched in this round has found this body.
     const Body& other = bodies_[partner];
     if (other.dirty || other.searched || has_watch(number, partner) || has_watch(partner, number)) continue;
+    if (!may_touch(number, partner)) continue;
     if (auto settled = settle_pair(number, partner); !settled) return settled;
     if (bodies_[number].dirty) return {};
   }

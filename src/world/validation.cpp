@@ -17,6 +17,39 @@ constexpr double tolerance_limit = 1e20;
 /// Lengths reach this many contact tolerances: then the rounding of a certificate stays well within one.
 double coordinate_limit(const WorldDefinition& world) { return 0x1p41 * world.contact_tolerance; }
 
+void require_size(InputCheck& check, const Subject& subject, double value, double limit) {
+  check.not_negative(subject, value)
+      .require(value <= limit, ErrorCode::out_of_range, subject, "must be at most", limit, value);
+}
+
+void require_radius(InputCheck& check, double radius, BodyId body, const WorldDefinition& world) {
+  require_size(check, {"radius", body}, radius, coordinate_limit(world));
+}
+
+void require_promise(InputCheck& check, const MotionPromise& promise, BodyId body,
+                     const WorldDefinition& world) {
+  require_size(check, {"acceleration_limit", body}, promise.acceleration_limit, magnitude_limit);
+  require_size(check, {"position_error", body}, promise.position_error, coordinate_limit(world));
+  require_size(check, {"velocity_error", body}, promise.velocity_error, magnitude_limit);
+  check.within({"planned_acceleration", body}, promise.planned_acceleration, magnitude_limit);
+}
+
+void require_state(InputCheck& check, const State& state, const BodyDefinition& definition, BodyId body,
+                   const WorldDefinition& world) {
+  check.within({"position", body}, state.position, coordinate_limit(world))
+      .within({"velocity", body}, state.velocity, magnitude_limit);
+  if (!world.box) return;
+  const double reach =
+      world.allow_overlap ? 0.0 : definition.radius + definition.position_error - world.contact_tolerance;
+  for (int axis = 0; axis < 3; ++axis) {
+    check.require(state.position[axis] - reach >= world.box->lower[axis] &&
+                      state.position[axis] + reach <= world.box->upper[axis],
+                  ErrorCode::outside_domain, {"position", body},
+                  world.allow_overlap ? "must lie in the box" : "must keep the whole sphere in the box",
+                  *world.box, state.position);
+  }
+}
+
 }  // namespace
 
 Result<void> check_world(const WorldDefinition& definition) {
@@ -42,27 +75,29 @@ Result<void> check_world(const WorldDefinition& definition) {
 
 Result<void> check_body(const BodyDefinition& body, const WorldDefinition& world, std::string_view call) {
   InputCheck check(call);
-  const auto size = [&check](std::string_view argument, double value, double limit) {
-    check.not_negative({argument}, value)
-        .require(value <= limit, ErrorCode::out_of_range, {argument}, "must be at most", limit, value);
-  };
-  size("radius", body.radius, coordinate_limit(world));
-  size("acceleration_limit", body.acceleration_limit, magnitude_limit);
-  size("position_error", body.position_error, coordinate_limit(world));
-  size("velocity_error", body.velocity_error, magnitude_limit);
-  check.within({"planned_acceleration"}, body.planned_acceleration, magnitude_limit)
-      .within({"position"}, body.position, coordinate_limit(world))
-      .within({"velocity"}, body.velocity, magnitude_limit);
-  if (!world.box) return check.result();
-  const double reach =
-      world.allow_overlap ? 0.0 : body.radius + body.position_error - world.contact_tolerance;
-  for (int axis = 0; axis < 3; ++axis) {
-    check.require(body.position[axis] - reach >= world.box->lower[axis] &&
-                      body.position[axis] + reach <= world.box->upper[axis],
-                  ErrorCode::outside_domain, {"position"},
-                  world.allow_overlap ? "must lie in the box" : "must keep the whole sphere in the box",
-                  *world.box, body.position);
-  }
+  require_radius(check, body.radius, no_body, world);
+  require_promise(check, promise_of(body), no_body, world);
+  require_state(check, {body.position, body.velocity}, body, no_body, world);
+  return check.result();
+}
+
+Result<void> check_radius(double radius, BodyId body, const WorldDefinition& world, std::string_view call) {
+  InputCheck check(call);
+  require_radius(check, radius, body, world);
+  return check.result();
+}
+
+Result<void> check_promise(const MotionPromise& promise, BodyId body, const WorldDefinition& world,
+                           std::string_view call) {
+  InputCheck check(call);
+  require_promise(check, promise, body, world);
+  return check.result();
+}
+
+Result<void> check_state(const State& state, const BodyDefinition& definition, BodyId body,
+                         const WorldDefinition& world, std::string_view call) {
+  InputCheck check(call);
+  require_state(check, state, definition, body, world);
   return check.result();
 }
 

@@ -10,6 +10,12 @@ namespace kinesphere {
 Result<void> check_world(const WorldDefinition& definition);
 /// `call` is the function that the caller used, for the message.
 Result<void> check_body(const BodyDefinition& body, const WorldDefinition& world, std::string_view call);
+/// Of a body that is in the world already.
+Result<void> check_radius(double radius, BodyId body, const WorldDefinition& world, std::string_view call);
+Result<void> check_promise(const MotionPromise& promise, BodyId body, const WorldDefinition& world,
+                           std::string_view call);
+Result<void> check_state(const State& state, const BodyDefinition& definition, BodyId body,
+                         const WorldDefinition& world, std::string_view call);
 Result<void> check_velocity(const Vec3& velocity, BodyId body, std::string_view call);
 Result<void> check_report(const State& state, BodyId body, double time, const WorldDefinition& world);
 Result<void> check_time(double until, double now);

@@ -1,6 +1,7 @@
 // The public face of the engine: every call is checked here before anything changes.
 #include "kinesphere/world.hpp"
 
+#include <set>
 #include <utility>
 
 #include "input/input_check.hpp"
@@ -16,10 +17,11 @@ Result<void> check_idle(bool probing, std::string_view call) {
                std::string(call) + ": a probe may not call the world that asked it"};
 }
 
-Error overlap_error(std::string_view call, BodyId other, const std::string& name_of_other) {
-  return {ErrorCode::overlapping, "position", other,
-          std::string(call) + ": position must not overlap another body, but the body would overlap " +
-              name_of_other};
+Error overlap_error(std::string_view call, BodyId other, const std::string& name_of_other,
+                    std::string_view argument = "position") {
+  return {ErrorCode::overlapping, std::string(argument), other,
+          std::string(call) + ": " + std::string(argument) +
+              " must not overlap another body, but the body would overlap " + name_of_other};
 }
 
 /// A first answer that is an error ends a chain of checks.
@@ -59,15 +61,59 @@ Result<void> World::check_alive(BodyId body, std::string_view call) const {
   return {};
 }
 
-Result<void> World::check_new(const BodyDefinition& body, std::string_view call) const {
-  auto valid = first_error(check_idle(engine_->probing(), call), check_body(body, definition(), call));
-  if (!valid || definition().allow_overlap) return valid;
-  if (const auto other = engine_->certain_overlap(body)) return overlap_error(call, *other, text_of(*other));
+Result<void> World::check_call(BodyId body, std::string_view call) const {
+  return first_error(check_idle(engine_->probing(), call), check_alive(body, call));
+}
+
+/// As check_call, for a call that needs the body to be enabled, or disabled.
+Result<void> World::check_enabled(BodyId body, bool enabled, std::string_view call) const {
+  auto valid = check_call(body, call);
+  if (!valid || engine_->table()[body.index].enabled == enabled) return valid;
+  return Error{enabled ? ErrorCode::disabled_body : ErrorCode::enabled_body, "body", body,
+               std::string(call) + ": body must be " + (enabled ? "enabled" : "disabled") + ", but " +
+                   text_of(body) + " is not"};
+}
+
+/// Whether there is room for body `id` with this definition, where overlaps are not allowed.
+Result<void> World::check_room(const BodyDefinition& body, BodyId id, std::string_view call) const {
+  if (definition().allow_overlap) return {};
+  const auto other = engine_->certain_overlap(id, engine_->bound_now(body), body.filter);
+  return other ? Result<void>(overlap_error(call, *other, text_of(*other))) : Result<void>();
+}
+
+/// Whether the body may be in this state now.
+Result<void> World::check_moved(BodyId id, const State& state, std::string_view call) const {
+  BodyDefinition moved = engine_->table()[id.index].definition;
+  if (auto valid = check_state(state, moved, id, definition(), call); !valid) return valid;
+  moved.position = state.position;
+  moved.velocity = state.velocity;
+  return check_room(moved, id, call);
+}
+
+/// Whether there is room for a body to grow where it is, where overlaps are not allowed.
+Result<void> World::check_growth(const BodyDefinition& changed, BodyId id, std::string_view argument,
+                                 std::string_view call) const {
+  const Body& body = engine_->table()[id.index];
+  const Bound bound = engine_->bound_with(id, changed);
+  if (definition().allow_overlap || !body.enabled || bound.radius <= body.bound.radius) return {};
+  if (const auto wall = engine_->certain_overlap_of_wall(bound)) {
+    return Error{ErrorCode::outside_domain, std::string(argument), id,
+                 std::string(call) + ": " + std::string(argument) + " of " + text_of(id) +
+                     " must keep the whole sphere in the box, but it would overlap the wall " +
+                     std::string(name_of(*wall))};
+  }
+  if (const auto other = engine_->certain_overlap(id, bound, body.definition.filter))
+    return overlap_error(call, *other, text_of(*other), argument);
   return {};
 }
 
+Result<void> World::check_new(const BodyDefinition& body, BodyId id, std::string_view call) const {
+  auto valid = first_error(check_idle(engine_->probing(), call), check_body(body, definition(), call));
+  return valid ? check_room(body, id, call) : valid;
+}
+
 Result<BodyId> World::add(const BodyDefinition& body) {
-  if (auto valid = check_new(body, "add"); !valid) return valid.error();
+  if (auto valid = check_new(body, engine_->next_id(), "add"); !valid) return valid.error();
   return engine_->add(body);
 }
 
@@ -76,12 +122,15 @@ Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodie
   HashGrid earlier;
   for (std::uint32_t number = 0; number < bodies.size(); ++number) {
     const std::string call = "add_all: bodies[" + std::to_string(number) + "]";
-    if (auto valid = check_new(bodies[number], call); !valid) return valid.error();
+    if (auto valid = check_new(bodies[number], engine_->next_id(number), call); !valid) return valid.error();
     if (definition().allow_overlap) continue;
-    const Box box = engine_->box_of(bodies[number]);
+    const Bound bound = engine_->bound_now(bodies[number]);
+    const Box box = engine_->box_now(bound);
     std::optional<std::uint32_t> other;
     earlier.for_each_overlap(box, [&](std::uint32_t candidate) {
-      const bool overlap = engine_->certainly_overlap(bodies[number], bodies[candidate]);
+      const bool overlap = engine_->certainly_overlap(bound, engine_->bound_now(bodies[candidate])) &&
+                           engine_->may_touch(engine_->next_id(number), bodies[number].filter,
+                                              engine_->next_id(candidate), bodies[candidate].filter);
       if (overlap && (!other || candidate < *other)) other = candidate;
     });
     if (other) return overlap_error(call, no_body, "bodies[" + std::to_string(*other) + "]");
@@ -94,16 +143,100 @@ Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodie
 }
 
 Result<void> World::remove(BodyId body) {
-  auto valid = first_error(check_idle(engine_->probing(), "remove"), check_alive(body, "remove"));
+  auto valid = check_call(body, "remove");
   if (valid) engine_->remove(body);
   return valid;
 }
 
+Result<void> World::remove_all(std::span<const BodyId> bodies) {
+  if (auto idle = check_idle(engine_->probing(), "remove_all"); !idle) return idle;
+  std::set<BodyId> earlier;
+  for (std::size_t number = 0; number < bodies.size(); ++number) {
+    const std::string call = "remove_all: bodies[" + std::to_string(number) + "]";
+    if (auto valid = check_alive(bodies[number], call); !valid) return valid;
+    if (!earlier.insert(bodies[number]).second) {
+      return Error{ErrorCode::stale_body, "body", bodies[number],
+                   call + ": " + text_of(bodies[number]) + " is named twice"};
+    }
+  }
+  for (const BodyId body : bodies) engine_->remove(body);
+  return {};
+}
+
 Result<void> World::kick(BodyId body, const Vec3& velocity) {
-  auto valid = first_error(check_idle(engine_->probing(), "kick"), check_alive(body, "kick"),
-                           check_velocity(velocity, body, "kick"));
+  auto valid = first_error(check_enabled(body, true, "kick"), check_velocity(velocity, body, "kick"));
   if (valid) engine_->kick(body, velocity);
   return valid;
+}
+
+Result<void> World::teleport(BodyId body, const State& state) {
+  auto valid = check_enabled(body, true, "teleport");
+  if (valid) valid = check_moved(body, state, "teleport");
+  if (valid) engine_->teleport(body, state);
+  return valid;
+}
+
+Result<void> World::enable(BodyId body, const State& state) {
+  auto valid = check_enabled(body, false, "enable");
+  if (valid) valid = check_moved(body, state, "enable");
+  if (valid) engine_->enable(body, state);
+  return valid;
+}
+
+Result<void> World::disable(BodyId body) {
+  auto valid = check_enabled(body, true, "disable");
+  if (valid) engine_->disable(body);
+  return valid;
+}
+
+Result<void> World::set_radius(BodyId body, double radius) {
+  auto valid =
+      first_error(check_call(body, "set_radius"), check_radius(radius, body, definition(), "set_radius"));
+  if (!valid) return valid;
+  BodyDefinition changed = engine_->table()[body.index].definition;
+  changed.radius = radius;
+  valid = check_growth(changed, body, "radius", "set_radius");
+  if (valid) engine_->set_radius(body, radius);
+  return valid;
+}
+
+Result<void> World::set_promise(BodyId body, const MotionPromise& promise) {
+  auto valid =
+      first_error(check_call(body, "set_promise"), check_promise(promise, body, definition(), "set_promise"));
+  if (!valid) return valid;
+  const BodyDefinition changed = with_promise(engine_->table()[body.index].definition, promise);
+  valid = check_growth(changed, body, "position_error", "set_promise");
+  if (valid) engine_->set_promise(body, promise);
+  return valid;
+}
+
+Result<void> World::set_filter(BodyId body, const Filter& filter) {
+  auto valid = check_call(body, "set_filter");
+  if (valid) engine_->set_filter(body, filter);
+  return valid;
+}
+
+Result<void> World::set_pair_filter(PairFilter filter) {
+  auto valid = check_idle(engine_->probing(), "set_pair_filter");
+  if (valid) engine_->set_pair_filter(std::move(filter));
+  return valid;
+}
+
+Result<void> World::refilter(BodyId body) {
+  auto valid = check_call(body, "refilter");
+  if (valid) engine_->refilter(body);
+  return valid;
+}
+
+Result<void> World::set_user_data(BodyId body, std::uint64_t data) {
+  auto valid = check_call(body, "set_user_data");
+  if (valid) engine_->set_user_data(body, data);
+  return valid;
+}
+
+Result<std::uint64_t> World::user_data(BodyId body) const {
+  if (auto valid = check_alive(body, "user_data"); !valid) return valid.error();
+  return engine_->table()[body.index].definition.user_data;
 }
 
 Result<std::optional<Event>> World::advance(double until, Probe probe) {
@@ -122,7 +255,7 @@ std::optional<AuditFinding> World::audit() const { return engine_->audit(); }
 Result<BodyView> World::body(BodyId id) const {
   if (auto valid = check_alive(id, "body"); !valid) return valid.error();
   const Body& body = engine_->table()[id.index];
-  return BodyView{body.definition, body.bound, body.box, body.box_end};
+  return BodyView{body.definition, body.bound, body.box, body.box_end, body.enabled};
 }
 
 std::vector<BodyId> World::bodies() const {
