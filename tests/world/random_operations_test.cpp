@@ -27,7 +27,9 @@ class RandomOperations : public testing::TestWithParam<Kind> {
            .contact_tolerance = eps,
            .contacts = GetParam().mode,
            .start_time = -3.0}),
-        random(GetParam().seed) {}
+        random(GetParam().seed) {
+    p.distort = [this](BodyId id, double, State&) { EXPECT_TRUE(enabled(id)) << id << " was probed"; };
+  }
 
   void add() {
     const bool heavy = random.uniform() < 0.1;
@@ -55,7 +57,91 @@ class RandomOperations : public testing::TestWithParam<Kind> {
 
   void kick() {
     const BodyId id = any();
+    if (!enabled(id)) return;
     p.kick(id, 4.0 * random.point_in_ball());
+  }
+
+  Vec3 anywhere() { return {size * random.uniform(), size * random.uniform(), size * random.uniform()}; }
+
+  void place(BodyId id, const State& state) {
+    p.set_position(id, state.position);
+    p.set_velocity(id, state.velocity);
+  }
+
+  /// Far away, or near to where it is, so that it may stay in contact.
+  void teleport(BodyId id) {
+    State state{anywhere(), 4.0 * random.point_in_ball()};
+    const Vec3 near = p.state(id).position + 0.01 * random.point_in_ball();
+    bool inside = true;
+    for (int axis = 0; axis < 3; ++axis) inside = inside && near[axis] >= 0.0 && near[axis] <= size;
+    if (inside && random.uniform() < 0.5) state.position = near;
+    p.world.teleport(id, state).value();
+    place(id, state);
+    changed_at[id] = p.world.time();
+  }
+
+  void resize(BodyId id) {
+    p.world.set_radius(id, random.uniform() * (random.uniform() < 0.1 ? 1.5 : 0.4)).value();
+    changed_at[id] = p.world.time();
+  }
+
+  void promise(BodyId id) {
+    const double limit = random.uniform() < 0.3 ? 0.0 : 5.0 * random.uniform();
+    const Vec3 plan = random.uniform() < 0.3 ? Vec3{0, 0, -3} : Vec3{};
+    p.world.set_promise(id, {.acceleration_limit = limit, .planned_acceleration = plan}).value();
+    p.steer(id, plan + 0.999 * limit * random.point_in_ball());
+  }
+
+  void turn_off_or_on(BodyId id) {
+    changed_at[id] = p.world.time();
+    if (enabled(id)) return p.world.disable(id).value();
+    const State state{anywhere(), 4.0 * random.point_in_ball()};
+    p.world.enable(id, state).value();
+    place(id, state);
+  }
+
+  void filter(BodyId id) {
+    Filter chosen;
+    if (random.uniform() < 0.5) {
+      chosen.category = 1 + random.bits() % 3;
+      chosen.mask = 1 + random.bits() % 3;
+      chosen.group = static_cast<std::int32_t>(random.bits() % 3) - 1;
+    }
+    p.world.set_filter(id, chosen).value();
+    changed_at[id] = p.world.time();
+  }
+
+  /// The predicate keeps some bodies from touching others of the same parity.
+  void haunt(BodyId id) {
+    if (haunted.empty()) p.world.set_pair_filter([this](BodyId a, BodyId b) { return meet(a, b); }).value();
+    if (!haunted.insert(id).second) haunted.erase(id);
+    p.world.refilter(id).value();
+    changed_at[id] = p.world.time();
+  }
+  bool meet(BodyId a, BodyId b) const {
+    return (a.index + b.index) % 2 == 1 || (!haunted.contains(a) && !haunted.contains(b));
+  }
+
+  void change() {
+    const BodyId id = any();
+    const double choice = 6.0 * random.uniform();
+    if (choice < 1.0) return enabled(id) ? teleport(id) : turn_off_or_on(id);
+    if (choice < 2.0) return resize(id);
+    if (choice < 3.0) return promise(id);
+    if (choice < 4.0) return turn_off_or_on(id);
+    choice < 5.0 ? filter(id) : haunt(id);
+  }
+
+  bool enabled(BodyId id) const { return p.world.body(id).value().enabled; }
+  bool may_touch(BodyId a, BodyId b) const {
+    return enabled(a) && enabled(b) && meet(a, b) &&
+           passes(p.world.body(a).value().definition.filter, p.world.body(b).value().definition.filter);
+  }
+  /// The end of a contact that a change at this instant may have ended, so at any gap.
+  bool changed_now(BodyId id) const {
+    if (removed.contains(id)) return true;
+    const auto found = changed_at.find(id);
+    return found != changed_at.end() && found->second == p.world.time();
   }
 
   void steer() {
@@ -67,6 +153,7 @@ class RandomOperations : public testing::TestWithParam<Kind> {
   /// Bodies that have strayed far outside are sent back.
   void send_back() {
     for (const BodyId id : alive) {
+      if (!enabled(id)) continue;
       const State state = p.state(id);
       const Vec3 out = state.position - Vec3{0.5, 0.5, 0.5} * size;
       if (norm(out) > 1.5 * size && dot(out, state.velocity) > 0.0) p.kick(id, out * (-0.3));
@@ -95,11 +182,12 @@ class RandomOperations : public testing::TestWithParam<Kind> {
     switch (event.kind) {
       case EventKind::contact_begin:
         ASSERT_TRUE(touching.insert(pair).second) << "twice: " << event;
+        ASSERT_TRUE(may_touch(event.first, event.second)) << event;
         ASSERT_LE(event.gap, eps);
         break;
       case EventKind::contact_end:
         ASSERT_EQ(touching.erase(pair), 1u) << "without a begin: " << event;
-        if (!removed.contains(event.first) && !removed.contains(event.second)) {
+        if (!changed_now(event.first) && !changed_now(event.second)) {
           ASSERT_GE(event.gap, 4 * eps);
           ASSERT_LE(event.gap, 5 * eps);
         }
@@ -121,6 +209,10 @@ class RandomOperations : public testing::TestWithParam<Kind> {
     if (GetParam().mode == ContactMode::impacts) return;
     for (std::size_t a = 0; a < alive.size(); ++a) {
       for (std::size_t b = a + 1; b < alive.size(); ++b) {
+        if (!may_touch(alive[a], alive[b])) {
+          ASSERT_FALSE(touching.contains(std::minmax(alive[a], alive[b]))) << alive[a] << " " << alive[b];
+          continue;
+        }
         const double gap = p.gap(alive[a], alive[b]);
         if (touching.contains(std::minmax(alive[a], alive[b]))) {
           ASSERT_LE(gap, 5.001 * eps) << alive[a] << " " << alive[b] << " at " << p.world.time();
@@ -128,6 +220,7 @@ class RandomOperations : public testing::TestWithParam<Kind> {
           ASSERT_GE(gap, -1.001 * eps) << alive[a] << " " << alive[b] << " at " << p.world.time();
         }
       }
+      if (!enabled(alive[a])) continue;
       const Vec3 at = p.state(alive[a]).position;
       const double radius = p.radius(alive[a]);
       for (int axis = 0; axis < 3; ++axis) {
@@ -147,6 +240,8 @@ class RandomOperations : public testing::TestWithParam<Kind> {
   Random random;
   std::vector<BodyId> alive;
   std::map<BodyId, double> added_at;
+  std::map<BodyId, double> changed_at;  ///< in a way that may end contacts
+  std::set<BodyId> haunted;
   std::set<BodyId> removed;
   std::set<std::pair<BodyId, BodyId>> touching;
   std::set<std::pair<BodyId, Wall>> touching_walls;
@@ -170,9 +265,9 @@ TEST_P(RandomOperations, MirrorAndAuditAgree) {
       if (begins && random.uniform() < 0.7) {
         // Bounces, as far as both still live.
         const double speed = std::max(0.0, event->approach_speed);
-        if (p.world.contains(event->first))
+        if (p.world.contains(event->first) && enabled(event->first))
           p.kick(event->first, p.state(event->first).velocity - event->normal * (1.1 * speed));
-        if (event->second != no_body && p.world.contains(event->second))
+        if (event->second != no_body && p.world.contains(event->second) && enabled(event->second))
           p.kick(event->second, p.state(event->second).velocity + event->normal * (1.1 * speed));
       } else if (random.uniform() < 0.05) {
         remove();
@@ -180,11 +275,14 @@ TEST_P(RandomOperations, MirrorAndAuditAgree) {
         add();
       } else if (random.uniform() < 0.2) {
         kick();
+      } else if (random.uniform() < 0.3) {
+        change();
       }
     }
     ASSERT_EQ(p.world.time(), until);
     ASSERT_NO_FATAL_FAILURE(compare_with_truth()) << "seed " << GetParam().seed;
-    for (int k = 0; k < 5; ++k) {
+    for (int k = 0; k < 8; ++k) {
+      if (random.uniform() < 0.5) change();
       const double choice = random.uniform();
       choice < 0.25 ? remove() : choice < 0.5 ? add() : choice < 0.75 ? kick() : steer();
     }

@@ -1,0 +1,249 @@
+// Changes at run time: teleports, radii, promises, disabled bodies, batches, user data; and the wrong calls
+// of each.
+#include <gtest/gtest.h>
+
+#include "support/playground.hpp"
+
+namespace kinesphere {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+void teleport(Playground& p, BodyId id, const State& state) {
+  p.set_position(id, state.position);
+  p.set_velocity(id, state.velocity);
+  p.world.teleport(id, state).value();
+}
+
+/// Two bodies in contact, their begin delivered.
+struct Touching : Playground {
+  BodyId a = add({.radius = 1});
+  BodyId b = add({.radius = 1, .position = {1.5, 0, 0}});
+  Touching() {
+    EXPECT_EQ(run(0.0).size(), 1u);
+    EXPECT_TRUE(run(1.0).empty());
+  }
+  /// The end of the contact, as it was before a change at time 1.
+  void expect_end(const std::vector<Event>& events) {
+    ASSERT_EQ(events.size(), 1u) << events;
+    EXPECT_EQ(events[0].kind, EventKind::contact_end);
+    EXPECT_EQ(events[0].time, 1.0);
+    EXPECT_EQ(events[0].gap, -0.5) << "the states before the change";
+    EXPECT_EQ(events[0].second_state.position, (Vec3{1.5, 0, 0}));
+    EXPECT_TRUE(is_clean(world));
+  }
+};
+
+TEST(Change, TeleportAwayEndsAContact) {
+  Touching p;
+  teleport(p, p.b, {{50, 0, 0}, {}});
+  p.expect_end(p.run(2.0));
+}
+
+TEST(Change, TeleportWithinAContactIsSilent) {
+  Touching p;
+  teleport(p, p.b, {{0, 1.25, 0}, {}});
+  EXPECT_TRUE(p.run(2.0).empty());
+}
+
+TEST(Change, TeleportAwayAndBackEndsAndBegins) {
+  Touching p;
+  teleport(p, p.b, {{50, 0, 0}, {}});
+  teleport(p, p.b, {{1.5, 0, 0}, {}});
+  const auto events = p.run(2.0);
+  ASSERT_EQ(events.size(), 2u) << events;
+  EXPECT_EQ(events[0].kind, EventKind::contact_end);
+  EXPECT_EQ(events[1].kind, EventKind::contact_begin);
+}
+
+TEST(Change, TeleportIntoAnOverlapBeginsAtOnce) {
+  Playground p;
+  p.add({.radius = 1});
+  const BodyId b = p.add({.radius = 1, .position = {50, 0, 0}});
+  p.run(1.0);
+  teleport(p, b, {{0, 1, 0}, {}});
+  const auto events = p.run(2.0);
+  ASSERT_EQ(events.size(), 1u) << events;
+  EXPECT_EQ(events[0].time, 1.0);
+  EXPECT_EQ(p.world.counters().count(EventKind::bound_violation), 0u);
+}
+
+TEST(Change, TeleportAwayAtAnotherEventOfTheInstantTakesItsBeginBack) {
+  Playground p;
+  p.add({.radius = 1});
+  p.add({.radius = 1, .position = {1, 0, 0}});
+  p.add({.radius = 1, .position = {50, 0, 0}});
+  const BodyId d = p.add({.radius = 1, .position = {51, 0, 0}});
+  ASSERT_TRUE(p.advance(1.0));
+  teleport(p, d, {{100, 0, 0}, {}});
+  EXPECT_TRUE(p.run(1.0).empty());
+}
+
+TEST(Change, SmallerRadiusEndsAndLargerBegins) {
+  Touching p;
+  p.world.set_radius(p.b, 0.25).value();
+  p.expect_end(p.run(2.0));
+  p.world.set_radius(p.b, 0.75).value();
+  const auto events = p.run(3.0);
+  ASSERT_EQ(events.size(), 1u) << events;
+  EXPECT_EQ(events[0].kind, EventKind::contact_begin);
+  EXPECT_EQ(events[0].time, 2.0);
+}
+
+TEST(Change, RadiusOfABodyOnAWallCounts) {
+  Playground p({.box = Box{{0, 0, 0}, {10, 10, 10}}});
+  const BodyId a = p.add({.radius = 1, .position = {0.5, 5, 5}});
+  EXPECT_EQ(p.run(1.0).size(), 1u);
+  p.world.set_radius(a, 0.25).value();
+  const auto events = p.run(2.0);
+  ASSERT_EQ(events.size(), 1u) << events;
+  EXPECT_EQ(events[0].kind, EventKind::wall_end);
+  EXPECT_EQ(events[0].gap, -0.5);
+}
+
+TEST(Change, PromiseHoldsFromNowOnAndTheOldOneUntilNow) {
+  Playground p;
+  const BodyId a = p.add({.radius = 1, .acceleration_limit = 2, .position = {0, 0, 0}}, Vec3{1.9, 0, 0});
+  const BodyId b = p.add({.radius = 1, .position = {20, 0, 0}});
+  p.run(1.0);
+  p.world.set_promise(a, {.planned_acceleration = {-1, 0, 0}}).value();
+  p.steer(a, {-1, 0, 0});
+  EXPECT_TRUE(p.run(2.0).empty());
+  p.world.set_promise(a, {.acceleration_limit = 10}).value();
+  p.steer(a, {9.9, 0, 0});
+  const auto event = p.advance(20.0);
+  ASSERT_TRUE(event);
+  EXPECT_EQ(event->kind, EventKind::contact_begin);
+  EXPECT_LE(std::abs(p.gap(a, b)), 1e-6);
+}
+
+TEST(Change, BrokenNewPromiseIsTold) {
+  Playground p;
+  const BodyId a = p.add({.radius = 1, .acceleration_limit = 2}, Vec3{1.9, 0, 0});
+  p.run(1.0);
+  p.world.set_promise(a, {}).value();
+  p.add({.radius = 1, .position = {6, 0, 0}});
+  EXPECT_EQ(of_kind(p.run(3.0), EventKind::bound_violation).size(), 1u);
+}
+
+TEST(Change, DisabledBodyTouchesNobodyAndIsNotProbed) {
+  Touching p;
+  p.world.disable(p.b).value();
+  p.distort = [&](BodyId id, double, State&) { EXPECT_NE(id, p.b); };
+  p.expect_end(p.run(2.0));
+  EXPECT_TRUE(p.world.contains(p.b));
+  EXPECT_FALSE(p.world.body(p.b).value().enabled);
+  EXPECT_EQ(p.world.size(), 2u);
+  p.add({.radius = 1, .position = {1.5, 2.2, 0}});
+  EXPECT_TRUE(p.run(3.0).empty());
+  p.world.set_radius(p.b, 1.25).value();
+  p.distort = {};
+  p.world.enable(p.b, {{1.5, 0, 0}, {}}).value();
+  EXPECT_EQ(of_kind(p.run(4.0), EventKind::contact_begin).size(), 2u);
+  EXPECT_TRUE(is_clean(p.world));
+}
+
+TEST(Change, DisabledBodyMayBeRemoved) {
+  Touching p;
+  p.world.disable(p.b).value();
+  p.world.remove(p.b).value();
+  p.expect_end(p.run(2.0));
+  EXPECT_FALSE(p.world.contains(p.b));
+}
+
+TEST(Change, RemoveAllEndsEachContactOnce) {
+  Touching p;
+  p.world.remove_all(std::vector<BodyId>{p.a, p.b}).value();
+  EXPECT_EQ(p.world.size(), 0u);
+  p.expect_end(p.run(2.0));
+}
+
+TEST(Change, UserDataIsKept) {
+  Playground p;
+  const BodyId a = p.add({.user_data = 7});
+  EXPECT_EQ(p.world.user_data(a).value(), 7u);
+  p.world.set_user_data(a, ~std::uint64_t{0}).value();
+  EXPECT_EQ(p.world.user_data(a).value(), ~std::uint64_t{0});
+}
+
+template <class T>
+void expect_error(const Result<T>& result, ErrorCode code, const std::string& call) {
+  ASSERT_FALSE(result) << call;
+  EXPECT_EQ(result.error().code, code) << result.error().message;
+  EXPECT_EQ(result.error().message.rfind(call, 0), 0u) << result.error().message;
+}
+
+/// Every change of body `id`.
+void expect_all_refused(World& world, BodyId id, ErrorCode code) {
+  expect_error(world.teleport(id, {}), code, "teleport");
+  expect_error(world.set_radius(id, 1), code, "set_radius");
+  expect_error(world.set_promise(id, {}), code, "set_promise");
+  expect_error(world.disable(id), code, "disable");
+  expect_error(world.enable(id, {}), code, "enable");
+  expect_error(world.set_filter(id, {}), code, "set_filter");
+  expect_error(world.refilter(id), code, "refilter");
+  expect_error(world.set_user_data(id, 1), code, "set_user_data");
+  expect_error(world.user_data(id), code, "user_data");
+  expect_error(world.remove_all(std::span(&id, 1)), code, "remove_all: bodies[0]");
+}
+
+TEST(WrongChange, IsRefusedAndLeavesNoTrace) {
+  Playground p({.box = Box{{0, 0, 0}, {10, 10, 10}}, .allow_overlap = false});
+  const BodyId gone = p.add({.radius = 1, .position = {5, 5, 5}});
+  p.world.remove(gone).value();
+  const BodyId a = p.add({.radius = 1, .position = {5, 5, 5}});
+  const BodyId b = p.add({.radius = 1, .position = {8, 5, 5}});
+  expect_all_refused(p.world, gone, ErrorCode::stale_body);
+  expect_all_refused(p.world, {77, 0}, ErrorCode::unknown_body);
+  expect_error(p.world.teleport(a, {{nan, 0, 0}, {}}), ErrorCode::not_finite, "teleport");
+  expect_error(p.world.teleport(a, {{5, 5, 5}, {0, nan, 0}}), ErrorCode::not_finite, "teleport");
+  expect_error(p.world.teleport(a, {{0.5, 5, 5}, {}}), ErrorCode::outside_domain, "teleport");
+  expect_error(p.world.teleport(a, {{7, 5, 5}, {}}), ErrorCode::overlapping, "teleport");
+  expect_error(p.world.set_radius(a, -1), ErrorCode::out_of_range, "set_radius");
+  expect_error(p.world.set_radius(a, nan), ErrorCode::not_finite, "set_radius");
+  expect_error(p.world.set_radius(a, 2.5), ErrorCode::overlapping, "set_radius");
+  expect_error(p.world.set_radius(b, 2.5), ErrorCode::outside_domain, "set_radius");
+  expect_error(p.world.set_promise(a, {.acceleration_limit = -1}), ErrorCode::out_of_range, "set_promise");
+  expect_error(p.world.set_promise(a, {.planned_acceleration = {nan, 0, 0}}), ErrorCode::not_finite,
+               "set_promise");
+  expect_error(p.world.set_promise(a, {.position_error = 1.5}), ErrorCode::overlapping, "set_promise");
+  expect_error(p.world.set_promise(a, {.velocity_error = nan}), ErrorCode::not_finite, "set_promise");
+  expect_error(p.world.enable(a, {{5, 5, 5}, {}}), ErrorCode::enabled_body, "enable");
+  expect_error(p.world.remove_all(std::vector<BodyId>{a, b, a}), ErrorCode::stale_body,
+               "remove_all: bodies[2]");
+  EXPECT_EQ(p.world.size(), 2u);
+  EXPECT_TRUE(p.run(1.0).empty());
+  p.world.disable(a).value();
+  expect_error(p.world.disable(a), ErrorCode::disabled_body, "disable");
+  expect_error(p.world.teleport(a, {{5, 5, 5}, {}}), ErrorCode::disabled_body, "teleport");
+  expect_error(p.world.kick(a, {}), ErrorCode::disabled_body, "kick");
+  expect_error(p.world.enable(a, {{7, 5, 5}, {}}), ErrorCode::overlapping, "enable");
+  EXPECT_TRUE(p.run(2.0).empty());
+  EXPECT_TRUE(is_clean(p.world));
+}
+
+TEST(WrongChange, TwoTeleportsToOnePlaceAtOneStop) {
+  Playground p({.allow_overlap = false});
+  const BodyId a = p.add({.radius = 1});
+  const BodyId b = p.add({.radius = 1, .position = {8, 0, 0}});
+  p.world.teleport(a, {{50, 0, 0}, {}}).value();
+  expect_error(p.world.teleport(b, {{50, 1, 0}, {}}), ErrorCode::overlapping, "teleport");
+  EXPECT_TRUE(p.world.teleport(b, {{0, 0, 0}, {}})) << "the place is free again";
+}
+
+TEST(WrongChange, FromInsideAProbe) {
+  Playground p;
+  const BodyId a = p.add({.radius = 1});
+  p.distort = [&](BodyId, double, State&) {
+    expect_error(p.world.teleport(a, {}), ErrorCode::probe_in_progress, "teleport");
+    expect_error(p.world.set_pair_filter({}), ErrorCode::probe_in_progress, "set_pair_filter");
+    expect_error(p.world.remove_all({}), ErrorCode::probe_in_progress, "remove_all");
+  };
+  p.run(1.0);
+  p.kick(a, {1, 0, 0});
+  p.run(2.0);
+  EXPECT_GT(p.world.counters().probes, 0u);
+}
+
+}  // namespace
+}  // namespace kinesphere
