@@ -99,6 +99,7 @@ void World::Engine::kick(BodyId id, const Vec3& velocity) {
 
 Result<std::optional<Event>> World::Engine::advance(double until, const Probe& probe) {
   probe_ = &probe;
+  probing_call_ = "advance";
   for (;;) {
     if (gathering_) {
       if (auto gathered = gather(); !gathered) return gathered.error();

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -101,6 +102,11 @@ class World::Engine {
   bool may_touch(BodyId a, const Filter& filter_of_a, BodyId b, const Filter& filter_of_b) const;
   std::optional<AuditFinding> audit() const;
 
+  // What is known at the current time.
+  class Answers;
+  class Queries;
+  Result<bool> probe_stale(std::span<const std::uint32_t> numbers, const Probe& ask, std::string_view call);
+
  private:
   class Audit;
   class RoundInProgress;
@@ -160,9 +166,10 @@ class World::Engine {
   std::vector<std::uint32_t> dirty_;
   Counters counters_;
   PairFilter pair_filter_;
-  bool filtering_ = false;        ///< a body has had a filter of its own, or there is a predicate
-  bool gathering_ = false;        ///< not all of them have been found: a probe gave a bad answer
-  const Probe* probe_ = nullptr;  ///< during advance()
+  bool filtering_ = false;         ///< a body has had a filter of its own, or there is a predicate
+  bool gathering_ = false;         ///< not all of them have been found: a probe gave a bad answer
+  const Probe* probe_ = nullptr;   ///< during a call that may probe
+  std::string_view probing_call_;  ///< its name, for messages
   bool probing_ = false;
   // Kept for their memory only.
   std::vector<BodyId> probe_ids_;

@@ -35,10 +35,24 @@ Result<void> World::Engine::probe(std::span<const std::uint32_t> numbers) {
   }
   counters_.probes += numbers.size();
   for (std::size_t k = 0; k < numbers.size(); ++k) {
-    if (auto valid = check_report(probe_states_[k], probe_ids_[k], time_, definition_); !valid) return valid;
+    if (auto valid = check_report(probe_states_[k], probe_ids_[k], time_, definition_, probing_call_); !valid)
+      return valid;
   }
   for (std::size_t k = 0; k < numbers.size(); ++k) apply_report(numbers[k], probe_states_[k]);
   return {};
+}
+
+/// Outside advance(): probes those whose reports are not of this time. True when there were any.
+Result<bool> World::Engine::probe_stale(std::span<const std::uint32_t> numbers, const Probe& ask,
+                                        std::string_view call) {
+  std::vector<std::uint32_t> stale;
+  for (const std::uint32_t number : numbers)
+    if (!bodies_[number].fresh(time_)) stale.push_back(number);
+  if (stale.empty()) return false;
+  probe_ = &ask;
+  probing_call_ = call;
+  if (auto probed = probe(stale); !probed) return probed.error();
+  return true;
 }
 
 /// Probes the body whose report is older; the second one, if they are of the same age.

@@ -14,9 +14,6 @@ constexpr double magnitude_limit = 1e100;
 /// With this, coordinates still fit into the single precision of the grid.
 constexpr double tolerance_limit = 1e20;
 
-/// Lengths reach this many contact tolerances: then the rounding of a certificate stays well within one.
-double coordinate_limit(const WorldDefinition& world) { return 0x1p41 * world.contact_tolerance; }
-
 void require_size(InputCheck& check, const Subject& subject, double value, double limit) {
   check.not_negative(subject, value)
       .require(value <= limit, ErrorCode::out_of_range, subject, "must be at most", limit, value);
@@ -51,6 +48,8 @@ void require_state(InputCheck& check, const State& state, const BodyDefinition& 
 }
 
 }  // namespace
+
+double coordinate_limit(const WorldDefinition& world) { return 0x1p41 * world.contact_tolerance; }
 
 Result<void> check_world(const WorldDefinition& definition) {
   InputCheck check("World::create");
@@ -105,14 +104,15 @@ Result<void> check_velocity(const Vec3& velocity, BodyId body, std::string_view 
   return InputCheck(call).within({"velocity", body}, velocity, magnitude_limit).result();
 }
 
-Result<void> check_report(const State& state, BodyId body, double time, const WorldDefinition& world) {
+Result<void> check_report(const State& state, BodyId body, double time, const WorldDefinition& world,
+                          std::string_view call) {
   // Nearly all reports are fine: words cost time.
   const auto fits = [](const Vec3& v, double limit) {
     return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
   };
   if (fits(state.position, coordinate_limit(world)) && fits(state.velocity, magnitude_limit)) return {};
-  const std::string call = "advance: the probe's answer at time " + text_of(time);
-  return InputCheck(call)
+  const std::string answer = std::string(call) + ": the probe's answer at time " + text_of(time);
+  return InputCheck(answer)
       .within({"position", body}, state.position, coordinate_limit(world))
       .within({"velocity", body}, state.velocity, magnitude_limit)
       .result();
@@ -124,6 +124,12 @@ Result<void> check_time(double until, double now) {
       .require(until >= now, ErrorCode::time_backwards, {"until"}, "must not lie before the current time",
                now, until)
       .result();
+}
+
+Result<void> check_idle(bool probing, std::string_view call) {
+  if (!probing) return {};
+  return Error{ErrorCode::probe_in_progress, "probe", no_body,
+               std::string(call) + ": a probe may not call the world that asked it"};
 }
 
 }  // namespace kinesphere

@@ -17,7 +17,21 @@ Result<void> check_promise(const MotionPromise& promise, BodyId body, const Worl
 Result<void> check_state(const State& state, const BodyDefinition& definition, BodyId body,
                          const WorldDefinition& world, std::string_view call);
 Result<void> check_velocity(const Vec3& velocity, BodyId body, std::string_view call);
-Result<void> check_report(const State& state, BodyId body, double time, const WorldDefinition& world);
+Result<void> check_report(const State& state, BodyId body, double time, const WorldDefinition& world,
+                          std::string_view call = "advance");
 Result<void> check_time(double until, double now);
+/// A probe may not call the world that asked it.
+Result<void> check_idle(bool probing, std::string_view call);
+
+/// Lengths reach this many contact tolerances: then the rounding of a certificate stays well within one.
+double coordinate_limit(const WorldDefinition& world);
+
+/// A first answer that is an error ends a chain of checks.
+template <class... Checks>
+Result<void> first_error(const Checks&... checks) {
+  Result<void> result;
+  (void)((static_cast<bool>(checks) || (result = checks, false)) && ...);
+  return result;
+}
 
 }  // namespace kinesphere

@@ -11,25 +11,11 @@
 namespace kinesphere {
 namespace {
 
-Result<void> check_idle(bool probing, std::string_view call) {
-  if (!probing) return {};
-  return Error{ErrorCode::probe_in_progress, "probe", no_body,
-               std::string(call) + ": a probe may not call the world that asked it"};
-}
-
 Error overlap_error(std::string_view call, BodyId other, const std::string& name_of_other,
                     std::string_view argument = "position") {
   return {ErrorCode::overlapping, std::string(argument), other,
           std::string(call) + ": " + std::string(argument) +
               " must not overlap another body, but the body would overlap " + name_of_other};
-}
-
-/// A first answer that is an error ends a chain of checks.
-template <class... Checks>
-Result<void> first_error(const Checks&... checks) {
-  Result<void> result;
-  (void)((static_cast<bool>(checks) || (result = checks, false)) && ...);
-  return result;
 }
 
 }  // namespace
