@@ -36,12 +36,14 @@
 #include <string_view>
 #include <vector>
 
+#include "kinesphere/answers.hpp"
 #include "kinesphere/body.hpp"
 #include "kinesphere/bound.hpp"
 #include "kinesphere/counters.hpp"
 #include "kinesphere/event.hpp"
 #include "kinesphere/filter.hpp"
 #include "kinesphere/probe.hpp"
+#include "kinesphere/queries.hpp"
 #include "kinesphere/result.hpp"
 #include "kinesphere/world_definition.hpp"
 
@@ -154,6 +156,56 @@ class World {
   /// and returns the first difference. Meant for tests: O(n^2).
   std::optional<AuditFinding> audit() const;
 
+  // Certificates as answers (answers.hpp). All of them fail with probe_in_progress inside a probe. With a
+  // Probe also as advance() does: not_finite or out_of_range for a bad answer, which is dropped.
+
+  /// The two do not begin to touch before this. Errors: unknown_body, stale_body; out_of_range for the same
+  /// body twice. Cost: O(watches of both); with a probe at most two states.
+  Result<SafeTime> safe_until(BodyId first, BodyId second) const;
+  Result<SafeTime> safe_until(BodyId first, BodyId second, Probe probe);
+  /// The body begins to touch no other and no wall before this. Errors: unknown_body, stale_body. Cost: O(n),
+  /// for most bodies a comparison; with a probe that again for each state that limits the answer.
+  Result<SafeTime> safe_until(BodyId body) const;
+  Result<SafeTime> safe_until(BodyId body, Probe probe);
+  /// Nothing begins to touch before this. Cost: O(n) in a crowd, a grid of its own; O(n^2) where the first
+  /// contact is far off. With a probe that again, at most 32 times.
+  Result<SafeTime> safe_until() const;
+  Result<SafeTime> safe_until(Probe probe);
+  /// As safe_until(body), naming what limits the answer: the partner or wall that may come first.
+  Result<EarliestContact> earliest_contact(BodyId body) const;
+  Result<EarliestContact> earliest_contact(BodyId body, Probe probe);
+  /// How far the two are apart at `time` >= now, at least and at most. Errors: as safe_until(first, second);
+  /// not_finite or time_backwards for `time`. Cost: O(1); with a probe at most two states.
+  Result<DistanceLimits> distance_limits(BodyId first, BodyId second, double time) const;
+  Result<DistanceLimits> distance_limits(BodyId first, BodyId second, double time, Probe probe);
+
+  // Queries at the current time (queries.hpp). Errors: probe_in_progress; not_finite or out_of_range for
+  // points beyond 2^41 contact tolerances, negative lengths, or lengths beyond 2^43 of them; with a Probe
+  // also as above. Cost: a grid search, what it finds, and the bodies added or kicked since the last advance.
+
+  /// The bodies that may overlap a sphere, by index. With a probe: one state for each that is in doubt.
+  Result<std::vector<Found>> overlapping(const Vec3& centre, double radius) const;
+  Result<std::vector<Found>> overlapping(const Vec3& centre, double radius, Probe probe);
+  /// The bodies that may overlap a box (lower <= upper on each axis), by index.
+  Result<std::vector<Found>> overlapping(const Box& box) const;
+  Result<std::vector<Found>> overlapping(const Box& box, Probe probe);
+  /// All bodies that may be among the `count` nearest to a point, by lower limit of their distance: at least
+  /// `count`, or all there are. With a probe no more than that, except for ties and position errors, and all
+  /// of them probed. Cost: grid searches of doubling size.
+  Result<std::vector<Near>> nearest(const Vec3& point, std::size_t count) const;
+  Result<std::vector<Near>> nearest(const Vec3& point, std::size_t count, Probe probe);
+  /// All bodies that may be the first on the way from `origin` along `direction` (of any length > 0, at most
+  /// 1e100), by lower limit of that way: empty when there certainly is none within `length`. A single body
+  /// that is certainly the first is marked so. With a probe all of them are probed. Walls do not count. Cost:
+  /// at most 64 grid searches along the way.
+  Result<std::vector<Hit>> ray_cast(const Vec3& origin, const Vec3& direction, double length) const;
+  Result<std::vector<Hit>> ray_cast(const Vec3& origin, const Vec3& direction, double length, Probe probe);
+  /// The same for a sphere of this radius.
+  Result<std::vector<Hit>> sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
+                                       double length) const;
+  Result<std::vector<Hit>> sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
+                                       double length, Probe probe);
+
  private:
   class Engine;
   explicit World(std::unique_ptr<Engine> engine);
@@ -165,6 +217,7 @@ class World {
   Result<void> check_moved(BodyId id, const State& state, std::string_view call) const;
   Result<void> check_growth(const BodyDefinition& changed, BodyId id, std::string_view argument,
                             std::string_view call) const;
+  Result<void> check_pair(BodyId first, BodyId second, std::string_view call) const;
   std::unique_ptr<Engine> engine_;
 };
 

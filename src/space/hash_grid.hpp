@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -39,6 +40,8 @@ class HashGrid {
   void remove(std::uint32_t body);
   bool contains(std::uint32_t body) const { return body < places_.size() && places_[body].level >= 0; }
   std::size_t size() const { return size_; }
+  /// Of the cells on the finest level in use: about twice the typical box (length).
+  double finest_edge() const { return std::ldexp(1.0, finest_exponent_); }
 
   /// Calls visit(body) once for each registered body whose box overlaps `box`, touching included. `visit` may
   /// not change the grid. Cost: the cells that the box meets, on each level in use, and what they hold.

@@ -1,0 +1,48 @@
+// What the world certifies about the future: World::safe_until, earliest_contact and distance_limits.
+//
+//   SafeTime quiet = world.safe_until(ball).value();
+//   // whatever the bodies do within their promises, the ball touches nothing before quiet.time
+//
+// An answer holds as long as bodies keep their promises and the caller changes nothing: a kick or a new body
+// voids it. It follows from what the world knows already, reports and recorded facts, and so it is a lower
+// bound of the truth. The calls that take a Probe ask for the states that limit the answer first: it is then
+// as late as fresh reports allow. Those states are reports like any other. They are checked, a broken promise
+// comes as a bound_violation event of the next advance(), and later events may move within their tolerances.
+#pragma once
+
+#include "kinesphere/event.hpp"
+
+namespace kinesphere {
+
+/// No contact begins before `time`.
+struct SafeTime {
+  /// In [now, +infinity]: no contact_begin or wall_begin comes before it, so no gap falls below minus the
+  /// contact tolerance. Now, where something touches already or may be within about the tolerance.
+  double time;
+  /// Something touches now, as events have told: `time` is now.
+  bool touching;
+  /// The probe was asked for this answer.
+  bool probed;
+};
+
+/// The first contact that a body may come to.
+struct EarliestContact {
+  /// As SafeTime::time; +infinity when there can be none.
+  double time;
+  /// With whom or, if it is no_body, with which wall. Both are none when `time` is infinite.
+  BodyId partner;
+  Wall wall;
+  /// It is a contact that lasts now.
+  bool touching;
+  bool probed;
+};
+
+/// The distance between the true surfaces (length; negative when they overlap) lies in [lower, upper].
+/// Infinite limits say that nothing is known.
+struct DistanceLimits {
+  double lower;
+  double upper;
+  bool probed;
+};
+
+}  // namespace kinesphere

@@ -1,0 +1,172 @@
+#include "world/answers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "world/present.hpp"
+
+namespace kinesphere {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Within this the single precision of the grid can hold coordinates.
+constexpr double grid_limit = 1e37;
+constexpr Box everywhere{{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}};
+
+bool fits_grid(const Box& box) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(box.lower[axis] >= -grid_limit && box.upper[axis] <= grid_limit)) return false;
+  return true;
+}
+
+}  // namespace
+
+World::Engine::Answers::Answers(const Engine& engine) : engine_(engine), now_(engine.time_) {
+  for (const auto& [a, b] : engine.book_.changed()) open_.insert(std::minmax(a, b));
+  for (const Event& event : engine.book_.pending()) {
+    const std::uint32_t a = event.first.index;
+    open_.insert(std::minmax(a, event.second == no_body ? a : event.second.index));
+  }
+}
+
+/// A begin is told where the gap of fresh reports is at most the tolerance, and each report may be e0 away
+/// from the true body and counts it as larger by e0. Grown by as much, bounds that do not meet tell that
+/// there is no begin.
+Bound World::Engine::Answers::guarded(std::uint32_t number) const {
+  Bound bound = present_bound(body(number), now_);
+  bound.radius += engine_.definition_.contact_tolerance + 2.0 * body(number).definition.position_error;
+  return bound;
+}
+
+bool World::Engine::Answers::settled(std::uint32_t a, std::uint32_t b) const {
+  return !body(a).dirty && !body(b).dirty && !open_.contains(std::minmax(a, b));
+}
+
+/// The engine looks at the pair no sooner than this, so it tells of no begin before.
+double World::Engine::Answers::recorded(std::uint32_t a, std::uint32_t b) const {
+  if (!settled(a, b)) return now_;
+  double watched = -infinity;
+  for (const auto& [watcher, partner] : {std::pair(a, b), std::pair(b, a)})
+    for (const Watch& watch : body(watcher).watches)
+      if (watch.partner == partner && watch.epoch == body(partner).epoch)
+        watched = std::max(watched, watch.time);
+  if (watched == -infinity) watched = std::min(body(a).box_end, body(b).box_end);
+  return std::max(watched, now_);
+}
+
+double World::Engine::Answers::recorded_of_walls(std::uint32_t number) const {
+  if (!settled(number, number)) return now_;
+  return std::max(now_, std::min(body(number).wall_time, body(number).box_end));
+}
+
+void World::Engine::Answers::consider_touching(std::uint32_t number, Onset& first) const {
+  if (first.touching) return;
+  const auto& partners = engine_.book_.partners_of(number);
+  if (!partners.empty())
+    first = {now_, number, *std::min_element(partners.begin(), partners.end()), Wall::none, true};
+  for (const Wall wall : walls)
+    if (!first.touching && engine_.book_.touches_wall(number, wall))
+      first = {now_, number, std::nullopt, wall, true};
+}
+
+void World::Engine::Answers::consider_walls(std::uint32_t number, Onset& first) const {
+  if (!engine_.definition_.box) return;
+  const double known = recorded_of_walls(number);
+  if (known >= first.time) return;
+  const Bound bound = guarded(number);
+  for (const Wall wall : walls) {
+    const HalfSpace inside = half_space(*engine_.definition_.box, wall);
+    const double time = std::max(known, earliest_meeting(bound, inside, now_, infinity));
+    if (time < first.time) first = {time, number, std::nullopt, wall, false};
+  }
+}
+
+void World::Engine::Answers::consider(std::uint32_t a, std::uint32_t b, Onset& first) const {
+  const double known = recorded(a, b);
+  if (known >= first.time) return;
+  const double time = std::max(known, earliest_meeting(guarded(a), guarded(b), now_, infinity));
+  if (time < first.time) first = {time, a, b, Wall::none, false};
+}
+
+Onset World::Engine::Answers::of_pair(std::uint32_t a, std::uint32_t b) const {
+  if (engine_.book_.touch(a, b)) return {now_, a, b, Wall::none, true};
+  Onset first;
+  consider(a, b, first);
+  return first;
+}
+
+Onset World::Engine::Answers::of_body(std::uint32_t number) const {
+  Onset first;
+  consider_touching(number, first);
+  if (first.touching) return first;
+  consider_walls(number, first);
+  // Those that it watches are near: they leave little to compute of the others.
+  for (const Watch& watch : body(number).watches)
+    if (body(watch.partner).alive) consider(number, watch.partner, first);
+  for (std::uint32_t other = 0; other < engine_.bodies_.size(); ++other)
+    if (other != number && body(other).alive) consider(number, other, first);
+  return first;
+}
+
+Onset World::Engine::Answers::of_world() const {
+  std::vector<std::uint32_t> alive;
+  for (std::uint32_t number = 0; number < engine_.bodies_.size(); ++number)
+    if (body(number).alive) alive.push_back(number);
+  Onset first;
+  for (const std::uint32_t number : alive) consider_touching(number, first);
+  if (first.touching) return first;
+  // Any pair limits the answer; those at hand limit it well.
+  for (std::size_t k = 0; k < alive.size(); ++k) {
+    consider_walls(alive[k], first);
+    for (const Watch& watch : body(alive[k]).watches)
+      if (body(watch.partner).alive) consider(alive[k], watch.partner, first);
+    if (k > 0) consider(alive[k - 1], alive[k], first);
+  }
+  consider_all_within(alive, first);
+  return first;
+}
+
+/// Only bodies whose bounds come to the same place before first.time can make it sooner.
+void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t>& numbers,
+                                                 Onset& first) const {
+  if (first.time <= now_) return;
+  const double horizon = first.time;
+  HashGrid grid;
+  std::vector<std::uint32_t> beyond_grid;
+  for (auto at = numbers.begin(); at != numbers.end(); ++at) {
+    const std::uint32_t number = *at;
+    const Box box = horizon < infinity ? swept_box(guarded(number), now_, horizon) : everywhere;
+    if (fits_grid(box)) {
+      grid.for_each_overlap(box, [&](std::uint32_t other) { consider(number, other, first); });
+      for (const std::uint32_t other : beyond_grid) consider(number, other, first);
+      grid.set(number, box);
+    } else {
+      std::for_each(numbers.begin(), at, [&](std::uint32_t other) { consider(number, other, first); });
+      beyond_grid.push_back(number);
+    }
+  }
+}
+
+DistanceLimits World::Engine::Answers::distance(std::uint32_t a, std::uint32_t b, double time) const {
+  const Bound first = present_bound(body(a), now_);
+  const Bound second = present_bound(body(b), now_);
+  const GapLimits gap = gap_limits(first, second, time);
+  // The upper limit of bounds is about the reported bodies: the true ones may be off by what the radii hold
+  // beyond their own.
+  const double excess =
+      (first.radius - body(a).definition.radius) + (second.radius - body(b).definition.radius);
+  const double upper = rounding::sum_up(gap.upper, 2.0 * excess);
+  if (!std::isfinite(gap.lower) || !std::isfinite(upper)) return {-infinity, infinity, false};
+  return {gap.lower, upper, false};
+}
+
+std::vector<std::uint32_t> World::Engine::Answers::concerned(const Onset& onset) {
+  std::vector<std::uint32_t> numbers;
+  if (!onset.exists() || onset.touching) return numbers;
+  numbers.push_back(onset.body);
+  if (onset.partner) numbers.push_back(*onset.partner);
+  return numbers;
+}
+
+}  // namespace kinesphere

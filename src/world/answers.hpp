@@ -1,0 +1,75 @@
+// Certified answers about the future, from recorded facts and from bounds as they are.
+#pragma once
+
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "world/engine.hpp"
+
+namespace kinesphere {
+
+/// A contact that may begin, and the time before which it cannot.
+struct Onset {
+  double time = std::numeric_limits<double>::infinity();
+  std::uint32_t body = 0;
+  std::optional<std::uint32_t> partner{};
+  Wall wall = Wall::none;
+  bool touching = false;
+
+  bool exists() const { return partner || wall != Wall::none; }
+};
+
+/// An answer, and whether the probe was asked for it.
+struct Refined {
+  Onset onset;
+  bool probed = false;
+};
+
+/// A picture of the engine as it stands: good until the engine changes.
+class World::Engine::Answers {
+ public:
+  explicit Answers(const Engine& engine);
+
+  Onset of_pair(std::uint32_t a, std::uint32_t b) const;
+  Onset of_body(std::uint32_t body) const;
+  Onset of_world() const;
+  DistanceLimits distance(std::uint32_t a, std::uint32_t b, double time) const;
+
+  /// The answer of `ask(Answers)`. With a probe, what limits it is probed and it is asked again, until fresh
+  /// reports limit it; stopping early is safe. Each round probes at least one body.
+  template <class Ask>
+  static Result<Refined> answer(Engine& engine, const Result<void>& valid, const Probe* probe,
+                                std::string_view call, std::size_t max_rounds, Ask ask) {
+    if (!valid) return valid.error();
+    Refined refined{ask(Answers(engine))};
+    for (std::size_t round = 0; probe && round < max_rounds; ++round) {
+      const auto probed = engine.probe_stale(concerned(refined.onset), *probe, call);
+      if (!probed) return probed.error();
+      if (!probed.value()) break;
+      refined = {ask(Answers(engine)), true};
+    }
+    return refined;
+  }
+
+ private:
+  static std::vector<std::uint32_t> concerned(const Onset& onset);
+  const Body& body(std::uint32_t number) const { return engine_.bodies_[number]; }
+  Bound guarded(std::uint32_t number) const;
+  bool settled(std::uint32_t a, std::uint32_t b) const;
+  double recorded(std::uint32_t a, std::uint32_t b) const;
+  double recorded_of_walls(std::uint32_t number) const;
+  void consider_touching(std::uint32_t number, Onset& first) const;
+  void consider_walls(std::uint32_t number, Onset& first) const;
+  void consider(std::uint32_t a, std::uint32_t b, Onset& first) const;
+  void consider_all_within(const std::vector<std::uint32_t>& numbers, Onset& first) const;
+
+  const Engine& engine_;
+  double now_;
+  /// Pairs (a body and itself: its walls) about which an event of this instant is on its way, or has been
+  /// delivered since the engine last looked: no fact is recorded of them.
+  std::set<std::pair<std::uint32_t, std::uint32_t>> open_;
+};
+
+}  // namespace kinesphere

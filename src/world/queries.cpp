@@ -1,0 +1,181 @@
+#include "world/queries.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "world/validation.hpp"
+
+namespace kinesphere {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// More than what the few roundings of a distance or a way can add up to, relative to what went into it.
+constexpr double margin = 0x1p-45;
+
+constexpr int most_pieces = 64;
+
+double distance_to_box(const Vec3& point, const Box& box) {
+  Vec3 away;
+  for (int axis = 0; axis < 3; ++axis)
+    away[axis] = std::max({box.lower[axis] - point[axis], point[axis] - box.upper[axis], 0.0});
+  return norm(away);
+}
+
+Box box_around(const Vec3& a, const Vec3& b, double radius) {
+  Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double room = radius + margin * (std::abs(a[axis]) + std::abs(b[axis]) + radius);
+    box.lower[axis] = std::min(a[axis], b[axis]) - room;
+    box.upper[axis] = std::max(a[axis], b[axis]) + room;
+  }
+  return box;
+}
+
+/// The part of a way that lies in a ball.
+struct Passage {
+  double enter;
+  double leave;
+};
+
+/// Nothing where the way misses the ball. `wrong` is how much too late or too early the answer may be.
+std::optional<Passage> passage(const Way& way, const Vec3& centre, double radius, double wrong) {
+  if (!(radius >= 0.0)) return std::nullopt;
+  const Vec3 offset = centre - way.origin;
+  const double along = dot(offset, way.direction);
+  const double across = norm(offset - way.direction * along);
+  const double square = (radius - across) * (radius + across);
+  if (!(square >= 0.0)) return std::nullopt;
+  const double half = std::sqrt(square);
+  const Passage found{std::max(0.0, along - half - wrong), along + half + wrong};
+  if (found.leave < 0.0 || found.enter > way.length) return std::nullopt;
+  return found;
+}
+
+}  // namespace
+
+/// The bodies that may be in the box now, by index. A registered box holds its body until box_end, which is
+/// not past; only a broken promise leaves a body outside, and dirty.
+std::vector<std::uint32_t> World::Engine::Queries::candidates(const Box& box) const {
+  std::vector<std::uint32_t> numbers(engine_.dirty_);
+  engine_.grid_.for_each_overlap(box, [&](std::uint32_t number) {
+    if (!engine_.bodies_[number].dirty) numbers.push_back(number);
+  });
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
+}
+
+template <class Distance>
+std::vector<Found> World::Engine::Queries::overlapping(const Box& box, Distance distance_to) const {
+  std::vector<Found> found;
+  const double size = norm_one(box.lower) + norm_one(box.upper);
+  for (const std::uint32_t number : candidates(box)) {
+    const Place at = place(number);
+    const double distance = distance_to(at.centre);
+    const double wrong = margin * (size + norm_one(at.centre) + at.outer);
+    if (distance - wrong > at.outer) continue;
+    const bool certain = distance + wrong <= at.inner;
+    found.push_back({engine_.id_of(number), certain ? Certainty::certainly : Certainty::possibly});
+  }
+  return found;
+}
+
+std::vector<Found> World::Engine::Queries::overlapping(const Vec3& centre, double radius) const {
+  return overlapping(box_around(centre, centre, radius),
+                     [&](const Vec3& point) { return norm(point - centre) - radius; });
+}
+
+std::vector<Found> World::Engine::Queries::overlapping(const Box& box) const {
+  return overlapping(box, [&](const Vec3& point) { return distance_to_box(point, box); });
+}
+
+std::vector<Near> World::Engine::Queries::distances(const std::vector<std::uint32_t>& numbers,
+                                                    const Vec3& point) const {
+  std::vector<Near> all;
+  for (const std::uint32_t number : numbers) {
+    const Place at = place(number);
+    const double distance = norm(at.centre - point);
+    const double wrong = margin * (norm_one(point) + norm_one(at.centre) + at.outer);
+    all.push_back({engine_.id_of(number), Certainty::possibly, distance - at.outer - wrong,
+                   distance - at.inner + wrong});
+  }
+  return all;
+}
+
+/// At least all bodies that may be among the `count` nearest: `count` of them are certainly within a cube's
+/// half edge, and the others are outside the cube.
+std::vector<std::uint32_t> World::Engine::Queries::around(const Vec3& point, std::size_t count) const {
+  const double farthest = 8.0 * coordinate_limit(engine_.definition_);
+  for (double reach = engine_.grid_.finest_edge(); reach <= farthest; reach *= 2.0) {
+    const std::vector<std::uint32_t> numbers = candidates(box_around(point, point, reach));
+    const std::vector<Near> all = distances(numbers, point);
+    const auto within =
+        std::count_if(all.begin(), all.end(), [=](const Near& n) { return n.upper <= reach; });
+    if (static_cast<std::size_t>(within) >= count || numbers.size() == engine_.size_) return numbers;
+  }
+  std::vector<std::uint32_t> everybody;
+  for (std::uint32_t number = 0; number < engine_.bodies_.size(); ++number)
+    if (engine_.bodies_[number].alive) everybody.push_back(number);
+  return everybody;
+}
+
+std::vector<Near> World::Engine::Queries::nearest(const Vec3& point, std::size_t count) const {
+  if (count == 0 || engine_.size_ == 0) return {};
+  count = std::min(count, engine_.size_);
+  std::vector<Near> all = distances(around(point, count), point);
+  std::vector<double> uppers;
+  for (const Near& near : all) uppers.push_back(near.upper);
+  std::nth_element(uppers.begin(), uppers.begin() + static_cast<std::ptrdiff_t>(count - 1), uppers.end());
+  const double enough = uppers[count - 1];
+  std::erase_if(all, [=](const Near& near) { return near.lower > enough; });
+  std::sort(all.begin(), all.end(), [](const Near& a, const Near& b) {
+    return a.lower != b.lower ? a.lower < b.lower : a.body < b.body;
+  });
+  // One is certainly among them when fewer than `count` others may be nearer. The list is sorted by `lower`,
+  // so these are at its front.
+  for (Near& near : all) {
+    const auto not_farther =
+        std::upper_bound(all.begin(), all.end(), near.upper,
+                         [](double limit, const Near& other) { return limit < other.lower; });
+    if (static_cast<std::size_t>(std::distance(all.begin(), not_farther)) <= count)
+      near.certainty = Certainty::certainly;
+  }
+  return all;
+}
+
+std::vector<Hit> World::Engine::Queries::cast(const Way& way) const {
+  std::vector<Hit> hits;
+  double sure = infinity;  // something is hit by then
+  const double piece = std::max({way.length / most_pieces, 2.0 * way.radius, engine_.grid_.finest_edge()});
+  std::vector<std::uint32_t> seen;
+  for (int k = 0; k < most_pieces && k * piece <= std::min(way.length, sure); ++k) {
+    const double end = k + 1 == most_pieces ? way.length : std::min(way.length, (k + 1) * piece);
+    const Box box =
+        box_around(way.origin + way.direction * (k * piece), way.origin + way.direction * end, way.radius);
+    std::vector<std::uint32_t> fresh;
+    const std::vector<std::uint32_t> here = candidates(box);
+    std::set_difference(here.begin(), here.end(), seen.begin(), seen.end(), std::back_inserter(fresh));
+    for (const std::uint32_t number : fresh) {
+      const Place at = place(number);
+      const double wrong = margin * (norm_one(way.origin) + norm_one(at.centre) + at.outer + way.radius);
+      const auto may = passage(way, at.centre, at.outer + way.radius + wrong, wrong);
+      if (!may) continue;
+      const auto must = passage(way, at.centre, at.inner + way.radius - wrong, -wrong);
+      hits.push_back({engine_.id_of(number), Certainty::possibly, may->enter, must ? must->enter : infinity});
+      sure = std::min(sure, hits.back().upper);
+    }
+    const auto middle = static_cast<std::ptrdiff_t>(seen.size());
+    seen.insert(seen.end(), fresh.begin(), fresh.end());
+    std::inplace_merge(seen.begin(), seen.begin() + middle, seen.end());
+  }
+  std::erase_if(hits, [=](const Hit& hit) { return hit.lower > sure; });
+  std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) {
+    return a.lower != b.lower ? a.lower < b.lower : a.body < b.body;
+  });
+  if (hits.size() == 1 && hits[0].upper < infinity) hits[0].certainty = Certainty::certainly;
+  return hits;
+}
+
+}  // namespace kinesphere

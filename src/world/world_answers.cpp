@@ -1,0 +1,119 @@
+// World's certified answers: checks of the calls, and probes where the caller lends one.
+#include <limits>
+
+#include "input/input_check.hpp"
+#include "world/answers.hpp"
+#include "world/validation.hpp"
+
+namespace kinesphere {
+namespace {
+
+constexpr std::size_t max_rounds_of_world = 32;
+constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
+
+Result<void> check_distinct(BodyId first, BodyId second, std::string_view call) {
+  if (first != second) return {};
+  return Error{ErrorCode::out_of_range, "second", second,
+               std::string(call) + ": second must be another body than first, but is " + text_of(second)};
+}
+
+Result<void> check_not_past(double time, double now, std::string_view call) {
+  return InputCheck(call)
+      .finite({"time"}, time)
+      .require(time >= now, ErrorCode::time_backwards, {"time"}, "must not lie before the current time", now,
+               time)
+      .result();
+}
+
+Result<SafeTime> safe_time(const Result<Refined>& refined) {
+  if (!refined) return refined.error();
+  return SafeTime{refined->onset.time, refined->onset.touching, refined->probed};
+}
+
+template <class Engine>
+Result<EarliestContact> earliest(const Engine& engine, const Result<Refined>& refined) {
+  if (!refined) return refined.error();
+  const Onset& onset = refined->onset;
+  const BodyId partner = onset.partner ? engine.id_of(*onset.partner) : no_body;
+  return EarliestContact{onset.time, partner, onset.wall, onset.touching, refined->probed};
+}
+
+const auto about_world = [](const auto& answers) { return answers.of_world(); };
+
+auto about_body(BodyId body) {
+  return [=](const auto& answers) { return answers.of_body(body.index); };
+}
+
+auto about_pair(BodyId first, BodyId second) {
+  return [=](const auto& answers) { return answers.of_pair(first.index, second.index); };
+}
+
+}  // namespace
+
+Result<void> World::check_pair(BodyId first, BodyId second, std::string_view call) const {
+  return first_error(check_call(first, call), check_alive(second, call),
+                     check_distinct(first, second, call));
+}
+
+Result<SafeTime> World::safe_until(BodyId first, BodyId second) const {
+  return safe_time(Engine::Answers::answer(*engine_, check_pair(first, second, "safe_until"), nullptr,
+                                           "safe_until", any_number, about_pair(first, second)));
+}
+
+Result<SafeTime> World::safe_until(BodyId first, BodyId second, Probe probe) {
+  return safe_time(Engine::Answers::answer(*engine_, check_pair(first, second, "safe_until"), &probe,
+                                           "safe_until", any_number, about_pair(first, second)));
+}
+
+Result<SafeTime> World::safe_until(BodyId body) const {
+  return safe_time(Engine::Answers::answer(*engine_, check_call(body, "safe_until"), nullptr,
+                                           "safe_until", any_number, about_body(body)));
+}
+
+Result<SafeTime> World::safe_until(BodyId body, Probe probe) {
+  return safe_time(Engine::Answers::answer(*engine_, check_call(body, "safe_until"), &probe, "safe_until",
+                                           any_number, about_body(body)));
+}
+
+Result<SafeTime> World::safe_until() const {
+  return safe_time(Engine::Answers::answer(*engine_, check_idle(engine_->probing(), "safe_until"), nullptr,
+                                           "safe_until", max_rounds_of_world, about_world));
+}
+
+Result<SafeTime> World::safe_until(Probe probe) {
+  return safe_time(Engine::Answers::answer(*engine_, check_idle(engine_->probing(), "safe_until"), &probe,
+                                           "safe_until", max_rounds_of_world, about_world));
+}
+
+Result<EarliestContact> World::earliest_contact(BodyId body) const {
+  return earliest(*engine_,
+                  Engine::Answers::answer(*engine_, check_call(body, "earliest_contact"), nullptr,
+                                          "earliest_contact", any_number, about_body(body)));
+}
+
+Result<EarliestContact> World::earliest_contact(BodyId body, Probe probe) {
+  return earliest(*engine_,
+                  Engine::Answers::answer(*engine_, check_call(body, "earliest_contact"), &probe,
+                                          "earliest_contact", any_number, about_body(body)));
+}
+
+Result<DistanceLimits> World::distance_limits(BodyId first, BodyId second, double time) const {
+  const auto valid = first_error(check_pair(first, second, "distance_limits"),
+                                 check_not_past(time, this->time(), "distance_limits"));
+  if (!valid) return valid.error();
+  return Engine::Answers(*engine_).distance(first.index, second.index, time);
+}
+
+Result<DistanceLimits> World::distance_limits(BodyId first, BodyId second, double time, Probe probe) {
+  const auto valid = first_error(check_pair(first, second, "distance_limits"),
+                                 check_not_past(time, this->time(), "distance_limits"));
+  if (!valid) return valid.error();
+  const std::uint32_t both[] = {first.index, second.index};
+  const auto probed = engine_->probe_stale(both, probe, "distance_limits");
+  if (!probed) return probed.error();
+  DistanceLimits limits = Engine::Answers(*engine_).distance(first.index, second.index, time);
+  limits.probed = probed.value();
+  return limits;
+}
+
+}  // namespace kinesphere

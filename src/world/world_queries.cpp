@@ -1,0 +1,155 @@
+// World's queries: checks of the calls, and probes where the caller lends one.
+#include <algorithm>
+#include <cmath>
+
+#include "input/input_check.hpp"
+#include "world/queries.hpp"
+#include "world/validation.hpp"
+
+namespace kinesphere {
+namespace {
+
+InputCheck& check_length(InputCheck& check, std::string_view argument, double length,
+                         const WorldDefinition& world) {
+  const double limit = 4.0 * coordinate_limit(world);
+  return check.not_negative({argument}, length)
+      .require(length <= limit, ErrorCode::out_of_range, {argument}, "must be at most", limit, length);
+}
+
+Result<void> check_sphere(const Vec3& centre, double radius, const WorldDefinition& world) {
+  InputCheck check("overlapping");
+  check.within({"centre"}, centre, coordinate_limit(world));
+  return check_length(check, "radius", radius, world).result();
+}
+
+Result<void> check_region(const Box& box, const WorldDefinition& world) {
+  InputCheck check("overlapping");
+  check.within({"box", no_body, "lower"}, box.lower, coordinate_limit(world))
+      .within({"box", no_body, "upper"}, box.upper, coordinate_limit(world));
+  for (int axis = 0; axis < 3; ++axis)
+    check.require(box.lower[axis] <= box.upper[axis], ErrorCode::out_of_range, {"box"},
+                  "must have lower <= upper on each axis", box);
+  return check.result();
+}
+
+Result<void> check_point(const Vec3& point, const WorldDefinition& world) {
+  return InputCheck("nearest").within({"point"}, point, coordinate_limit(world)).result();
+}
+
+Result<void> check_way(const Vec3& origin, double radius, const Vec3& direction, double length,
+                       const WorldDefinition& world, std::string_view call) {
+  InputCheck check(call);
+  check.within({"origin"}, origin, coordinate_limit(world));
+  check_length(check, "radius", radius, world)
+      .within({"direction"}, direction, 1e100)
+      .require(direction != Vec3{}, ErrorCode::out_of_range, {"direction"}, "must not be zero", direction);
+  return check_length(check, "length", length, world).result();
+}
+
+/// Scaled first, so that no square underflows.
+Vec3 unit(const Vec3& direction) {
+  const double largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
+  const Vec3 scaled = direction / largest;
+  return scaled / norm(scaled);
+}
+
+/// A body in doubt may be settled by a probe; of one that stands for a distance the probe tells that, too.
+bool leaves_open(const Found& found) { return found.certainty == Certainty::possibly; }
+bool leaves_open(const Near&) { return true; }
+bool leaves_open(const Hit&) { return true; }
+
+/// Asks for the states that leave the answer open, and again, until fresh reports stand behind it. Without a
+/// probe the first answer is the last.
+template <class Queries, class Engine, class Ask>
+auto answer(Engine& engine, const Result<void>& valid, const Probe* probe, std::string_view call, Ask ask)
+    -> Result<decltype(ask(Queries(engine)))> {
+  if (const auto callable = first_error(check_idle(engine.probing(), call), valid); !callable)
+    return callable.error();
+  for (;;) {
+    auto found = ask(Queries(engine));
+    if (!probe) return found;
+    std::vector<std::uint32_t> open;
+    for (const auto& each : found)
+      if (leaves_open(each)) open.push_back(each.body.index);
+    const auto probed = engine.probe_stale(open, *probe, call);
+    if (!probed) return probed.error();
+    if (!probed.value()) return found;
+  }
+}
+
+auto about_sphere(const Vec3& centre, double radius) {
+  return [=](const auto& queries) { return queries.overlapping(centre, radius); };
+}
+
+auto about_box(const Box& box) {
+  return [=](const auto& queries) { return queries.overlapping(box); };
+}
+
+auto about_nearest(const Vec3& point, std::size_t count) {
+  return [=](const auto& queries) { return queries.nearest(point, count); };
+}
+
+auto about_way(const Vec3& origin, double radius, const Vec3& direction, double length) {
+  return [=](const auto& queries) { return queries.cast(Way{origin, radius, unit(direction), length}); };
+}
+
+}  // namespace
+
+Result<std::vector<Found>> World::overlapping(const Vec3& centre, double radius) const {
+  return answer<Engine::Queries>(*engine_, check_sphere(centre, radius, definition()), nullptr, "overlapping",
+                                 about_sphere(centre, radius));
+}
+
+Result<std::vector<Found>> World::overlapping(const Vec3& centre, double radius, Probe probe) {
+  return answer<Engine::Queries>(*engine_, check_sphere(centre, radius, definition()), &probe, "overlapping",
+                                 about_sphere(centre, radius));
+}
+
+Result<std::vector<Found>> World::overlapping(const Box& box) const {
+  return answer<Engine::Queries>(*engine_, check_region(box, definition()), nullptr, "overlapping",
+                                 about_box(box));
+}
+
+Result<std::vector<Found>> World::overlapping(const Box& box, Probe probe) {
+  return answer<Engine::Queries>(*engine_, check_region(box, definition()), &probe, "overlapping",
+                                 about_box(box));
+}
+
+Result<std::vector<Near>> World::nearest(const Vec3& point, std::size_t count) const {
+  return answer<Engine::Queries>(*engine_, check_point(point, definition()), nullptr, "nearest",
+                                 about_nearest(point, count));
+}
+
+Result<std::vector<Near>> World::nearest(const Vec3& point, std::size_t count, Probe probe) {
+  return answer<Engine::Queries>(*engine_, check_point(point, definition()), &probe, "nearest",
+                                 about_nearest(point, count));
+}
+
+Result<std::vector<Hit>> World::ray_cast(const Vec3& origin, const Vec3& direction, double length) const {
+  return answer<Engine::Queries>(*engine_,
+                                 check_way(origin, 0.0, direction, length, definition(), "ray_cast"), nullptr,
+                                 "ray_cast", about_way(origin, 0.0, direction, length));
+}
+
+Result<std::vector<Hit>> World::ray_cast(const Vec3& origin, const Vec3& direction, double length,
+                                         Probe probe) {
+  return answer<Engine::Queries>(*engine_,
+                                 check_way(origin, 0.0, direction, length, definition(), "ray_cast"), &probe,
+                                 "ray_cast", about_way(origin, 0.0, direction, length));
+}
+
+Result<std::vector<Hit>> World::sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
+                                            double length) const {
+  return answer<Engine::Queries>(*engine_,
+                                 check_way(origin, radius, direction, length, definition(), "sphere_cast"),
+                                 nullptr, "sphere_cast", about_way(origin, radius, direction, length));
+}
+
+Result<std::vector<Hit>> World::sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
+                                            double length, Probe probe) {
+  return answer<Engine::Queries>(*engine_,
+                                 check_way(origin, radius, direction, length, definition(), "sphere_cast"),
+                                 &probe, "sphere_cast", about_way(origin, radius, direction, length));
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,297 @@
+// Queries against brute force on the true bodies: nothing is missed, what is certain is true, and with a
+// probe only position errors leave something open.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+
+#include "world/crowd.hpp"
+
+namespace kinesphere {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double rounding = 1e-11;
+
+/// The way after which a sphere comes to touch the ball, if it does.
+double true_way(const Vec3& origin, double radius, const Vec3& unit, const Vec3& centre, double ball) {
+  const Vec3 offset = origin - centre;
+  const double reach = radius + ball;
+  const double c = norm_squared(offset) - reach * reach;
+  if (c <= 0.0) return 0.0;
+  const double b = dot(offset, unit);
+  const double discriminant = b * b - c;
+  return b >= 0.0 || discriminant < 0.0 ? infinity : -b - std::sqrt(discriminant);
+}
+
+class Queries : public testing::TestWithParam<CrowdKind> {
+ protected:
+  Queries() : crowd(GetParam()) {}
+
+  void ask() {
+    probing = crowd.random.uniform() < 0.4;
+    ASSERT_NO_FATAL_FAILURE(ask_sphere());
+    ASSERT_NO_FATAL_FAILURE(ask_box());
+    ASSERT_NO_FATAL_FAILURE(ask_nearest());
+    ASSERT_NO_FATAL_FAILURE(ask_cast());
+  }
+
+  /// `true_distance(body)` is that of its surface from the region.
+  void compare(const std::vector<Found>& found, const std::function<double(BodyId)>& true_distance) {
+    std::set<BodyId> possible;
+    for (const Found& each : found) {
+      ASSERT_TRUE(possible.insert(each.body).second);
+      const double distance = true_distance(each.body);
+      if (each.certainty == Certainty::certainly) {
+        ASSERT_LE(distance, rounding) << each.body;
+        ++certain;
+      } else {
+        ++doubtful;
+        if (probing) {
+          ASSERT_LE(std::abs(distance), 4.0 * GetParam().noise + rounding) << each.body;
+        }
+      }
+    }
+    for (const BodyId id : crowd.world.bodies()) {
+      if (!possible.contains(id)) {
+        ASSERT_GE(true_distance(id), -rounding) << id << " is missed at " << crowd.world.time();
+      }
+    }
+  }
+
+  void ask_sphere() {
+    const Vec3 centre = crowd.any_point();
+    const double radius = 3.0 * crowd.random.uniform();
+    const auto found = probing ? crowd.world.overlapping(centre, radius, crowd.probe())
+                               : crowd.world.overlapping(centre, radius);
+    compare(*found,
+            [&](BodyId id) { return norm(crowd.state(id).position - centre) - radius - crowd.radius(id); });
+  }
+
+  void ask_box() {
+    const Vec3 corner = crowd.any_point();
+    const Box box{corner, corner + Vec3{crowd.random.uniform(), 2.0, 3.0 * crowd.random.uniform()}};
+    const auto found = probing ? crowd.world.overlapping(box, crowd.probe()) : crowd.world.overlapping(box);
+    compare(*found, [&](BodyId id) {
+      const Vec3 at = crowd.state(id).position;
+      const Vec3 nearest{std::clamp(at.x, box.lower.x, box.upper.x),
+                         std::clamp(at.y, box.lower.y, box.upper.y),
+                         std::clamp(at.z, box.lower.z, box.upper.z)};
+      return norm(at - nearest) - crowd.radius(id);
+    });
+  }
+
+  void ask_nearest() {
+    const Vec3 point = crowd.any_point();
+    const std::size_t count = 1 + crowd.random.bits() % 8;
+    const auto distance = [&](BodyId id) {
+      return norm(crowd.state(id).position - point) - crowd.radius(id);
+    };
+    std::vector<BodyId> order = crowd.world.bodies();
+    std::sort(order.begin(), order.end(), [&](BodyId a, BodyId b) { return distance(a) < distance(b); });
+    order.resize(std::min(count, order.size()));
+    const auto found =
+        probing ? crowd.world.nearest(point, count, crowd.probe()) : crowd.world.nearest(point, count);
+    ASSERT_GE(found->size(), order.size());
+    if (probing && GetParam().noise == 0.0) {
+      ASSERT_EQ(found->size(), order.size());
+    }
+    const auto is_nearest = [&](BodyId id) {
+      return std::find(order.begin(), order.end(), id) != order.end();
+    };
+    std::size_t met = 0;
+    for (const Near& each : *found) {
+      ASSERT_LE(each.lower, distance(each.body) + rounding);
+      ASSERT_GE(each.upper, distance(each.body) - rounding);
+      if (probing) {
+        ASSERT_LE(each.upper - each.lower, 4.0 * GetParam().noise + 1e-10);
+      }
+      if (each.certainty == Certainty::certainly) {
+        ASSERT_TRUE(is_nearest(each.body)) << each.body;
+      }
+      if (is_nearest(each.body)) ++met;
+    }
+    ASSERT_EQ(met, order.size()) << "one of the nearest is missed";
+  }
+
+  void ask_cast() {
+    const Vec3 origin = crowd.any_point();
+    const double radius = crowd.random.uniform() < 0.5 ? 0.0 : crowd.random.uniform();
+    const Vec3 unit = crowd.random.unit_vector();
+    const Vec3 direction = 7.0 * unit;
+    const double length = 12.0 * crowd.random.uniform();
+    World& world = crowd.world;
+    const auto found = radius == 0.0
+                           ? (probing ? world.ray_cast(origin, direction, length, crowd.probe())
+                                      : world.ray_cast(origin, direction, length))
+                           : (probing ? world.sphere_cast(origin, radius, direction, length, crowd.probe())
+                                      : world.sphere_cast(origin, radius, direction, length));
+    const auto way = [&](BodyId id) {
+      return true_way(origin, radius, unit, crowd.state(id).position, crowd.radius(id));
+    };
+    double first = infinity;
+    BodyId hit = no_body;
+    for (const BodyId id : world.bodies()) {
+      if (way(id) < first) {
+        first = way(id);
+        hit = id;
+      }
+    }
+    if (first > length) hit = no_body;
+    bool met = false;
+    for (const Hit& each : *found) {
+      ASSERT_LE(each.lower, way(each.body) + 1e-7);
+      ASSERT_GE(each.upper, way(each.body) - 1e-7);
+      if (each.certainty == Certainty::certainly) {
+        ASSERT_LE(way(each.body), first + 1e-7);
+        ASSERT_EQ(found->size(), 1u);
+      }
+      met = met || each.body == hit;
+    }
+    if (hit != no_body) {
+      ASSERT_TRUE(met) << hit << " is missed at " << world.time();
+    }
+    if (probing && GetParam().noise == 0.0) {
+      if (first > 0.0) {
+        ASSERT_EQ(found->size(), hit == no_body ? 0u : 1u);
+      }
+      if (hit != no_body && first > 0.0) {
+        ++hits;
+      }
+    }
+  }
+
+  Crowd crowd;
+  bool probing = false;
+  std::size_t certain = 0;
+  std::size_t doubtful = 0;
+  std::size_t hits = 0;
+};
+
+TEST_P(Queries, AgreeWithBruteForce) {
+  for (int stop = 1; stop <= 40; ++stop) {
+    // Before the world has looked at the changes, too.
+    for (int k = 0; k < 4; ++k) ASSERT_NO_FATAL_FAILURE(ask()) << "stop " << stop;
+    while (const auto event = crowd.advance(-1.0 + 0.05 * stop)) {
+      ASSERT_NE(event->kind, EventKind::bound_violation);
+      ASSERT_NO_FATAL_FAILURE(ask()) << "stop " << stop;
+      crowd.bounce(*event);
+      ASSERT_NO_FATAL_FAILURE(ask()) << "stop " << stop;
+    }
+    ASSERT_TRUE(is_clean(crowd.world));
+    for (int k = 0; k < 4; ++k) ASSERT_NO_FATAL_FAILURE(ask()) << "stop " << stop;
+    for (int k = 0; k < 4; ++k) crowd.change();
+  }
+  EXPECT_GT(certain, 100u);
+  if (GetParam().bodies > 20 && GetParam().mode == ContactMode::begin_and_end) {
+    EXPECT_GT(doubtful, 0u);
+  }
+  if (GetParam().noise == 0.0) {
+    EXPECT_GT(hits, 2u);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Queries, crowd_kinds());
+
+TEST(QueryOfABrokenPromise, FindsTheBodyWhereItIsNow) {
+  Playground p;
+  const BodyId a = p.add({.radius = 1, .position = {0, 0, 0}});
+  p.add({.radius = 1, .position = {20, 0, 0}});
+  EXPECT_FALSE(p.advance(1.0));
+  p.set_position(a, {50, 0, 0});
+  EXPECT_EQ(p.world.nearest({1, 0, 0}, 1, p.probe())->front().body.index, 1u);
+  // The world has not advanced, so the body is not registered at its new place.
+  ASSERT_EQ(p.world.overlapping({52, 0, 0}, 1.5)->size(), 1u);
+  EXPECT_EQ(p.world.overlapping({52, 0, 0}, 1.5)->front().body, a);
+  EXPECT_TRUE(p.world.overlapping({0, 0, 0}, 1.5)->empty());
+  EXPECT_EQ(p.world.ray_cast({100, 0, 0}, {-1, 0, 0}, 60.0)->front().body, a);
+  const auto event = p.advance(2.0);
+  ASSERT_TRUE(event);
+  EXPECT_EQ(event->kind, EventKind::bound_violation);
+  EXPECT_TRUE(is_clean(p.world));
+}
+
+TEST(RayCast, TellsWayAndCertainty) {
+  Playground p;
+  const BodyId near = p.add({.radius = 1, .position = {5, 0, 0}});
+  p.add({.radius = 1, .position = {9, 0, 0}});
+  for (const Vec3 direction : {Vec3{1, 0, 0}, Vec3{1e-90, 0, 0}, Vec3{1e90, 0, 0}}) {
+    const auto hits = p.world.ray_cast({0, 0, 0}, direction, 100.0).value();
+    ASSERT_EQ(hits.size(), 1u);
+    EXPECT_EQ(hits[0].body, near);
+    EXPECT_EQ(hits[0].certainty, Certainty::certainly);
+    EXPECT_NEAR(hits[0].lower, 4.0, 1e-9);
+    EXPECT_NEAR(hits[0].upper, 4.0, 1e-9);
+  }
+  EXPECT_NEAR(p.world.sphere_cast({0, 0, 0}, 0.5, {1, 0, 0}, 100.0)->front().lower, 3.5, 1e-9);
+  EXPECT_TRUE(p.world.ray_cast({0, 0, 0}, {1, 0, 0}, 3.9)->empty()) << "too short";
+  EXPECT_TRUE(p.world.ray_cast({0, 0, 0}, {-1, 0, 0}, 100.0)->empty()) << "behind";
+  EXPECT_TRUE(p.world.ray_cast({0, 1.1, 0}, {1, 0, 0}, 100.0)->empty()) << "beside";
+  EXPECT_EQ(p.world.ray_cast({5, 0.5, 0}, {0, 1, 0}, 0.0)->front().upper, 0.0) << "inside";
+}
+
+TEST(RayCast, FindsTheFarEndOfALongWay) {
+  Playground p;
+  const BodyId far = p.add({.radius = 1, .position = {3e5, 4e5, 0}});
+  p.add({.radius = 0.001, .position = {0, 1, 0}});
+  const auto hits = p.world.ray_cast({0, 0, 0}, {3, 4, 0}, 1e6).value();
+  ASSERT_EQ(hits.size(), 1u);
+  EXPECT_EQ(hits[0].body, far);
+  EXPECT_NEAR(hits[0].lower, 5e5 - 1.0, 1e-6);
+}
+
+TEST(Nearest, OfFewGivesAll) {
+  Playground p;
+  EXPECT_TRUE(p.world.nearest({0, 0, 0}, 3)->empty());
+  const BodyId far = p.add({.radius = 1, .position = {2e6, 0, 0}});
+  EXPECT_TRUE(p.world.nearest({0, 0, 0}, 0)->empty());
+  const BodyId here = p.add({.radius = 1});
+  const auto found = p.world.nearest({0, 0, 0}, 3).value();
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].body, here);
+  EXPECT_NEAR(found[0].upper, -1.0, 1e-9);
+  EXPECT_EQ(found[1].body, far);
+  EXPECT_EQ(found[1].certainty, Certainty::certainly);
+}
+
+template <class T>
+void expect_error(const Result<T>& result, ErrorCode code, const std::string& argument,
+                  const std::string& call) {
+  ASSERT_FALSE(result) << argument;
+  EXPECT_EQ(result.error().code, code) << result.error().message;
+  EXPECT_EQ(result.error().argument, argument) << result.error().message;
+  EXPECT_EQ(result.error().message.rfind(call + ":", 0), 0u) << result.error().message;
+}
+
+TEST(WrongQueries, AreRefused) {
+  Playground p;
+  p.add({.radius = 1});
+  ASSERT_FALSE(p.advance(1.0));
+  const auto check = [&](ErrorCode code, double bad) {
+    const Vec3 v{0, bad, 0};
+    expect_error(p.world.overlapping(v, 1.0), code, "centre", "overlapping");
+    expect_error(p.world.overlapping(v, 1.0, p.probe()), code, "centre", "overlapping");
+    expect_error(p.world.overlapping({}, bad), code, "radius", "overlapping");
+    expect_error(p.world.overlapping(Box{{}, v}), code, "box", "overlapping");
+    expect_error(p.world.overlapping(Box{{}, v}, p.probe()), code, "box", "overlapping");
+    expect_error(p.world.nearest(v, 1), code, "point", "nearest");
+    expect_error(p.world.nearest(v, 1, p.probe()), code, "point", "nearest");
+    expect_error(p.world.ray_cast(v, {1, 0, 0}, 1.0), code, "origin", "ray_cast");
+    expect_error(p.world.ray_cast({}, {1, 0, 0}, bad), code, "length", "ray_cast");
+    expect_error(p.world.ray_cast({}, {1, 0, 0}, bad, p.probe()), code, "length", "ray_cast");
+    expect_error(p.world.ray_cast({}, v, 1.0), code, "direction", "ray_cast");
+    expect_error(p.world.sphere_cast({}, bad, {1, 0, 0}, 1.0), code, "radius", "sphere_cast");
+    expect_error(p.world.sphere_cast({}, bad, {1, 0, 0}, 1.0, p.probe()), code, "radius", "sphere_cast");
+  };
+  for (const double bad : {nan, infinity, -infinity}) check(ErrorCode::not_finite, bad);
+  for (const double bad : {1e200, -1e200}) check(ErrorCode::out_of_range, bad);
+  expect_error(p.world.ray_cast({}, {0, 0, 0}, 1.0), ErrorCode::out_of_range, "direction", "ray_cast");
+  expect_error(p.world.overlapping(Box{{1, 0, 0}, {0, 1, 1}}), ErrorCode::out_of_range, "box", "overlapping");
+  expect_error(p.world.overlapping({}, -1.0), ErrorCode::out_of_range, "radius", "overlapping");
+  EXPECT_EQ(p.world.counters().probes, 0u);
+}
+
+}  // namespace
+}  // namespace kinesphere
