@@ -1,0 +1,209 @@
+// Values to bytes and back, little-endian. A class lists its fields once, for both ways:
+//
+//   struct Watch {
+//     double time;
+//     std::uint32_t partner;
+//     template <class Self, class Archive>
+//     static void transfer(Self& self, Archive& archive) {
+//       auto& [when, whom] = self;  // names every field: one that is forgotten does not compile
+//       archive(when, whom);
+//     }
+//   };
+//
+// `archive` is a ByteWriter, and Self const, or a ByteReader. Classes without such a member have a function
+// transfer(self, archive) beside them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace kinesphere {
+
+namespace detail {
+
+/// The unsigned number that stands for a value of this size.
+template <std::size_t size>
+using Word =
+    std::conditional_t<size == 1, std::uint8_t,
+                       std::conditional_t<size == 2, std::uint16_t,
+                                          std::conditional_t<size == 4, std::uint32_t, std::uint64_t>>>;
+
+/// std::size_t has 64 bits in every archive.
+template <class T>
+using WordOf = Word<std::same_as<T, std::size_t> ? 8 : sizeof(T)>;
+
+template <class T>
+concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+/// The number whose bytes here are those of `word` on a little-endian machine; its own inverse.
+template <class Word>
+constexpr Word little_endian(Word word) {
+  if constexpr (std::endian::native == std::endian::little) return word;
+  auto digits = std::bit_cast<std::array<std::byte, sizeof(Word)>>(word);
+  std::reverse(digits.begin(), digits.end());
+  return std::bit_cast<Word>(digits);
+}
+
+template <class T, class Archive>
+void transfer_fields(T& value, Archive& archive) {
+  using Class = std::remove_const_t<T>;
+  if constexpr (requires { Class::transfer(value, archive); }) {
+    Class::transfer(value, archive);
+  } else {
+    transfer(value, archive);
+  }
+}
+
+}  // namespace detail
+
+class ByteWriter {
+ public:
+  template <class... Values>
+  void operator()(const Values&... values) {
+    (write(values), ...);
+  }
+
+  void append(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
+  const std::vector<std::byte>& bytes() const { return bytes_; }
+  std::vector<std::byte> take() { return std::move(bytes_); }
+
+ private:
+  template <class T>
+  void write(const T& value) {
+    if constexpr (std::is_floating_point_v<T>) {
+      write_word(std::bit_cast<detail::WordOf<T>>(value));
+    } else if constexpr (detail::Number<T>) {
+      write_word(static_cast<detail::WordOf<T>>(value));
+    } else {
+      detail::transfer_fields(value, *this);
+    }
+  }
+  template <class T>
+  void write(const std::vector<T>& values) {
+    write_all(values);
+  }
+  template <class T, class Less>
+  void write(const std::set<T, Less>& values) {
+    write_all(values);
+  }
+  template <class T>
+  void write(const std::optional<T>& value) {
+    write(value.has_value());
+    if (value) write(*value);
+  }
+  template <class A, class B>
+  void write(const std::pair<A, B>& value) {
+    (*this)(value.first, value.second);
+  }
+  template <class T, std::size_t size>
+  void write(const std::array<T, size>& values) {
+    for (const T& value : values) write(value);
+  }
+
+  template <class Values>
+  void write_all(const Values& values) {
+    write(values.size());
+    for (const auto& value : values) write(value);
+  }
+
+  template <class Word>
+  void write_word(Word word) {
+    const auto digits = std::bit_cast<std::array<std::byte, sizeof(Word)>>(detail::little_endian(word));
+    bytes_.insert(bytes_.end(), digits.begin(), digits.end());
+  }
+
+  std::vector<std::byte> bytes_;
+};
+
+/// Reads bytes that nobody vouches for: what cannot be read fails, and everything after it, and memory is
+/// taken only for elements that are there. Numbers come as they are: whether they make sense is the caller's
+/// question.
+class ByteReader {
+ public:
+  explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+  template <class... Values>
+  void operator()(Values&... values) {
+    (read(values), ...);
+  }
+
+  bool failed() const { return failed_; }
+  std::size_t remaining() const { return bytes_.size(); }
+
+ private:
+  template <class T>
+  void read(T& value) {
+    if constexpr (std::same_as<T, bool>) {
+      const auto word = read_word<std::uint8_t>();
+      if (word > 1) failed_ = true;
+      value = word == 1;
+    } else if constexpr (std::is_floating_point_v<T>) {
+      value = std::bit_cast<T>(read_word<detail::WordOf<T>>());
+    } else if constexpr (detail::Number<T>) {
+      value = static_cast<T>(read_word<detail::WordOf<T>>());
+    } else {
+      detail::transfer_fields(value, *this);
+    }
+  }
+  template <class T>
+  void read(std::vector<T>& values) {
+    values.clear();
+    read_all<T>([&values](T&& value) { values.push_back(std::move(value)); });
+  }
+  template <class T, class Less>
+  void read(std::set<T, Less>& values) {
+    values.clear();
+    read_all<T>([&values](T&& value) { values.insert(std::move(value)); });
+  }
+  template <class T>
+  void read(std::optional<T>& value) {
+    bool present = false;
+    read(present);
+    value.reset();
+    if (present) read(value.emplace());
+  }
+  template <class A, class B>
+  void read(std::pair<A, B>& value) {
+    (*this)(value.first, value.second);
+  }
+  template <class T, std::size_t size>
+  void read(std::array<T, size>& values) {
+    for (T& value : values) read(value);
+  }
+
+  template <class T, class Take>
+  void read_all(Take take) {
+    for (auto count = read_word<std::uint64_t>(); count > 0 && !failed_; --count) {
+      T value{};
+      read(value);
+      if (!failed_) take(std::move(value));
+    }
+  }
+
+  template <class Word>
+  Word read_word() {
+    if (failed_ || bytes_.size() < sizeof(Word)) {
+      failed_ = true;
+      return 0;
+    }
+    std::array<std::byte, sizeof(Word)> digits;
+    std::copy_n(bytes_.begin(), sizeof(Word), digits.begin());
+    bytes_ = bytes_.subspan(sizeof(Word));
+    return detail::little_endian(std::bit_cast<Word>(digits));
+  }
+
+  std::span<const std::byte> bytes_;
+  bool failed_ = false;
+};
+
+}  // namespace kinesphere

@@ -1,0 +1,83 @@
+// The fields of the public structs, for archives. A field that is added to one of them does not compile until
+// it is added here too.
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+
+#include "kinesphere/body.hpp"
+#include "kinesphere/bound.hpp"
+#include "kinesphere/counters.hpp"
+#include "kinesphere/event.hpp"
+#include "kinesphere/world_definition.hpp"
+
+namespace kinesphere {
+
+/// T or const T.
+template <class Self, class T>
+concept Some = std::same_as<std::remove_const_t<Self>, T>;
+
+template <Some<Vec3> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [x, y, z] = self;
+  archive(x, y, z);
+}
+
+template <Some<Box> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [lower, upper] = self;
+  archive(lower, upper);
+}
+
+template <Some<BodyId> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [index, generation] = self;
+  archive(index, generation);
+}
+
+template <Some<State> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [position, velocity] = self;
+  archive(position, velocity);
+}
+
+template <Some<BodyDefinition> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [radius, acceleration_limit, planned_acceleration, position_error, velocity_error, position,
+         velocity] = self;
+  archive(radius, acceleration_limit, planned_acceleration, position_error, velocity_error, position,
+          velocity);
+}
+
+template <Some<Bound> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [time, position, velocity, planned_acceleration, radius, growth_speed, growth_acceleration] = self;
+  archive(time, position, velocity, planned_acceleration, radius, growth_speed, growth_acceleration);
+}
+
+template <Some<Event> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [kind, time, first, second, wall, repeated, first_state, second_state, point, normal, gap,
+         approach_speed, position_excess, velocity_excess] = self;
+  archive(kind, time, first, second, wall, repeated, first_state, second_state, point, normal, gap,
+          approach_speed, position_excess, velocity_excess);
+}
+
+template <Some<WorldDefinition> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [box, contact_tolerance, separation_distance, contacts, allow_overlap, zeno_interval, start_time] =
+      self;
+  archive(box, contact_tolerance, separation_distance, contacts, allow_overlap, zeno_interval, start_time);
+}
+
+template <Some<Counters> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [events, probes, wakes, stale_wakes, box_ends, pair_checks, wall_checks, searches, candidates,
+         certificates, zeno_steps, repeated_contacts, entering, leaving, resetting, colliding,
+         event_insertions, event_removals, largest_queue, rebuilds, crossings] = self;
+  archive(events, probes, wakes, stale_wakes, box_ends, pair_checks, wall_checks, searches, candidates,
+          certificates, zeno_steps, repeated_contacts, entering, leaving, resetting, colliding,
+          event_insertions, event_removals, largest_queue, rebuilds, crossings);
+}
+
+}  // namespace kinesphere
