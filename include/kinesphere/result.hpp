@@ -29,6 +29,7 @@ enum class ErrorCode {
   overlapping,        ///< two bodies overlap where the world does not allow it
   probe_in_progress,  ///< the world was called from inside its own probe
   unsupported,        ///< this detector cannot do what the scene asks for
+  bad_snapshot,       ///< bytes that no world can be restored from
 };
 
 struct Error {

@@ -41,12 +41,18 @@ void transfer(Self& self, Archive& archive) {
   archive(position, velocity);
 }
 
+template <Some<Filter> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [category, mask, group] = self;
+  archive(category, mask, group);
+}
+
 template <Some<BodyDefinition> Self, class Archive>
 void transfer(Self& self, Archive& archive) {
-  auto& [radius, acceleration_limit, planned_acceleration, position_error, velocity_error, position,
-         velocity] = self;
+  auto& [radius, acceleration_limit, planned_acceleration, position_error, velocity_error, position, velocity,
+         filter, user_data] = self;
   archive(radius, acceleration_limit, planned_acceleration, position_error, velocity_error, position,
-          velocity);
+          velocity, filter, user_data);
 }
 
 template <Some<Bound> Self, class Archive>

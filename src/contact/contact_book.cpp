@@ -1,6 +1,7 @@
 #include "contact/contact_book.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace kinesphere {
 
@@ -82,6 +83,53 @@ void ContactBook::note_contact(Event& begin) {
   begin.repeated = is_repeated(begin, begin.first.index) || (pair && is_repeated(begin, begin.second.index));
   entries_[begin.first.index].last_contact = begin.time;
   if (pair) entries_[begin.second.index].last_contact = begin.time;
+}
+
+bool ContactBook::contacts_are_sound(bool has_walls) const {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> there;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> back;
+  for (std::uint32_t body = 0; body < entries_.size(); ++body) {
+    const Entry& entry = entries_[body];
+    if (std::isnan(entry.last_contact) || !(entry.zeno_interval >= 0.0)) return false;
+    if (entry.walls >= 1u << wall_count || (entry.walls != 0 && !has_walls)) return false;
+    for (const std::uint32_t partner : entry.partners) {
+      if (partner == body || partner >= entries_.size()) return false;
+      there.emplace_back(body, partner);
+      back.emplace_back(partner, body);
+    }
+  }
+  std::sort(there.begin(), there.end());
+  std::sort(back.begin(), back.end());
+  return there == back && std::adjacent_find(there.begin(), there.end()) == there.end();
+}
+
+bool ContactBook::is_sound(std::size_t bodies, double time, bool has_walls,
+                           const std::function<bool(BodyId)>& is_known) const {
+  const auto event_is_sound = [&](const Event& event) {
+    const bool pair = is_known(event.second) && event.first < event.second && event.wall == Wall::none;
+    const bool wall = event.second == no_body && has_walls && event.wall != Wall::none &&
+                      static_cast<int>(event.wall) <= wall_count;
+    if (event.time != time || !is_known(event.first)) return false;
+    switch (event.kind) {
+      case EventKind::bound_violation:
+        return event.second == no_body && event.wall == Wall::none;
+      case EventKind::contact_begin:
+      case EventKind::contact_end:
+        return pair;
+      case EventKind::wall_begin:
+      case EventKind::wall_end:
+        return wall;
+      case EventKind::zeno_guard:
+        return pair || wall;
+    }
+    return false;
+  };
+  const auto change_is_sound = [&](const auto& pair) { return pair.first < bodies && pair.second < bodies; };
+  return entries_.size() == bodies && contacts_are_sound(has_walls) &&
+         std::all_of(pending_.begin(), pending_.end(), event_is_sound) &&
+         std::all_of(ended_.begin(), ended_.end(), event_is_sound) &&
+         std::all_of(guards_told_.begin(), guards_told_.end(), event_is_sound) &&
+         std::all_of(changed_.begin(), changed_.end(), change_is_sound);
 }
 
 }  // namespace kinesphere

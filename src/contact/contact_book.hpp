@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <set>
@@ -95,18 +96,36 @@ class ContactBook {
   std::vector<std::pair<std::uint32_t, std::uint32_t>>& changed() { return changed_; }
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& changed() const { return changed_; }
 
+  /// All but the rule, which follows from the world's definition.
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [rule, entries, pending, ended, guards_told, changed] = self;
+    archive(entries, pending, ended, guards_told, changed);
+  }
+  /// For one that was read in a world of this many bodies at `time`: true when contacts are mutual, and
+  /// events are such as could be announced now. `is_known(id)` tells whether an id was ever given out.
+  bool is_sound(std::size_t bodies, double time, bool has_walls,
+                const std::function<bool(BodyId)>& is_known) const;
+
  private:
   struct Entry {
     std::vector<std::uint32_t> partners;
     std::uint8_t walls = 0;
     double zeno_interval = 0.0;
     double last_contact = -std::numeric_limits<double>::infinity();
+
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+      auto& [touched, touched_walls, interval, last] = self;
+      archive(touched, touched_walls, interval, last);
+    }
   };
 
   void set_touching(const Event& contact, bool touching);
   void end(const Event& contact);
   bool take_effect(Event& event, const Sphere& first, const Sphere& second, const std::optional<Box>& box);
   bool still_begins(const Event& now) const;
+  bool contacts_are_sound(bool has_walls) const;
   bool is_repeated(const Event& begin, std::uint32_t body) const;
   void note_contact(Event& begin);
 

@@ -2,6 +2,7 @@
 #include "schedule/schedule.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace kinesphere {
 
@@ -50,6 +51,19 @@ void HeapSchedule::remove(std::uint32_t body) {
   } else {
     sift_down(position, last);
   }
+}
+
+bool HeapSchedule::is_sound() const {
+  const auto present = static_cast<std::size_t>(
+      std::count_if(positions_.begin(), positions_.end(), [](std::uint32_t p) { return p != absent; }));
+  if (present != heap_.size()) return false;
+  for (std::size_t position = 0; position < heap_.size(); ++position) {
+    const Due& due = heap_[position];
+    if (std::isnan(due.time) || due.body >= positions_.size() || positions_[due.body] != position)
+      return false;
+    if (position > 0 && due < heap_[(position - 1) / arity]) return false;
+  }
+  return true;
 }
 
 void HeapSchedule::place(std::size_t position, const Due& due) {

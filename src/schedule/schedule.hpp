@@ -14,6 +14,12 @@ struct Due {
   double time;
   std::uint32_t body;
 
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [when, who] = self;
+    archive(when, who);
+  }
+
   friend bool operator<(const Due& a, const Due& b) {
     return std::tie(a.time, a.body) < std::tie(b.time, b.body);
   }
@@ -60,6 +66,15 @@ class HeapSchedule {
   bool empty() const { return heap_.empty(); }
   bool contains(std::uint32_t body) const { return body < positions_.size() && positions_[body] != absent; }
   double time_of(std::uint32_t body) const { return heap_[positions_[body]].time; }
+  std::size_t size() const { return heap_.size(); }
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [heap, positions] = self;
+    archive(heap, positions);
+  }
+  /// For one that was read: true when it is a heap, and each body stands where it is said to.
+  bool is_sound() const;
 
  private:
   static constexpr std::uint32_t absent = std::numeric_limits<std::uint32_t>::max();

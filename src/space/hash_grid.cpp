@@ -2,7 +2,9 @@
 #include "space/hash_grid.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 namespace kinesphere {
@@ -102,12 +104,15 @@ int HashGrid::level_for(float extent) const {
   return above <= 0 ? 0 : (above + exponent_step - 1) / exponent_step;
 }
 
+double HashGrid::cells_per_length(std::size_t level) const {
+  return std::ldexp(1.0, -(finest_exponent_ + exponent_step * static_cast<int>(level)));
+}
+
 void HashGrid::insert(std::uint32_t body, const FloatBox& box) {
   const int number = level_for(box.extent());
   while (levels_.size() <= static_cast<std::size_t>(number)) {
     Level level;
-    level.cells_per_length =
-        std::ldexp(1.0, -(finest_exponent_ + exponent_step * static_cast<int>(levels_.size())));
+    level.cells_per_length = cells_per_length(levels_.size());
     level.rehash();
     levels_.push_back(std::move(level));
   }
@@ -199,6 +204,67 @@ std::optional<std::string> HashGrid::check(std::uint32_t body, const Box& box) c
       return "is missing from a cell that its box meets";
   }
   return std::nullopt;
+}
+
+bool HashGrid::Level::table_is_sound() const {
+  if (!std::has_single_bit(slots.size()) || 2 * cells.size() > slots.size()) return false;
+  if (std::any_of(slots.begin(), slots.end(), [this](std::uint32_t s) { return s > cells.size(); }))
+    return false;
+  // The search for a cell ends at a free slot.
+  const auto free = static_cast<std::size_t>(std::count(slots.begin(), slots.end(), 0u));
+  return free + cells.size() == slots.size() && free > 0 &&
+         std::all_of(cells.begin(), cells.end(), [this](const Cell& c) { return find(c.index) == &c; });
+}
+
+bool HashGrid::places_are_sound() const {
+  std::size_t found = 0;
+  std::int64_t exponents = 0;
+  for (const Place& place : places_) {
+    if (place.level < 0) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (!(place.box.lower[axis] <= place.box.upper[axis])) return false;
+    const float extent = place.box.extent();
+    if (std::isnan(extent) || place.level != level_for(extent)) return false;
+    if (static_cast<std::size_t>(place.level) >= levels_.size()) return false;
+    ++found;
+    exponents += exponent_of(extent);
+  }
+  return found == size_ && exponents == exponent_sum_;
+}
+
+bool HashGrid::is_sound() const {
+  // Twice what the exponents of floats can come to, so that nothing overflows below.
+  constexpr int exponent_limit = 300;
+  if (std::abs(finest_exponent_) > exponent_limit || levels_.size() > exponent_limit) return false;
+  if (!places_are_sound()) return false;
+  std::vector<double> missing(places_.size(), 0.0);
+  std::vector<const Cell*> latest(places_.size(), nullptr);
+  std::vector<std::size_t> bodies(levels_.size(), 0);
+  for (std::uint32_t body = 0; body < places_.size(); ++body) {
+    if (!contains(body)) continue;
+    const auto number = static_cast<std::size_t>(places_[body].level);
+    missing[body] = levels_[number].range_of(places_[body].box).count();
+    ++bodies[number];
+  }
+  for (std::size_t number = 0; number < levels_.size(); ++number) {
+    const Level& level = levels_[number];
+    if (level.cells_per_length != cells_per_length(number) || level.bodies != bodies[number]) return false;
+    if (!level.table_is_sound()) return false;
+    std::size_t empty = 0;
+    for (const Cell& cell : level.cells) {
+      if (cell.entries.empty()) ++empty;
+      for (const Entry& entry : cell.entries) {
+        if (!contains(entry.body) || latest[entry.body] == &cell) return false;
+        const Place& place = places_[entry.body];
+        if (place.level != static_cast<int>(number) || !(place.box == entry.box)) return false;
+        if (!level.range_of(place.box).contains(cell.index)) return false;
+        latest[entry.body] = &cell;
+        --missing[entry.body];
+      }
+    }
+    if (empty != level.empty_cells) return false;
+  }
+  return std::all_of(missing.begin(), missing.end(), [](double cells) { return cells == 0.0; });
 }
 
 }  // namespace kinesphere

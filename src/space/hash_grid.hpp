@@ -31,6 +31,13 @@ struct FloatBox {
            other.lower[1] <= upper[1] && lower[2] <= other.upper[2] && other.lower[2] <= upper[2];
   }
   float extent() const;
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [low, high] = self;
+    archive(low, high);
+  }
+  friend bool operator==(const FloatBox&, const FloatBox&) = default;
 };
 
 class HashGrid {
@@ -52,6 +59,16 @@ class HashGrid {
   /// box meets and in no other. Cost: all cells.
   std::optional<std::string> check(std::uint32_t body, const Box& box) const;
 
+  /// Everything as it is, for a search visits bodies in the order in which cells and entries stand, and when
+  /// cells are dropped depends on how many are empty and on the size of the table.
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [levels, places, size, finest_exponent, exponent_sum, changes] = self;
+    archive(levels, places, size, finest_exponent, exponent_sum, changes);
+  }
+  /// For one that was read: true when it could have come about by registrations. Cost: all cells.
+  bool is_sound() const;
+
  private:
   /// Cell coordinates stay within 32 bits: a float box at distance X is at least X * 2^-24 wide, and so are
   /// its cells. Where it is a mere point all that lies farther shares the outermost cell.
@@ -59,6 +76,11 @@ class HashGrid {
 
   struct CellIndex {
     std::int32_t x, y, z;
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+      auto& [i, j, k] = self;
+      archive(i, j, k);
+    }
     friend bool operator==(const CellIndex&, const CellIndex&) = default;
   };
   struct CellRange {
@@ -73,10 +95,20 @@ class HashGrid {
   struct Entry {
     FloatBox box;
     std::uint32_t body;
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+      auto& [where, who] = self;
+      archive(where, who);
+    }
   };
   struct Cell {
     CellIndex index;
     std::vector<Entry> entries;
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+      auto& [at, held] = self;
+      archive(at, held);
+    }
   };
   struct Level {
     double cells_per_length = 0.0;  ///< 1 / edge, a power of two
@@ -103,13 +135,28 @@ class HashGrid {
     const Cell* find(const CellIndex& index) const;
     Cell& find_or_create(const CellIndex& index);
     void rehash();
+
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+      auto& [scale, body_count, empty_count, all_cells, table] = self;
+      archive(scale, body_count, empty_count, all_cells, table);
+    }
+    /// True when the table finds each cell.
+    bool table_is_sound() const;
   };
   struct Place {
     int level = -1;
-    FloatBox box;
+    FloatBox box{};
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+      auto& [number, registered] = self;
+      archive(number, registered);
+    }
   };
 
   int level_for(float extent) const;
+  double cells_per_length(std::size_t level) const;
+  bool places_are_sound() const;
   void insert(std::uint32_t body, const FloatBox& box);
   void erase(std::uint32_t body);
   void retune_if_worthwhile();

@@ -71,7 +71,7 @@ void World::Engine::Answers::consider_touching(std::uint32_t number, Onset& firs
 }
 
 void World::Engine::Answers::consider_walls(std::uint32_t number, Onset& first) const {
-  if (!engine_.definition_.box) return;
+  if (!engine_.definition_.box || !body(number).present()) return;
   const double known = recorded_of_walls(number);
   if (known >= first.time) return;
   const Bound bound = guarded(number);
@@ -83,6 +83,7 @@ void World::Engine::Answers::consider_walls(std::uint32_t number, Onset& first) 
 }
 
 void World::Engine::Answers::consider(std::uint32_t a, std::uint32_t b, Onset& first) const {
+  if (!body(a).present() || !body(b).present() || !engine_.may_touch(a, b)) return;
   const double known = recorded(a, b);
   if (known >= first.time) return;
   const double time = std::max(known, earliest_meeting(guarded(a), guarded(b), now_, infinity));
@@ -103,27 +104,27 @@ Onset World::Engine::Answers::of_body(std::uint32_t number) const {
   consider_walls(number, first);
   // Those that it watches are near: they leave little to compute of the others.
   for (const Watch& watch : body(number).watches)
-    if (body(watch.partner).alive) consider(number, watch.partner, first);
+    if (body(watch.partner).present()) consider(number, watch.partner, first);
   for (std::uint32_t other = 0; other < engine_.bodies_.size(); ++other)
-    if (other != number && body(other).alive) consider(number, other, first);
+    if (other != number && body(other).present()) consider(number, other, first);
   return first;
 }
 
 Onset World::Engine::Answers::of_world() const {
-  std::vector<std::uint32_t> alive;
+  std::vector<std::uint32_t> present;
   for (std::uint32_t number = 0; number < engine_.bodies_.size(); ++number)
-    if (body(number).alive) alive.push_back(number);
+    if (body(number).present()) present.push_back(number);
   Onset first;
-  for (const std::uint32_t number : alive) consider_touching(number, first);
+  for (const std::uint32_t number : present) consider_touching(number, first);
   if (first.touching) return first;
   // Any pair limits the answer; those at hand limit it well.
-  for (std::size_t k = 0; k < alive.size(); ++k) {
-    consider_walls(alive[k], first);
-    for (const Watch& watch : body(alive[k]).watches)
-      if (body(watch.partner).alive) consider(alive[k], watch.partner, first);
-    if (k > 0) consider(alive[k - 1], alive[k], first);
+  for (std::size_t k = 0; k < present.size(); ++k) {
+    consider_walls(present[k], first);
+    for (const Watch& watch : body(present[k]).watches)
+      if (body(watch.partner).present()) consider(present[k], watch.partner, first);
+    if (k > 0) consider(present[k - 1], present[k], first);
   }
-  consider_all_within(alive, first);
+  consider_all_within(present, first);
   return first;
 }
 

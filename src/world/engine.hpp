@@ -13,7 +13,9 @@
 // its box end, its wall time and its watches.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -34,6 +36,12 @@ struct Watch {
   double time;
   std::uint32_t partner;
   std::uint32_t epoch;
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [when, whom, whose_epoch] = self;
+    archive(when, whom, whose_epoch);
+  }
 };
 
 struct Body {
@@ -53,6 +61,15 @@ struct Body {
   bool kicked_since_report = false;
 
   bool present() const { return alive && enabled; }
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [promised, since_report, place, place_end, walls_until, ahead, watched, own_generation, own_epoch,
+           lives, takes_part, unsettled, has_searched, kicked] = self;
+    archive(promised, since_report, place, place_end, walls_until, ahead, watched, own_generation, own_epoch,
+            lives, takes_part, unsettled, has_searched, kicked);
+  }
+
   bool fresh(double time) const { return bound.time == time; }
   double largest_acceleration() const {
     return definition.acceleration_limit + norm(definition.planned_acceleration);
@@ -106,6 +123,9 @@ class World::Engine {
   class Answers;
   class Queries;
   Result<bool> probe_stale(std::span<const std::uint32_t> numbers, const Probe& ask, std::string_view call);
+  // snapshot.cpp: the whole state as bytes.
+  std::vector<std::byte> save() const;
+  static Result<std::unique_ptr<Engine>> restore(std::span<const std::byte> bytes);
 
  private:
   class Audit;
@@ -154,6 +174,14 @@ class World::Engine {
   Event contact(EventKind kind, std::uint32_t a, std::uint32_t b) const;
   Event wall_contact(EventKind kind, std::uint32_t number, Wall wall) const;
   std::optional<Event> deliver();
+
+  // snapshot.cpp.
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive);
+  const char* contradiction() const;
+  bool bodies_are_sound() const;
+  bool is_sound(const Body& body) const;
+  bool was_given_out(BodyId id) const;
 
   WorldDefinition definition_;
   ContactBook book_;

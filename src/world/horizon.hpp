@@ -13,10 +13,16 @@ namespace kinesphere {
 /// registration_cost / (8 density).
 class Horizon {
  public:
+  /// To be read into.
+  Horizon() = default;
   /// Between these lengths the way is chosen: the longest is for a body that is alone, the shortest for one
   /// among others at the same place, whom no smaller box would shut out.
   Horizon(double first_way, double shortest_way, double longest_way)
       : way_(std::max(first_way, shortest_way)), shortest_way_(shortest_way), longest_way_(longest_way) {}
+
+  static Horizon of_new_body(double first_way, double contact_tolerance) {
+    return {first_way, 0x1p10 * contact_tolerance, 0x1p40 * contact_tolerance};
+  }
 
   /// Learns from a search with a box of this extent, and chooses the next way.
   void learn(std::size_t candidates, double box_extent, double body_width) {
@@ -38,15 +44,27 @@ class Horizon {
     return std::min(2.0 * way_ / (speed + std::sqrt(speed * speed + 2.0 * acceleration * way_)), longest);
   }
 
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [way, shortest, longest_way, density] = self;
+    archive(way, shortest, longest_way, density);
+  }
+  /// For one that was read: true when it could have been made and have learnt this.
+  bool is_sound(double contact_tolerance) const {
+    const Horizon made = of_new_body(way_, contact_tolerance);
+    return shortest_way_ == made.shortest_way_ && longest_way_ == made.longest_way_ && way_ == made.way_ &&
+           std::isfinite(way_) && density_ >= 0.0 && std::isfinite(density_);
+  }
+
  private:
   static constexpr double registration_cost = 4.0;
   static constexpr double learning_rate = 0.25;
   /// For a body at rest, in any unit of time: its horizon must be finite.
   static constexpr double longest = 0x1p100;
 
-  double way_;
-  double shortest_way_;
-  double longest_way_;
+  double way_ = 0.0;
+  double shortest_way_ = 0.0;
+  double longest_way_ = 0.0;
   double density_ = 0.0;
 };
 

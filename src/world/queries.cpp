@@ -55,10 +55,17 @@ std::optional<Passage> passage(const Way& way, const Vec3& centre, double radius
 
 }  // namespace
 
+std::size_t World::Engine::Queries::present() const {
+  return static_cast<std::size_t>(std::count_if(engine_.bodies_.begin(), engine_.bodies_.end(),
+                                                [](const Body& body) { return body.present(); }));
+}
+
 /// The bodies that may be in the box now, by index. A registered box holds its body until box_end, which is
 /// not past; only a broken promise leaves a body outside, and dirty.
 std::vector<std::uint32_t> World::Engine::Queries::candidates(const Box& box) const {
-  std::vector<std::uint32_t> numbers(engine_.dirty_);
+  std::vector<std::uint32_t> numbers;
+  for (const std::uint32_t number : engine_.dirty_)
+    if (engine_.bodies_[number].dirty) numbers.push_back(number);
   engine_.grid_.for_each_overlap(box, [&](std::uint32_t number) {
     if (!engine_.bodies_[number].dirty) numbers.push_back(number);
   });
@@ -113,17 +120,17 @@ std::vector<std::uint32_t> World::Engine::Queries::around(const Vec3& point, std
     const std::vector<Near> all = distances(numbers, point);
     const auto within =
         std::count_if(all.begin(), all.end(), [=](const Near& n) { return n.upper <= reach; });
-    if (static_cast<std::size_t>(within) >= count || numbers.size() == engine_.size_) return numbers;
+    if (static_cast<std::size_t>(within) >= count || numbers.size() == present()) return numbers;
   }
   std::vector<std::uint32_t> everybody;
   for (std::uint32_t number = 0; number < engine_.bodies_.size(); ++number)
-    if (engine_.bodies_[number].alive) everybody.push_back(number);
+    if (engine_.bodies_[number].present()) everybody.push_back(number);
   return everybody;
 }
 
 std::vector<Near> World::Engine::Queries::nearest(const Vec3& point, std::size_t count) const {
-  if (count == 0 || engine_.size_ == 0) return {};
-  count = std::min(count, engine_.size_);
+  count = std::min(count, present());
+  if (count == 0) return {};
   std::vector<Near> all = distances(around(point, count), point);
   std::vector<double> uppers;
   for (const Near& near : all) uppers.push_back(near.upper);

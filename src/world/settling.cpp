@@ -116,8 +116,7 @@ void World::Engine::choose_first_horizons(const std::vector<std::uint32_t>& roun
   const double way = spacing > 0.0 ? 0.25 * spacing : definition_.contact_tolerance;
   for (const std::uint32_t number : round)
     if (!bodies_[number].horizon)
-      bodies_[number].horizon.emplace(way, 0x1p10 * definition_.contact_tolerance,
-                                      0x1p40 * definition_.contact_tolerance);
+      bodies_[number].horizon = Horizon::of_new_body(way, definition_.contact_tolerance);
 }
 
 void World::Engine::register_box(std::uint32_t number) {

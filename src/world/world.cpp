@@ -238,6 +238,22 @@ bool World::contains(BodyId body) const { return static_cast<bool>(check_alive(b
 const Counters& World::counters() const { return engine_->counters(); }
 std::optional<AuditFinding> World::audit() const { return engine_->audit(); }
 
+Result<std::vector<std::byte>> World::save() const {
+  if (auto idle = check_idle(engine_->probing(), "save"); !idle) return idle.error();
+  return engine_->save();
+}
+
+Result<World> World::restore(std::span<const std::byte> snapshot) {
+  auto engine = Engine::restore(snapshot);
+  if (!engine) return engine.error();
+  return World(std::move(*engine));
+}
+
+Result<World> World::clone() const {
+  if (auto idle = check_idle(engine_->probing(), "clone"); !idle) return idle.error();
+  return World(std::make_unique<Engine>(*engine_));
+}
+
 Result<BodyView> World::body(BodyId id) const {
   if (auto valid = check_alive(id, "body"); !valid) return valid.error();
   const Body& body = engine_->table()[id.index];

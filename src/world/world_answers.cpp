@@ -51,8 +51,7 @@ auto about_pair(BodyId first, BodyId second) {
 }  // namespace
 
 Result<void> World::check_pair(BodyId first, BodyId second, std::string_view call) const {
-  return first_error(check_call(first, call), check_alive(second, call),
-                     check_distinct(first, second, call));
+  return first_error(check_call(first, call), check_alive(second, call), check_distinct(first, second, call));
 }
 
 Result<SafeTime> World::safe_until(BodyId first, BodyId second) const {
@@ -66,8 +65,8 @@ Result<SafeTime> World::safe_until(BodyId first, BodyId second, Probe probe) {
 }
 
 Result<SafeTime> World::safe_until(BodyId body) const {
-  return safe_time(Engine::Answers::answer(*engine_, check_call(body, "safe_until"), nullptr,
-                                           "safe_until", any_number, about_body(body)));
+  return safe_time(Engine::Answers::answer(*engine_, check_call(body, "safe_until"), nullptr, "safe_until",
+                                           any_number, about_body(body)));
 }
 
 Result<SafeTime> World::safe_until(BodyId body, Probe probe) {
@@ -86,15 +85,13 @@ Result<SafeTime> World::safe_until(Probe probe) {
 }
 
 Result<EarliestContact> World::earliest_contact(BodyId body) const {
-  return earliest(*engine_,
-                  Engine::Answers::answer(*engine_, check_call(body, "earliest_contact"), nullptr,
-                                          "earliest_contact", any_number, about_body(body)));
+  return earliest(*engine_, Engine::Answers::answer(*engine_, check_call(body, "earliest_contact"), nullptr,
+                                                    "earliest_contact", any_number, about_body(body)));
 }
 
 Result<EarliestContact> World::earliest_contact(BodyId body, Probe probe) {
-  return earliest(*engine_,
-                  Engine::Answers::answer(*engine_, check_call(body, "earliest_contact"), &probe,
-                                          "earliest_contact", any_number, about_body(body)));
+  return earliest(*engine_, Engine::Answers::answer(*engine_, check_call(body, "earliest_contact"), &probe,
+                                                    "earliest_contact", any_number, about_body(body)));
 }
 
 Result<DistanceLimits> World::distance_limits(BodyId first, BodyId second, double time) const {

@@ -1,0 +1,196 @@
+// Snapshots: the whole state of a world as bytes, and back.
+//
+// Everything is kept as it stands, the order of grid cells, heap and lists included: what a search meets
+// first decides who is probed first, so only the same order goes on the same way. Memory that is merely kept
+// for later is not part of it. A snapshot is
+//   mark (8 bytes), format version (4), length of the content (8), content, checksum of all before (8).
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "archive/archive.hpp"
+#include "archive/fields.hpp"
+#include "input/input_check.hpp"
+#include "world/engine.hpp"
+#include "world/validation.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// Ends with what a transfer as text would change.
+constexpr std::array<std::uint8_t, 8> mark{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'};
+/// Raise it when the fields change, or when the engine would go on from the same fields in another way.
+constexpr std::uint32_t format_version = 1;
+constexpr std::size_t header_size = 20;
+constexpr std::size_t checksum_size = 8;
+
+/// 64-bit FNV-1a over words of eight bytes, then the bytes that are left: damage to one word always shows.
+std::uint64_t checksum(std::span<const std::byte> bytes) {
+  std::uint64_t sum = 0xcbf29ce484222325u;
+  const auto mix = [&sum](std::uint64_t word) { sum = (sum ^ word) * 0x100000001b3u; };
+  ByteReader reader(bytes);
+  for (std::uint64_t word = 0; reader.remaining() >= sizeof word;) {
+    reader(word);
+    mix(word);
+  }
+  for (std::uint8_t byte = 0; reader.remaining() > 0;) {
+    reader(byte);
+    mix(byte);
+  }
+  return sum;
+}
+
+Error refusal(const std::string& what) {
+  return {ErrorCode::bad_snapshot, "snapshot", no_body, "World::restore: snapshot " + what};
+}
+
+/// The content of bytes that are what they should be as a whole.
+Result<std::span<const std::byte>> content_of(std::span<const std::byte> bytes) {
+  auto found_mark = mark;
+  std::uint32_t version = 0;
+  std::uint64_t length = 0;
+  ByteReader header(bytes);
+  header(found_mark);
+  if (header.failed() || found_mark != mark)
+    return refusal("must begin with the mark of a world, but does not");
+  header(version);
+  if (!header.failed() && version != format_version) {
+    return refusal("must be of format version " + std::to_string(format_version) + ", but is of version " +
+                   std::to_string(version));
+  }
+  header(length);
+  if (header.failed() || header.remaining() < checksum_size || length != header.remaining() - checksum_size) {
+    return refusal("must be whole, but its " + std::to_string(bytes.size()) +
+                   " bytes are not as many as it says it has");
+  }
+  const auto summed = bytes.first(bytes.size() - checksum_size);
+  std::uint64_t expected = 0;
+  ByteReader(bytes.last(checksum_size))(expected);
+  if (checksum(summed) != expected) return refusal("must be undamaged, but its checksum is wrong");
+  return summed.subspan(header_size);
+}
+
+bool is_sound(const Bound& bound, double now, const WorldDefinition& world) {
+  BodyDefinition as_body;
+  as_body.radius = 0.5 * bound.radius;  // the sum of a radius and an error
+  as_body.acceleration_limit = bound.growth_acceleration;
+  as_body.planned_acceleration = bound.planned_acceleration;
+  as_body.velocity_error = bound.growth_speed;
+  as_body.position = bound.position;
+  as_body.velocity = bound.velocity;
+  return std::isfinite(bound.time) && bound.time <= now && check_body(as_body, world, "restore");
+}
+
+bool is_sound(const Box& box) {
+  if (!is_finite(box.lower) || !is_finite(box.upper)) return false;
+  return box.lower.x <= box.upper.x && box.lower.y <= box.upper.y && box.lower.z <= box.upper.z;
+}
+
+}  // namespace
+
+template <class Self, class Archive>
+void World::Engine::transfer(Self& self, Archive& archive) {
+  // The definition comes first, as an engine is made from it; the rest matters only during advance().
+  auto& [definition, book, time, size, bodies, free, grid, schedule, dirty, counters, pair_filter, filtering,
+         gathering, probe, probing_call, probing, probe_ids, probe_states, partners] = self;
+  archive(book, time, size, bodies, free, grid, schedule, dirty, counters, filtering, gathering);
+}
+
+std::vector<std::byte> World::Engine::save() const {
+  ByteWriter content;
+  content(definition_);
+  transfer(*this, content);
+  ByteWriter snapshot;
+  snapshot(mark, format_version, content.bytes().size());
+  snapshot.append(content.bytes());
+  snapshot(checksum(snapshot.bytes()));
+  return snapshot.take();
+}
+
+Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const std::byte> bytes) {
+  auto content = content_of(bytes);
+  if (!content) return content.error();
+  ByteReader reader(*content);
+  WorldDefinition definition;
+  reader(definition);
+  const bool known_mode =
+      definition.contacts == ContactMode::begin_and_end || definition.contacts == ContactMode::impacts;
+  if (reader.failed() || !known_mode || !check_world(definition))
+    return refusal("must hold a world that can be, but its definition is impossible");
+  auto engine = std::make_unique<Engine>(definition);
+  transfer(*engine, reader);
+  if (reader.failed() || reader.remaining() != 0)
+    return refusal("must hold a world, but its content does not have the form of one");
+  if (const char* where = engine->contradiction())
+    return refusal(std::string("must hold a world that can be, but contradicts itself in its ") + where);
+  return engine;
+}
+
+/// The part of a state that was read, if any, that cannot have come about. What passes may be another world
+/// than the one that was saved, but is one in which every call is safe.
+const char* World::Engine::contradiction() const {
+  if (!std::isfinite(time_)) return "time";
+  if (!bodies_are_sound()) return "bodies";
+  const auto known = [this](BodyId id) { return was_given_out(id); };
+  if (!book_.is_sound(bodies_.size(), time_, definition_.box.has_value(), known)) return "contacts";
+  const auto present = static_cast<std::size_t>(
+      std::count_if(bodies_.begin(), bodies_.end(), [](const Body& body) { return body.present(); }));
+  if (!grid_.is_sound() || grid_.size() != present) return "grid";
+  if (!schedule_.is_sound() || schedule_.size() != present) return "schedule";
+  if (!schedule_.empty() && schedule_.earliest().time < time_) return "schedule";
+  for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
+    const bool takes_part = bodies_[number].present();
+    if (grid_.contains(number) != takes_part) return "grid";
+    if (schedule_.contains(number) != takes_part) return "schedule";
+    if (!takes_part && (!book_.partners_of(number).empty() || book_.walls_of(number) != 0)) return "contacts";
+  }
+  return nullptr;
+}
+
+bool World::Engine::bodies_are_sound() const {
+  const auto count = bodies_.size();
+  std::vector<bool> is_free(count, false);
+  std::vector<bool> is_listed(count, false);
+  for (const std::uint32_t number : free_) {
+    if (number >= count || is_free[number]) return false;
+    is_free[number] = true;
+  }
+  for (const std::uint32_t number : dirty_) {
+    if (number >= count) return false;
+    is_listed[number] = true;
+  }
+  for (std::size_t number = 0; number < count; ++number) {
+    const Body& body = bodies_[number];
+    if (body.alive == is_free[number] || (body.dirty && !is_listed[number]) || !is_sound(body)) return false;
+    const auto watches_itself = [&](const Watch& w) { return w.partner == number; };
+    if (std::any_of(body.watches.begin(), body.watches.end(), watches_itself)) return false;
+  }
+  return size_ + free_.size() == count;
+}
+
+bool World::Engine::is_sound(const Body& body) const {
+  if (body.searched) return false;
+  // An index that is free is as its next body will find it.
+  if (!body.alive) return !body.dirty && !body.kicked_since_report && !body.horizon && body.watches.empty();
+  WorldDefinition unbounded = definition_;
+  unbounded.box.reset();
+  if (!check_body(body.definition, unbounded, "restore") ||
+      !kinesphere::is_sound(body.bound, time_, unbounded) || !kinesphere::is_sound(body.box))
+    return false;
+  if (!body.enabled) return !body.dirty && !body.kicked_since_report && body.watches.empty();
+  if (!std::isfinite(body.box_end) || body.box_end < time_ || std::isnan(body.wall_time)) return false;
+  if (body.horizon ? !body.horizon->is_sound(definition_.contact_tolerance) : !body.dirty) return false;
+  return std::all_of(body.watches.begin(), body.watches.end(), [this](const Watch& w) {
+    if (std::isnan(w.time) || w.partner >= bodies_.size()) return false;
+    const Body& partner = bodies_[w.partner];
+    return w.epoch < partner.epoch || (w.epoch == partner.epoch && partner.present());
+  });
+}
+
+bool World::Engine::was_given_out(BodyId id) const {
+  if (id.index >= bodies_.size()) return false;
+  const Body& body = bodies_[id.index];
+  return id.generation < body.generation || (id.generation == body.generation && body.alive);
+}
+
+}  // namespace kinesphere

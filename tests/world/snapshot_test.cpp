@@ -1,0 +1,394 @@
+// A restored world goes on to the bit as the one that was saved, and bytes that are no snapshot are refused.
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+#include <tuple>
+
+#include "kinesphere/response.hpp"
+#include "support/playground.hpp"
+
+namespace kinesphere {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+enum class Answer { pass_through, bounce };
+
+/// A crowd that comes and goes, with all that it asks and all that it is told.
+class Crowd {
+ public:
+  Crowd(ContactMode mode, Answer answer, int count, bool walls = true)
+      : playground_(
+            {.box = walls ? std::optional(Box{{0, 0, 0}, {8, 8, 8}}) : std::nullopt, .contacts = mode}),
+        answer_(answer) {
+    for (int k = 0; k < count; ++k) add();
+    playground_.distort = [this](BodyId id, double time, State&) { asked_.emplace_back(id, time); };
+  }
+
+  Crowd(const Crowd&) = delete;
+  Crowd& operator=(const Crowd&) = delete;
+
+  /// Calls `at_stop` at every stop: before the answer to an event, after it, and between events.
+  template <class AtStop>
+  void go(double until, AtStop at_stop) {
+    const double start = playground_.world.time();
+    for (int step = 1; step <= 50; ++step) {
+      while (const auto event = playground_.advance(start + (until - start) * step / 50)) {
+        told_.push_back(*event);
+        at_stop(playground_.world);
+        if (told_.size() % 64 == 0 && told_.back().second != no_body) come_and_go();
+        if (answer_ == Answer::bounce) bounce_off(*event);
+        at_stop(playground_.world);
+      }
+      at_stop(playground_.world);
+    }
+  }
+
+  const std::vector<Event>& told() const { return told_; }
+  const std::vector<std::pair<BodyId, double>>& asked() const { return asked_; }
+  std::uint64_t hash() const { return playground_.hash.value(); }
+  World& world() { return playground_.world; }
+  auto probe() { return playground_.probe(); }
+
+ private:
+  void add() {
+    const double limit = playground_.world.size() % 4 == 0 ? 0.0 : 3.0;
+    const auto within = [this] { return random_.uniform(1.0, 7.0); };
+    const BodyDefinition body{.radius = random_.uniform(0.2, 0.7),
+                              .acceleration_limit = limit,
+                              .position = {within(), within(), within()},
+                              .velocity = 3.0 * random_.point_in_ball()};
+    playground_.add(body, 0.99 * limit * random_.point_in_ball());
+  }
+
+  void come_and_go() {
+    const auto bodies = playground_.world.bodies();
+    playground_.world.remove(bodies[random_.bits() % bodies.size()]).value();
+    if (told_.size() % 128 == 0) add();
+  }
+
+  void bounce_off(const Event& event) {
+    if (event.approach_speed <= 0.0 || !playground_.world.contains(event.first)) return;
+    const Bounce after = bounce(event, 1.0, 1.0, 0.9);
+    playground_.kick(event.first, after.first_velocity);
+    if (playground_.world.contains(event.second)) playground_.kick(event.second, after.second_velocity);
+  }
+
+  Random random_{4711};
+  Playground playground_;
+  Answer answer_;
+  std::vector<Event> told_;
+  std::vector<std::pair<BodyId, double>> asked_;
+};
+
+void expect_same(Crowd& found, Crowd& expected) {
+  EXPECT_EQ(found.hash(), expected.hash());
+  EXPECT_EQ(found.told().size(), expected.told().size());
+  EXPECT_EQ(found.asked(), expected.asked());
+  // Counters and everything else.
+  EXPECT_EQ(found.world().save().value(), expected.world().save().value());
+}
+
+class Snapshot : public testing::TestWithParam<std::tuple<ContactMode, Answer>> {
+ protected:
+  Crowd crowd(int count = 60) const { return {std::get<0>(GetParam()), std::get<1>(GetParam()), count}; }
+};
+
+INSTANTIATE_TEST_SUITE_P(Modes, Snapshot,
+                         testing::Combine(testing::Values(ContactMode::begin_and_end, ContactMode::impacts),
+                                          testing::Values(Answer::pass_through, Answer::bounce)));
+
+TEST_P(Snapshot, RestoredAtAHundredMomentsGoesOnTheSame) {
+  Crowd expected = crowd();
+  int stops = 0;
+  expected.go(4.0, [&](const World&) { ++stops; });
+  ASSERT_GT(stops, 300);
+  Crowd found = crowd();
+  Random random(99);
+  int restored = 0;
+  found.go(4.0, [&](World& world) {
+    if (random.uniform() * stops > 130.0) return;
+    const Bytes bytes = world.save().value();
+    World back = World::restore(bytes).value();
+    EXPECT_EQ(back.save().value(), bytes);
+    EXPECT_TRUE(is_clean(back));
+    world = std::move(back);
+    ++restored;
+  });
+  EXPECT_GE(restored, 100);
+  expect_same(found, expected);
+}
+
+TEST_P(Snapshot, RestoredAtEveryStopGoesOnTheSame) {
+  Crowd expected = crowd(20);
+  expected.go(1.0, [](const World&) {});
+  Crowd found = crowd(20);
+  found.go(1.0, [](World& world) { world = World::restore(world.save().value()).value(); });
+  expect_same(found, expected);
+}
+
+TEST_P(Snapshot, ACloneGoesOnTheSameAndAlone) {
+  Crowd expected = crowd();
+  expected.go(1.5, [](const World&) {});
+  Crowd found = crowd();
+  int stop = 0;
+  found.go(1.5, [&](World& world) {
+    if (++stop % 7 != 0) return;
+    World clone = world.clone().value();
+    // Whatever becomes of the original.
+    for (const BodyId id : world.bodies()) world.remove(id).value();
+    world = std::move(clone);
+  });
+  expect_same(found, expected);
+}
+
+TEST_P(Snapshot, SavingChangesNothing) {
+  Crowd expected = crowd();
+  expected.go(1.0, [](const World&) {});
+  Crowd found = crowd();
+  found.go(1.0, [](const World& world) { EXPECT_TRUE(world.save()); });
+  expect_same(found, expected);
+}
+
+/// Where the bytes must not depend: on the addresses of this process.
+TEST_P(Snapshot, TheSameWorldGivesTheSameBytes) {
+  Crowd first = crowd();
+  const Bytes padding(12345);
+  Crowd second = crowd();
+  first.go(1.0, [](const World&) {});
+  second.go(1.0, [](const World&) {});
+  EXPECT_EQ(first.world().save().value(), second.world().save().value());
+}
+
+TEST(SnapshotOfAWorld, KeepsIdsAndTheirGenerations) {
+  Playground p;
+  const BodyId first = p.add({.position = {0, 0, 0}});
+  const BodyId second = p.add({.position = {9, 0, 0}});
+  p.add({.position = {18, 0, 0}});
+  p.world.remove(first).value();
+  p.world.remove(second).value();
+  World back = World::restore(p.world.save().value()).value();
+  EXPECT_EQ(back.body(first).error().code, ErrorCode::stale_body);
+  const BodyDefinition body{.position = {5, 5, 5}};
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(back.add(body).value(), p.world.add(body).value());
+}
+
+TEST(SnapshotOfAWorld, AfterABadAnswerGoesOnTheSame) {
+  const auto finish = [](bool restore) {
+    Crowd crowd(ContactMode::begin_and_end, Answer::pass_through, 40);
+    for (int k = 1; k < 20; ++k) {
+      int asked = 0;
+      const auto fails = [&](std::span<const BodyId> ids, double time, std::span<State> states) {
+        if (++asked > 3) throw std::runtime_error("no answer");
+        crowd.probe()(ids, time, states);
+      };
+      try {
+        while (crowd.world().advance(0.1 * k, fails).value()) {
+        }
+      } catch (const std::runtime_error&) {
+      }
+      if (restore) crowd.world() = World::restore(crowd.world().save().value()).value();
+    }
+    crowd.go(3.0, [](const World&) {});
+    return std::tuple(crowd.hash(), crowd.asked(), crowd.world().save().value());
+  };
+  EXPECT_EQ(finish(true), finish(false));
+}
+
+// Bytes that are no snapshot.
+
+/// In mid-contact, between two events of one instant, with kicks and additions that are not settled yet.
+Bytes rich_snapshot(ContactMode mode) {
+  Playground p({.box = Box{{0, 0, 0}, {10, 10, 10}}, .contacts = mode});
+  for (int k = 0; k < 4; ++k) {
+    const double y = 2.0 + 2.0 * k;
+    p.add({.acceleration_limit = 1, .position = {3, y, 5}, .velocity = {1, 0, 0}});
+    p.add({.acceleration_limit = 1, .position = {7, y, 5}, .velocity = {-1, 0, 0}});
+  }
+  p.add({.position = {8.5, 5, 8}, .velocity = {1, 0, 0}});
+  const BodyId gone = p.add({.position = {2, 2, 1}});
+  const auto event = p.advance(2.0);
+  if (event) p.advance(2.0);
+  p.world.remove(gone).value();
+  p.add({.position = {5, 5, 2}});
+  p.world.remove(p.add({.position = {5, 8, 2}})).value();
+  if (event) p.kick(event->first, {0, 1, 0});
+  return p.world.save().value();
+}
+
+/// As snapshot.cpp has it.
+std::uint64_t checksum(std::span<const std::byte> bytes) {
+  std::uint64_t sum = 0xcbf29ce484222325u;
+  for (std::size_t k = 0; k < bytes.size();) {
+    const std::size_t size = k + 8 <= bytes.size() ? 8 : 1;
+    std::uint64_t word = 0;
+    for (std::size_t digit = 0; digit < size; ++digit)
+      word |= std::to_integer<std::uint64_t>(bytes[k + digit]) << (8 * digit);
+    sum = (sum ^ word) * 0x100000001b3u;
+    k += size;
+  }
+  return sum;
+}
+
+void write(Bytes& bytes, std::size_t at, std::uint64_t number) {
+  for (std::size_t k = 0; k < 8; ++k) bytes[at + k] = static_cast<std::byte>(number >> (8 * k));
+}
+
+/// Makes length and checksum right again.
+Bytes sealed(Bytes bytes) {
+  write(bytes, 12, bytes.size() - 28);
+  write(bytes, bytes.size() - 8, checksum(std::span(bytes).first(bytes.size() - 8)));
+  return bytes;
+}
+
+testing::AssertionResult is_refused(const Bytes& bytes, const std::string& why) {
+  const auto restored = World::restore(bytes);
+  if (restored) return testing::AssertionFailure() << "accepted";
+  const Error& error = restored.error();
+  if (error.code == ErrorCode::bad_snapshot && error.argument == "snapshot" &&
+      error.message.starts_with("World::restore: snapshot must ") &&
+      error.message.find(why) != std::string::npos)
+    return testing::AssertionSuccess();
+  return testing::AssertionFailure() << error.message;
+}
+
+TEST(BadSnapshot, EveryTruncationIsRefused) {
+  const Bytes bytes = rich_snapshot(ContactMode::begin_and_end);
+  for (std::size_t length = 0; length < bytes.size(); ++length)
+    ASSERT_TRUE(is_refused({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length)},
+                           length < 8 ? "mark" : "whole"))
+        << length;
+}
+
+TEST(BadSnapshot, EveryTruncationIsRefusedThoughItBeSealed) {
+  const Bytes bytes = rich_snapshot(ContactMode::begin_and_end);
+  for (std::size_t length = 28; length < bytes.size(); ++length)
+    ASSERT_TRUE(is_refused(sealed({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length)}), ""))
+        << length;
+}
+
+TEST(BadSnapshot, AnythingMoreIsRefused) {
+  Bytes bytes = rich_snapshot(ContactMode::begin_and_end);
+  bytes.push_back(std::byte{0});
+  EXPECT_TRUE(is_refused(bytes, "whole"));
+  EXPECT_TRUE(is_refused(sealed(bytes), "form"));
+}
+
+TEST(BadSnapshot, EveryFlippedBitIsRefused) {
+  const Bytes bytes = rich_snapshot(ContactMode::impacts);
+  for (std::size_t k = 0; k < bytes.size(); ++k) {
+    Bytes changed = bytes;
+    changed[k] ^= static_cast<std::byte>(1u << (k % 8));
+    ASSERT_TRUE(is_refused(changed, "")) << k;
+  }
+}
+
+TEST(BadSnapshot, SaysWhatIsWrong) {
+  const Bytes bytes = rich_snapshot(ContactMode::impacts);
+  EXPECT_TRUE(is_refused({}, "mark"));
+  EXPECT_TRUE(is_refused(Bytes(1000, std::byte{'x'}), "mark of a world"));
+  Bytes newer = bytes;
+  newer[8] = std::byte{200};
+  EXPECT_TRUE(is_refused(newer, "format version 1, but is of version 200"));
+  Bytes damaged = bytes;
+  damaged[bytes.size() / 2] ^= std::byte{1};
+  EXPECT_TRUE(is_refused(damaged, "checksum"));
+  Bytes impossible = bytes;  // the contact tolerance stands behind the box
+  write(impossible, 20 + 1 + 48, 0);
+  EXPECT_TRUE(is_refused(sealed(impossible), "definition"));
+}
+
+/// Uses a world that may be nonsense, with a probe that gives up after a while.
+void use(World world, Random& random) {
+  int left = 300;
+  const auto probe = [&](std::span<const BodyId> ids, double, std::span<State> states) {
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      // A probe is asked for bodies that are there.
+      EXPECT_TRUE(ids[k].index < 100);
+      if (--left < 0) throw std::runtime_error("enough");
+      states[k] = {5.0 * random.point_in_ball(), random.point_in_ball()};
+    }
+  };
+  EXPECT_TRUE(World::restore(world.save().value())) << "what was restored can be saved";
+  (void)world.audit();
+  try {
+    for (int k = 0; k < 50; ++k) {
+      const auto event = world.advance(world.time() + 1.0, probe);
+      if (!event) break;
+      const auto bodies = world.bodies();
+      if (bodies.empty()) break;
+      const BodyId body = bodies[random.bits() % bodies.size()];
+      (void)world.body(body);
+      if (k % 3 == 0) (void)world.kick(body, random.point_in_ball());
+      if (k % 5 == 0) (void)world.remove(body);
+      if (k % 7 == 0) (void)world.add({.position = 5.0 * random.point_in_ball()});
+    }
+  } catch (const std::runtime_error&) {
+  }
+  (void)world.audit();
+  (void)world.save();
+}
+
+TEST(BadSnapshot, SealedNonsenseIsRefusedOrHarmless) {
+  int accepted = 0;
+  for (const ContactMode mode : {ContactMode::begin_and_end, ContactMode::impacts}) {
+    const Bytes bytes = rich_snapshot(mode);
+    for (std::uint64_t seed = 0; seed < 6000; ++seed) {
+      SCOPED_TRACE("seed " + std::to_string(seed));
+      Random random(seed);
+      Bytes changed = bytes;
+      const std::uint64_t changes = 1 + random.bits() % 3;
+      for (std::uint64_t k = 0; k < changes; ++k) {
+        const std::size_t at = 20 + random.bits() % (bytes.size() - 28);
+        switch (random.bits() % 4) {
+          case 0:
+            changed[at] = static_cast<std::byte>(random.bits());
+            break;
+          case 1:
+            changed[at] ^= static_cast<std::byte>(1u << (random.bits() % 8));
+            break;
+          case 2:
+            changed[at] = std::byte{0xff};
+            break;
+          default:
+            changed.insert(changed.begin() + static_cast<std::ptrdiff_t>(at),
+                           static_cast<std::byte>(random.bits()));
+        }
+      }
+      auto restored = World::restore(sealed(changed));
+      if (!restored) {
+        EXPECT_EQ(restored.error().code, ErrorCode::bad_snapshot);
+        continue;
+      }
+      ++accepted;
+      use(std::move(*restored), random);
+    }
+  }
+  EXPECT_GT(accepted, 500) << "the test has nothing to use";
+}
+
+TEST(WrongCalls, AProbeMayNeitherSaveNorClone) {
+  Playground p;
+  p.add({});
+  int calls = 0;
+  p.distort = [&](BodyId, double, State&) {
+    const auto saved = p.world.save();
+    const auto cloned = p.world.clone();
+    ++calls;
+    ASSERT_FALSE(saved);
+    ASSERT_FALSE(cloned);
+    EXPECT_EQ(saved.error().code, ErrorCode::probe_in_progress);
+    EXPECT_EQ(cloned.error().code, ErrorCode::probe_in_progress);
+    EXPECT_EQ(saved.error().message, "save: a probe may not call the world that asked it");
+    EXPECT_EQ(cloned.error().message, "clone: a probe may not call the world that asked it");
+  };
+  p.kick({0, 0}, {1, 0, 0});
+  p.advance(1.0);
+  p.kick({0, 0}, {2, 0, 0});
+  p.advance(2.0);
+  EXPECT_GT(calls, 0);
+}
+
+}  // namespace
+}  // namespace kinesphere
