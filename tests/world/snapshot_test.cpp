@@ -174,6 +174,15 @@ TEST(SnapshotOfAWorld, KeepsIdsAndTheirGenerations) {
   for (int k = 0; k < 3; ++k) EXPECT_EQ(back.add(body).value(), p.world.add(body).value());
 }
 
+TEST(SnapshotOfAWorld, KeepsAKickThatNoReportHasShownYet) {
+  Playground p;
+  const BodyId body = p.add({.velocity = {1, 0, 0}});
+  ASSERT_FALSE(p.advance(1.0));
+  p.kick(body, {0, 5, 0});
+  p.world = World::restore(p.world.save().value()).value();
+  EXPECT_FALSE(p.advance(2.0)) << "the kick is taken for a broken promise";
+}
+
 TEST(SnapshotOfAWorld, AfterABadAnswerGoesOnTheSame) {
   const auto finish = [](bool restore) {
     Crowd crowd(ContactMode::begin_and_end, Answer::pass_through, 40);
