@@ -33,7 +33,7 @@ class World::Engine::Answers {
   explicit Answers(const Engine& engine);
 
   Onset of_pair(std::uint32_t a, std::uint32_t b) const;
-  Onset of_body(std::uint32_t body) const;
+  Onset of_body(std::uint32_t number) const;
   Onset of_world() const;
   DistanceLimits distance(std::uint32_t a, std::uint32_t b, double time) const;
 

@@ -116,7 +116,7 @@ std::vector<Near> World::Engine::Queries::distances(const std::vector<std::uint3
 std::vector<std::uint32_t> World::Engine::Queries::around(const Vec3& point, std::size_t count) const {
   const double farthest = 8.0 * coordinate_limit(engine_.definition_);
   for (double reach = engine_.grid_.finest_edge(); reach <= farthest; reach *= 2.0) {
-    const std::vector<std::uint32_t> numbers = candidates(box_around(point, point, reach));
+    std::vector<std::uint32_t> numbers = candidates(box_around(point, point, reach));
     const std::vector<Near> all = distances(numbers, point);
     const auto within =
         std::count_if(all.begin(), all.end(), [=](const Near& n) { return n.upper <= reach; });
@@ -133,6 +133,7 @@ std::vector<Near> World::Engine::Queries::nearest(const Vec3& point, std::size_t
   if (count == 0) return {};
   std::vector<Near> all = distances(around(point, count), point);
   std::vector<double> uppers;
+  uppers.reserve(all.size());
   for (const Near& near : all) uppers.push_back(near.upper);
   std::nth_element(uppers.begin(), uppers.begin() + static_cast<std::ptrdiff_t>(count - 1), uppers.end());
   const double enough = uppers[count - 1];
