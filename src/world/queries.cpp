@@ -55,11 +55,6 @@ std::optional<Passage> passage(const Way& way, const Vec3& centre, double radius
 
 }  // namespace
 
-std::size_t World::Engine::Queries::present() const {
-  return static_cast<std::size_t>(std::count_if(engine_.bodies_.begin(), engine_.bodies_.end(),
-                                                [](const Body& body) { return body.present(); }));
-}
-
 /// The bodies that may be in the box now, by index. A registered box holds its body until box_end, which is
 /// not past; only a broken promise leaves a body outside, and dirty.
 std::vector<std::uint32_t> World::Engine::Queries::candidates(const Box& box) const {
@@ -120,7 +115,7 @@ std::vector<std::uint32_t> World::Engine::Queries::around(const Vec3& point, std
     const std::vector<Near> all = distances(numbers, point);
     const auto within =
         std::count_if(all.begin(), all.end(), [=](const Near& n) { return n.upper <= reach; });
-    if (static_cast<std::size_t>(within) >= count || numbers.size() == present()) return numbers;
+    if (static_cast<std::size_t>(within) >= count || numbers.size() == engine_.grid_.size()) return numbers;
   }
   std::vector<std::uint32_t> everybody;
   for (std::uint32_t number = 0; number < engine_.bodies_.size(); ++number)
@@ -129,7 +124,8 @@ std::vector<std::uint32_t> World::Engine::Queries::around(const Vec3& point, std
 }
 
 std::vector<Near> World::Engine::Queries::nearest(const Vec3& point, std::size_t count) const {
-  count = std::min(count, present());
+  // Those that take part are the ones in the grid.
+  count = std::min(count, engine_.grid_.size());
   if (count == 0) return {};
   std::vector<Near> all = distances(around(point, count), point);
   std::vector<double> uppers;

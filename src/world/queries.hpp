@@ -27,8 +27,6 @@ class World::Engine::Queries {
 
  private:
   Place place(std::uint32_t number) const { return place_of(engine_.bodies_[number], now_); }
-  /// How many bodies take part.
-  std::size_t present() const;
   std::vector<std::uint32_t> candidates(const Box& box) const;
   /// Those whose distance from the region, `distance_to(place centre)`, may be or is below their radius.
   template <class Distance>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "support/expect_error.hpp"
 #include "world/crowd.hpp"
 
 namespace kinesphere {
@@ -262,16 +263,6 @@ TEST(AnswersWithoutProbe, ChangeNothing) {
   EXPECT_EQ(hash(true), hash(false));
 }
 
-template <class T>
-void expect_error(const Result<T>& result, ErrorCode code, const std::string& argument,
-                  const std::string& call, BodyId body = no_body) {
-  ASSERT_FALSE(result) << argument;
-  EXPECT_EQ(result.error().code, code) << result.error().message;
-  EXPECT_EQ(result.error().argument, argument) << result.error().message;
-  EXPECT_EQ(result.error().body, body) << result.error().message;
-  EXPECT_EQ(result.error().message.rfind(call + ":", 0), 0u) << result.error().message;
-}
-
 TEST(WrongQuestions, AreRefused) {
   Playground p({.start_time = 3.0});
   const BodyId a = p.add({.radius = 1});
@@ -279,23 +270,23 @@ TEST(WrongQuestions, AreRefused) {
   p.world.remove(gone).value();
   for (const auto& [wrong, code] :
        {std::pair(gone, ErrorCode::stale_body), std::pair(BodyId{9, 0}, ErrorCode::unknown_body)}) {
-    expect_error(p.world.safe_until(wrong), code, "body", "safe_until", wrong);
-    expect_error(p.world.safe_until(wrong, p.probe()), code, "body", "safe_until", wrong);
-    expect_error(p.world.safe_until(a, wrong), code, "body", "safe_until", wrong);
-    expect_error(p.world.safe_until(wrong, a, p.probe()), code, "body", "safe_until", wrong);
-    expect_error(p.world.earliest_contact(wrong), code, "body", "earliest_contact", wrong);
-    expect_error(p.world.earliest_contact(wrong, p.probe()), code, "body", "earliest_contact", wrong);
-    expect_error(p.world.distance_limits(wrong, a, 4.0), code, "body", "distance_limits", wrong);
-    expect_error(p.world.distance_limits(a, wrong, 4.0, p.probe()), code, "body", "distance_limits", wrong);
+    expect_error(p.world.safe_until(wrong), code, "body", "safe_until:", wrong);
+    expect_error(p.world.safe_until(wrong, p.probe()), code, "body", "safe_until:", wrong);
+    expect_error(p.world.safe_until(a, wrong), code, "body", "safe_until:", wrong);
+    expect_error(p.world.safe_until(wrong, a, p.probe()), code, "body", "safe_until:", wrong);
+    expect_error(p.world.earliest_contact(wrong), code, "body", "earliest_contact:", wrong);
+    expect_error(p.world.earliest_contact(wrong, p.probe()), code, "body", "earliest_contact:", wrong);
+    expect_error(p.world.distance_limits(wrong, a, 4.0), code, "body", "distance_limits:", wrong);
+    expect_error(p.world.distance_limits(a, wrong, 4.0, p.probe()), code, "body", "distance_limits:", wrong);
   }
-  expect_error(p.world.safe_until(a, a), ErrorCode::out_of_range, "second", "safe_until", a);
-  expect_error(p.world.distance_limits(a, a, 4.0), ErrorCode::out_of_range, "second", "distance_limits", a);
+  expect_error(p.world.safe_until(a, a), ErrorCode::out_of_range, "second", "safe_until:", a);
+  expect_error(p.world.distance_limits(a, a, 4.0), ErrorCode::out_of_range, "second", "distance_limits:", a);
   const BodyId b = p.add({.radius = 1, .position = {5, 0, 0}});
-  expect_error(p.world.distance_limits(a, b, 2.9), ErrorCode::time_backwards, "time", "distance_limits");
+  expect_error(p.world.distance_limits(a, b, 2.9), ErrorCode::time_backwards, "time", "distance_limits:");
   expect_error(p.world.distance_limits(a, b, 2.9, p.probe()), ErrorCode::time_backwards, "time",
-               "distance_limits");
+               "distance_limits:");
   for (const double bad : {nan, infinity})
-    expect_error(p.world.distance_limits(a, b, bad), ErrorCode::not_finite, "time", "distance_limits");
+    expect_error(p.world.distance_limits(a, b, bad), ErrorCode::not_finite, "time", "distance_limits:");
   EXPECT_NEAR(p.world.distance_limits(a, b, 1e300)->lower, 3.0, 1e-9) << "they stand still";
   EXPECT_EQ(p.world.counters().probes, 0u);
 }
@@ -308,7 +299,7 @@ TEST(WrongQuestions, FromInsideAProbeAreRefused) {
   int asked = 0;
   const auto nosy = [&](std::span<const BodyId> ids, double time, std::span<State> states) {
     const auto refused = [](const auto& result, const std::string& call) {
-      expect_error(result, ErrorCode::probe_in_progress, "probe", call);
+      expect_error(result, ErrorCode::probe_in_progress, "probe", call + ":");
     };
     refused(p.world.safe_until(a, b), "safe_until");
     refused(p.world.safe_until(a), "safe_until");
@@ -334,10 +325,10 @@ TEST(WrongQuestions, ABadReportIsDropped) {
   const BodyId b = p.add({.radius = 1, .acceleration_limit = 1, .position = {5, 0, 0}}, Vec3{});
   ASSERT_FALSE(p.advance(0.5));
   p.distort = [](BodyId, double, State& state) { state.position.x = nan; };
-  expect_error(p.world.safe_until(a, b, p.probe()), ErrorCode::not_finite, "position", "safe_until", a);
-  expect_error(p.world.earliest_contact(b, p.probe()), ErrorCode::not_finite, "position", "earliest_contact",
-               b);
-  expect_error(p.world.nearest({0, 0, 0}, 1, p.probe()), ErrorCode::not_finite, "position", "nearest", a);
+  expect_error(p.world.safe_until(a, b, p.probe()), ErrorCode::not_finite, "position", "safe_until:", a);
+  expect_error(p.world.earliest_contact(b, p.probe()), ErrorCode::not_finite, "position",
+               "earliest_contact:", b);
+  expect_error(p.world.nearest({0, 0, 0}, 1, p.probe()), ErrorCode::not_finite, "position", "nearest:", a);
   p.distort = {};
   EXPECT_TRUE(p.world.safe_until(a, b, p.probe())->probed);
   p.run(2.0);

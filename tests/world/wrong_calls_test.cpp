@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "support/expect_error.hpp"
 #include "support/playground.hpp"
 
 namespace kinesphere {
@@ -12,18 +13,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-template <class T>
-void expect_error(const Result<T>& result, ErrorCode code, const std::string& argument,
-                  const std::string& call, BodyId body = no_body) {
-  ASSERT_FALSE(result) << argument;
-  EXPECT_EQ(result.error().code, code) << result.error().message;
-  EXPECT_EQ(result.error().argument, argument) << result.error().message;
-  EXPECT_EQ(result.error().body, body) << result.error().message;
-  EXPECT_EQ(result.error().message.rfind(call, 0), 0u) << result.error().message;
-  EXPECT_NE(result.error().message.find(argument), std::string::npos) << result.error().message;
-  EXPECT_EQ(result.error().message.find('\n'), std::string::npos) << result.error().message;
-}
 
 TEST(WrongWorld, IsRefusedByField) {
   const auto refused = [](ErrorCode code, const std::string& argument, const WorldDefinition& definition) {
