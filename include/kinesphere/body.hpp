@@ -5,6 +5,7 @@
 
 #include "kinesphere/body_id.hpp"
 #include "kinesphere/filter.hpp"
+#include "kinesphere/sensor.hpp"
 #include "kinesphere/vec3.hpp"
 
 namespace kinesphere {
@@ -34,8 +35,12 @@ struct BodyDefinition {
   /// State at the world's current time.
   Vec3 position{};
   Vec3 velocity{};
-  /// Which other bodies it may touch.
+  /// Which other bodies it may touch, sense and be sensed by.
   Filter filter{};
+  /// A body that is not solid touches no other, it is only sensed and senses: a trigger zone. Walls stop it.
+  bool solid = true;
+  /// At which distances it senses others: World::set_sensor.
+  SensorClass sensor_class = 0;
   /// For the caller: the world only keeps it.
   std::uint64_t user_data = 0;
 };

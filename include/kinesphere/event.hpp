@@ -24,8 +24,12 @@ enum class EventKind : std::uint8_t {
   /// Time would have stood still at a contact that is deep in its tolerance already. The Zeno guard moved it
   /// on by its least step, in which this pair may come to overlap by more than the contact tolerance.
   zeno_guard,
+  /// The gap of two bodies has come down to a sensor distance (to at most that and the contact tolerance).
+  sensor_enter,
+  /// The gap of two bodies that were within a sensor distance has grown to the separation distance beyond it.
+  sensor_leave,
 };
-inline constexpr int event_kind_count = 6;
+inline constexpr int event_kind_count = 8;
 
 /// The walls of the box, by the axis and side on which they stand.
 enum class Wall : std::uint8_t { none, x_lower, x_upper, y_lower, y_upper, z_lower, z_upper };
@@ -63,6 +67,8 @@ struct Event {
   /// the velocity changed more than promised (length / time); each zero when it is within the promise.
   double position_excess = 0.0;
   double velocity_excess = 0.0;
+  /// sensor_enter and sensor_leave: the sensor distance that has been crossed (length).
+  double distance = 0.0;
 };
 
 }  // namespace kinesphere

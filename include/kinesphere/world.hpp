@@ -45,6 +45,7 @@
 #include "kinesphere/probe.hpp"
 #include "kinesphere/queries.hpp"
 #include "kinesphere/result.hpp"
+#include "kinesphere/sensor.hpp"
 #include "kinesphere/world_definition.hpp"
 
 namespace kinesphere {
@@ -60,7 +61,7 @@ struct BodyView {
 
 /// The first thing that audit() found wrong.
 struct AuditFinding {
-  std::string where;  ///< "registration", "certificate", "contact", "wall", "filter" or "queue"
+  std::string where;  ///< "registration", "certificate", "contact", "sensor", "wall", "filter" or "queue"
   std::string what;   ///< which bodies, what is recorded, what it should be
 };
 
@@ -129,12 +130,22 @@ class World {
   /// Tells the world that the pair filter's answers about this body have changed.
   Result<void> refilter(BodyId body);
 
+  /// From now on the body touches others, or does not (BodyDefinition::solid).
+  Result<void> set_solid(BodyId body, bool solid);
+  /// From now on all bodies of this class have this sensor; without it they sense nothing. Sensor distances
+  /// that no longer count are left, and those that newly do are entered, in events at the next advance.
+  /// Errors: probe_in_progress; not_finite or out_of_range for a distance that is negative or beyond 2^41
+  /// contact tolerances. Cost: O(n) here, and each body of the class searches again at the next advance.
+  Result<void> set_sensor(SensorClass sensor_class, const Sensor& sensor);
+  Result<void> set_sensor_class(BodyId body, SensorClass sensor_class);
+  const Sensor& sensor(SensorClass sensor_class) const;
+
   Result<void> set_user_data(BodyId body, std::uint64_t data);
   /// Errors: unknown_body, stale_body.
   Result<std::uint64_t> user_data(BodyId body) const;
 
   /// Goes on to the next event, at most to time `until`. Returns the event, with time() at its time, or
-  /// nothing, with time() == until. Events come in the order of (time, kind, first, second, wall);
+  /// nothing, with time() == until. Events come in the order of (time, kind, first, second, wall, distance);
   /// those that a kick causes at the same instant follow in a new round of that order, and contacts that
   /// other changes have ended come first.
   /// Errors: time_backwards or not_finite for `until`; not_finite or out_of_range naming the body when
@@ -151,6 +162,13 @@ class World {
   /// The living bodies, disabled ones too, by index.
   std::vector<BodyId> bodies() const;
   const Counters& counters() const;
+
+  // What the events so far add up to. Errors: unknown_body, stale_body.
+
+  /// Whom the body touches, in the order in which the contacts began.
+  Result<std::vector<BodyId>> touching(BodyId body) const;
+  /// Which sensor distances it is within, in the order in which they were crossed.
+  Result<std::vector<Sensed>> sensed(BodyId body) const;
 
   /// Rebuilds from scratch what should be true now (every registration, certificate and scheduled time)
   /// and returns the first difference. Meant for tests: O(n^2).

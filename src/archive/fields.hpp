@@ -47,12 +47,18 @@ void transfer(Self& self, Archive& archive) {
   archive(category, mask, group);
 }
 
+template <Some<Sensor> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [distances, mask] = self;
+  archive(distances, mask);
+}
+
 template <Some<BodyDefinition> Self, class Archive>
 void transfer(Self& self, Archive& archive) {
   auto& [radius, acceleration_limit, planned_acceleration, position_error, velocity_error, position, velocity,
-         filter, user_data] = self;
+         filter, solid, sensor_class, user_data] = self;
   archive(radius, acceleration_limit, planned_acceleration, position_error, velocity_error, position,
-          velocity, filter, user_data);
+          velocity, filter, solid, sensor_class, user_data);
 }
 
 template <Some<Bound> Self, class Archive>
@@ -64,9 +70,9 @@ void transfer(Self& self, Archive& archive) {
 template <Some<Event> Self, class Archive>
 void transfer(Self& self, Archive& archive) {
   auto& [kind, time, first, second, wall, repeated, first_state, second_state, point, normal, gap,
-         approach_speed, position_excess, velocity_excess] = self;
+         approach_speed, position_excess, velocity_excess, distance] = self;
   archive(kind, time, first, second, wall, repeated, first_state, second_state, point, normal, gap,
-          approach_speed, position_excess, velocity_excess);
+          approach_speed, position_excess, velocity_excess, distance);
 }
 
 template <Some<WorldDefinition> Self, class Archive>

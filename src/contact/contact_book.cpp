@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace kinesphere {
 
 void ContactBook::add(std::uint32_t body, double largest_acceleration) {
   if (body >= entries_.size()) entries_.resize(body + 1);
-  entries_[body] = Entry{.partners = {}, .zeno_interval = rule_.zeno_interval(largest_acceleration)};
+  entries_[body] =
+      Entry{.partners = {}, .crossings = {}, .zeno_interval = rule_.zeno_interval(largest_acceleration)};
 }
 
 bool ContactBook::touch(std::uint32_t a, std::uint32_t b) const {
@@ -15,7 +17,19 @@ bool ContactBook::touch(std::uint32_t a, std::uint32_t b) const {
   return std::find(partners.begin(), partners.end(), b) != partners.end();
 }
 
-/// Of the bodies, or of the body and the wall, that the event names.
+bool ContactBook::is_within(std::uint32_t a, std::uint32_t b, double distance) const {
+  const auto& crossings = entries_[a].crossings;
+  return std::find(crossings.begin(), crossings.end(), Crossing{b, distance}) != crossings.end();
+}
+
+std::optional<double> ContactBook::innermost(std::uint32_t a, std::uint32_t b) const {
+  std::optional<double> least;
+  for (const Crossing& crossing : entries_[a].crossings)
+    if (crossing.partner == b && (!least || crossing.distance < *least)) least = crossing.distance;
+  return least;
+}
+
+/// Of the bodies, or of the body and the wall, that the event names: their contact or a sensor distance.
 void ContactBook::set_touching(const Event& contact, bool touching) {
   const std::uint32_t a = contact.first.index;
   const std::uint32_t b = contact.second.index;
@@ -23,6 +37,16 @@ void ContactBook::set_touching(const Event& contact, bool touching) {
     std::uint8_t& set = entries_[a].walls;
     const std::uint8_t bit = wall_bit(contact.wall);
     set = static_cast<std::uint8_t>(touching ? set | bit : set & ~bit);
+  } else if (is_of_sensor(contact)) {
+    const Crossing of_a{b, contact.distance};
+    const Crossing of_b{a, contact.distance};
+    if (touching) {
+      entries_[a].crossings.push_back(of_a);
+      entries_[b].crossings.push_back(of_b);
+    } else {
+      std::erase(entries_[a].crossings, of_a);
+      std::erase(entries_[b].crossings, of_b);
+    }
   } else if (touching) {
     entries_[a].partners.push_back(b);
     entries_[b].partners.push_back(a);
@@ -42,7 +66,7 @@ void ContactBook::end(const Event& contact) {
   set_touching(contact, false);
   // An end that had come by itself has not taken effect yet.
   pending_.erase(contact);
-  if (!rule_.impacts_only()) ended_.insert(contact);
+  if (is_of_sensor(contact) || !rule_.impacts_only()) ended_.insert(contact);
 }
 
 void ContactBook::announce(const Event& event) {
@@ -55,21 +79,23 @@ void ContactBook::announce(const Event& event) {
 bool ContactBook::take_effect(Event& event, const Sphere& first, const Sphere& second,
                               const std::optional<Box>& box) {
   const bool wall = event.wall != Wall::none;
-  const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
+  const bool begins_now = begins(event.kind);
   if (event.kind == EventKind::zeno_guard) guards_told_.insert(event);
   if (event.kind == EventKind::zeno_guard || event.kind == EventKind::bound_violation) return true;
-  const Event now = wall ? wall_event(event.kind, event.time, first, *box, event.wall)
-                         : contact_event(event.kind, event.time, first, second);
-  if (begins && !still_begins(now)) return false;
+  Event now = wall ? wall_event(event.kind, event.time, first, *box, event.wall)
+                   : contact_event(event.kind, event.time, first, second);
+  now.distance = event.distance;
+  if (begins_now && !still_begins(now)) return false;
   event = now;
-  if (begins) note_contact(event);
-  set_touching(event, begins);
+  if (begins_now && !is_of_sensor(event)) note_contact(event);
+  set_touching(event, begins_now);
   changed_.emplace_back(first.id.index, second.id.index);
   return true;
 }
 
 bool ContactBook::still_begins(const Event& now) const {
-  return rule_.decide(false, now.gap, now.approach_speed) == ContactRule::Change::begin;
+  const ContactRule& rule = is_of_sensor(now) ? sensor_rule_ : rule_;
+  return rule.decide(false, now.gap - now.distance, now.approach_speed) == ContactRule::Change::begin;
 }
 
 /// True when the body touched something less than its Zeno interval ago.
@@ -86,18 +112,26 @@ void ContactBook::note_contact(Event& begin) {
 }
 
 bool ContactBook::contacts_are_sound(bool has_walls) const {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> there;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> back;
+  // A contact as a crossing of its own.
+  constexpr double contact = -1.0;
+  std::vector<std::tuple<std::uint32_t, std::uint32_t, double>> there;
+  std::vector<std::tuple<std::uint32_t, std::uint32_t, double>> back;
   for (std::uint32_t body = 0; body < entries_.size(); ++body) {
     const Entry& entry = entries_[body];
     if (std::isnan(entry.last_contact) || !(entry.zeno_interval >= 0.0)) return false;
     if (entry.walls >= 1u << wall_count || (entry.walls != 0 && !has_walls)) return false;
     for (const std::uint32_t partner : entry.partners) {
-      if (partner == body || partner >= entries_.size()) return false;
-      there.emplace_back(body, partner);
-      back.emplace_back(partner, body);
+      there.emplace_back(body, partner, contact);
+      back.emplace_back(partner, body, contact);
+    }
+    for (const Crossing& crossing : entry.crossings) {
+      if (!(crossing.distance >= 0.0)) return false;
+      there.emplace_back(body, crossing.partner, crossing.distance);
+      back.emplace_back(crossing.partner, body, crossing.distance);
     }
   }
+  const auto impossible = [](const auto& pair) { return std::get<0>(pair) == std::get<1>(pair); };
+  if (std::any_of(there.begin(), there.end(), impossible)) return false;
   std::sort(there.begin(), there.end());
   std::sort(back.begin(), back.end());
   return there == back && std::adjacent_find(there.begin(), there.end()) == there.end();
@@ -121,6 +155,9 @@ bool ContactBook::is_sound(std::size_t bodies, double time, bool has_walls,
         return wall;
       case EventKind::zeno_guard:
         return pair || wall;
+      case EventKind::sensor_enter:
+      case EventKind::sensor_leave:
+        return pair && event.distance >= 0.0;
     }
     return false;
   };

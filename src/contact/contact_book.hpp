@@ -1,4 +1,5 @@
-// Who touches whom, and the events of the present instant on their way to the caller.
+// Who touches whom and who is within a sensor distance of whom, and the events of the present instant on
+// their way to the caller.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +12,33 @@
 
 #include "contact/contact_event.hpp"
 #include "contact/contact_rule.hpp"
+#include "contact/outlook.hpp"
 
 namespace kinesphere {
 
+/// A sensor distance within which a partner is.
+struct Crossing {
+  std::uint32_t partner;
+  double distance;
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [whom, how_far] = self;
+    archive(whom, how_far);
+  }
+  friend bool operator==(const Crossing&, const Crossing&) = default;
+};
+
 class ContactBook {
  public:
-  explicit ContactBook(const WorldDefinition& definition) : rule_(definition) {}
+  explicit ContactBook(const WorldDefinition& definition)
+      : rule_(definition), sensor_rule_(rule_.with_ends()) {}
 
+  /// Of contacts.
   const ContactRule& rule() const { return rule_; }
+  const ContactRule& rule_of(const Threshold& threshold) const {
+    return threshold.sensed ? sensor_rule_ : rule_;
+  }
 
   /// A body that touches nothing. `largest_acceleration` sets its Zeno interval.
   void add(std::uint32_t body, double largest_acceleration);
@@ -32,27 +52,36 @@ class ContactBook {
   const std::vector<std::uint32_t>& partners_of(std::uint32_t body) const { return entries_[body].partners; }
   /// A set of wall_bit().
   std::uint8_t walls_of(std::uint32_t body) const { return entries_[body].walls; }
+  /// In the order in which they were crossed.
+  const std::vector<Crossing>& crossings_of(std::uint32_t body) const { return entries_[body].crossings; }
+  bool is_within(std::uint32_t a, std::uint32_t b, double distance) const;
+  /// The least sensor distance that the two are within.
+  std::optional<double> innermost(std::uint32_t a, std::uint32_t b) const;
   // They do not touch any more, and nobody is told.
   void release(const Event& contact) { set_touching(contact, false); }
   void release_all(std::uint32_t body);
-  /// The caller is about to change a body, and its contacts with those partners and walls that the predicates
-  /// pick end with that. `sphere(number)` gives a body as it is before the change.
-  template <class SphereNow, class PicksPartner, class PicksWall>
+  /// The caller is about to change a body, and those of its contacts and crossings end with that whose end
+  /// `ends`(Event) picks. `sphere(number)` gives a body as it is before the change.
+  template <class SphereNow, class Ends>
   void end_contacts(std::uint32_t body, double time, SphereNow sphere, const std::optional<Box>& box,
-                    PicksPartner picks_partner, PicksWall picks_wall) {
-    const std::vector<std::uint32_t> partners = partners_of(body);
-    for (const std::uint32_t partner : partners)
-      if (picks_partner(partner))
-        end(contact_event(EventKind::contact_end, time, sphere(body), sphere(partner)));
+                    Ends ends) {
+    std::vector<Event> found;
+    for (const std::uint32_t partner : partners_of(body))
+      found.push_back(contact_event(EventKind::contact_end, time, sphere(body), sphere(partner)));
     for (const Wall wall : walls)
-      if (touches_wall(body, wall) && picks_wall(wall))
-        end(wall_event(EventKind::wall_end, time, sphere(body), *box, wall));
+      if (touches_wall(body, wall))
+        found.push_back(wall_event(EventKind::wall_end, time, sphere(body), *box, wall));
+    for (const Crossing& crossing : crossings_of(body)) {
+      found.push_back(contact_event(EventKind::sensor_leave, time, sphere(body), sphere(crossing.partner)));
+      found.back().distance = crossing.distance;
+    }
+    for (const Event& event : found)
+      if (ends(event)) end(event);
   }
   /// The body is about to go, and all its contacts end.
   template <class SphereNow>
   void depart(std::uint32_t body, double time, SphereNow sphere, const std::optional<Box>& box) {
-    const auto all = [](auto) { return true; };
-    end_contacts(body, time, sphere, box, all, all);
+    end_contacts(body, time, sphere, box, [](const Event&) { return true; });
   }
 
   // Events of this instant.
@@ -61,12 +90,12 @@ class ContactBook {
   /// Queues an event; the same event is not queued twice.
   void announce(const Event& event);
   const std::set<Event, DeliveredBefore>& pending() const { return pending_; }
-  /// What is pending about pairs that may not touch any more, with `body` in them, is dropped.
-  template <class MayTouch>
-  void drop_filtered(std::uint32_t body, MayTouch may_touch) {
+  /// What is pending about `body` and another, and does not hold any more, is dropped.
+  template <class Holds>
+  void drop_pending(std::uint32_t body, Holds holds) {
     std::erase_if(pending_, [&](const Event& event) {
       return event.second != no_body && (event.first.index == body || event.second.index == body) &&
-             !may_touch(event.first.index, event.second.index);
+             !holds(event);
     });
   }
   /// The next event that still holds after what the caller did at the ones before it; first of all the ends
@@ -83,7 +112,7 @@ class ContactBook {
       if (first && (second || event.second == no_body)) {
         const Sphere& other = second ? *second : *first;
         if (!take_effect(event, *first, other, box)) continue;
-      } else if (event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin) {
+      } else if (begins(event.kind)) {
         continue;
       }
       return event;
@@ -96,10 +125,10 @@ class ContactBook {
   std::vector<std::pair<std::uint32_t, std::uint32_t>>& changed() { return changed_; }
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& changed() const { return changed_; }
 
-  /// All but the rule, which follows from the world's definition.
+  /// All but the rules, which follow from the world's definition.
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [rule, entries, pending, ended, guards_told, changed] = self;
+    auto& [rule, sensor_rule, entries, pending, ended, guards_told, changed] = self;
     archive(entries, pending, ended, guards_told, changed);
   }
   /// For one that was read in a world of this many bodies at `time`: true when contacts are mutual, and
@@ -110,16 +139,25 @@ class ContactBook {
  private:
   struct Entry {
     std::vector<std::uint32_t> partners;
+    std::vector<Crossing> crossings;
     std::uint8_t walls = 0;
     double zeno_interval = 0.0;
     double last_contact = -std::numeric_limits<double>::infinity();
 
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
-      auto& [touched, touched_walls, interval, last] = self;
-      archive(touched, touched_walls, interval, last);
+      auto& [touched, crossed, touched_walls, interval, last] = self;
+      archive(touched, crossed, touched_walls, interval, last);
     }
   };
+
+  static bool begins(EventKind kind) {
+    return kind == EventKind::contact_begin || kind == EventKind::wall_begin ||
+           kind == EventKind::sensor_enter;
+  }
+  static bool is_of_sensor(const Event& event) {
+    return event.kind == EventKind::sensor_enter || event.kind == EventKind::sensor_leave;
+  }
 
   void set_touching(const Event& contact, bool touching);
   void end(const Event& contact);
@@ -130,6 +168,7 @@ class ContactBook {
   void note_contact(Event& begin);
 
   ContactRule rule_;
+  ContactRule sensor_rule_;
   std::vector<Entry> entries_;
   std::set<Event, DeliveredBefore> pending_;
   std::set<Event, DeliveredBefore> ended_;  ///< by the caller's changes

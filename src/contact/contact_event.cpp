@@ -53,7 +53,7 @@ HalfSpace half_space(const Box& box, Wall wall) {
 namespace {
 
 auto delivery_order(const Event& event) {
-  return std::tie(event.kind, event.first, event.second, event.wall);
+  return std::tie(event.kind, event.first, event.second, event.wall, event.distance);
 }
 
 }  // namespace

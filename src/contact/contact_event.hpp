@@ -31,7 +31,7 @@ inline constexpr std::uint8_t wall_bit(Wall wall) {
 inline constexpr Wall walls[] = {Wall::x_lower, Wall::x_upper, Wall::y_lower,
                                  Wall::y_upper, Wall::z_lower, Wall::z_upper};
 
-/// The order in which events of one instant are delivered: kind, first, second, wall.
+/// The order in which events of one instant are delivered: kind, first, second, wall, distance.
 bool delivered_before(const Event& a, const Event& b);
 /// For sets of events of one instant, which hold each event once.
 struct DeliveredBefore {

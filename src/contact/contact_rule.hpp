@@ -26,6 +26,13 @@ class ContactRule {
 
   bool impacts_only() const { return impacts_only_; }
 
+  /// The rule for sensor distances, beyond which gaps count from there: every begin has an end.
+  ContactRule with_ends() const {
+    ContactRule rule = *this;
+    rule.impacts_only_ = false;
+    return rule;
+  }
+
   /// For a pair that is apart: the gap that a certificate must guard, 0 outside the tolerance. Bouncing
   /// bodies that leave each other within it may come back as far as half the tolerance inside or, when they
   /// are nearly that deep, to where they are: so each bounce of a resting body starts where the last one did.

@@ -12,41 +12,48 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double just_after(double time) { return std::nextafter(time, infinity); }
 
-EventKind kind_of(ContactRule::Change change, Wall wall) {
+EventKind kind_of(ContactRule::Change change, bool sensed, Wall wall) {
+  if (sensed) return change == ContactRule::Change::begin ? EventKind::sensor_enter : EventKind::sensor_leave;
   if (change == ContactRule::Change::begin)
     return wall == Wall::none ? EventKind::contact_begin : EventKind::wall_begin;
   return wall == Wall::none ? EventKind::contact_end : EventKind::wall_end;
 }
 
 template <class Partner>
-double Outlook<Partner>::until_reports(bool touching) const {
-  const double time = touching ? separation(rule_.release_gap()) : meeting(0.0);
+double Outlook<Partner>::until_reports() const {
+  const double time = threshold_.within ? separation(rule_.release_gap()) : meeting(0.0);
   if (time == infinity || time <= now_) return time;
   const GapLimits gap = gap_limits(bound_, partner_, now_);
-  const bool far = touching ? gap.upper < rule_.separation_distance() : gap.lower > rule_.tolerance();
+  const bool far = threshold_.within ? gap.upper < rule_.separation_distance() + threshold_.distance
+                                     : gap.lower > rule_.tolerance() + threshold_.distance;
   return far ? time : now_;
 }
 
 template <class Partner>
-Verdict Outlook<Partner>::judge(bool touching, const Event& current, const Promise& promise) const {
+Verdict Outlook<Partner>::judge(const Event& current, const Promise& promise) const {
   Verdict verdict;
-  verdict.change = rule_.decide(touching, current.gap, current.approach_speed);
+  const double beyond = current.gap - threshold_.distance;
+  verdict.change = rule_.decide(threshold_.within, beyond, current.approach_speed);
   if (verdict.is_news()) return verdict;
-  if (touching && verdict.change != ContactRule::Change::release) {
+  if (threshold_.within && verdict.change != ContactRule::Change::release) {
     verdict.next_look = std::max(separation(rule_.release_gap()), just_after(now_));
     return verdict;
   }
   // A certificate cannot guard a gap that lies within its own rounding of the present one.
-  const double gap = current.gap - resolution();
+  const double gap = beyond - resolution();
   double time = meeting(rule_.guarded_gap(gap));
-  const double least = now_ + rule_.least_step(current.gap, promise.speed_error, promise.acceleration);
+  const double least = now_ + rule_.least_step(beyond, promise.speed_error, promise.acceleration);
   if (time < least) {
     // The Zeno guard: time has to move on between two looks at a contact that does not approach.
     time = least;
     verdict.zeno_step = true;
-    verdict.breaks_tolerance = rule_.step_breaks_tolerance(current.gap);
+    verdict.breaks_tolerance = rule_.step_breaks_tolerance(beyond);
   }
-  if (rule_.is_deep(gap)) time = std::min(time, separation(rule_.surface_gap()));
+  if (rule_.is_deep(gap)) {
+    const double surfaces = separation(rule_.surface_gap());
+    // What is known of the meeting ends at its horizon.
+    if (surfaces <= horizons_.meeting) time = std::min(time, surfaces);
+  }
   verdict.next_look = std::max(time, just_after(now_));
   return verdict;
 }

@@ -21,11 +21,11 @@ struct Horizons {
   double separation = std::numeric_limits<double>::infinity();
 };
 
-/// What fresh reports say of a contact.
+/// What fresh reports say of a threshold.
 struct Verdict {
   /// A begin or an end has to be delivered first; then no time is known.
   ContactRule::Change change = ContactRule::Change::none;
-  /// Else: whether they touch cannot change before this.
+  /// Else: it cannot be crossed before this.
   double next_look = 0.0;
   /// The Zeno guard has put next_look off, and in the second case by so much that the caller must be told.
   bool zeno_step = false;
@@ -34,36 +34,51 @@ struct Verdict {
   bool is_news() const { return change == ContactRule::Change::begin || change == ContactRule::Change::end; }
 };
 
-/// The kind of event that announces a change, a begin or an end, of a contact with a body or with `wall`.
-EventKind kind_of(ContactRule::Change change, Wall wall);
+/// What may change between a body and its partner: whether their gap is within a distance. 0 is their
+/// contact, all others are sensor distances.
+struct Threshold {
+  bool within;
+  double distance = 0.0;
+  bool sensed = false;
+};
+
+/// The kind of event that announces a change, a begin or an end: of a sensor distance, or of a contact with a
+/// body or with `wall`.
+EventKind kind_of(ContactRule::Change change, bool sensed, Wall wall);
 
 /// A body and its partner, another body's Bound or the HalfSpace inside a wall, seen from now on.
 template <class Partner>
 class Outlook {
  public:
-  Outlook(const ContactRule& rule, const Bound& bound, const Partner& partner, double now,
-          const Horizons& horizons)
-      : rule_(rule), bound_(bound), partner_(partner), now_(now), horizons_(horizons) {}
+  Outlook(const ContactRule& rule, const Threshold& threshold, const Bound& bound, const Partner& partner,
+          double now, const Horizons& horizons)
+      : rule_(rule),
+        threshold_(threshold),
+        bound_(bound),
+        partner_(partner),
+        now_(now),
+        horizons_(horizons) {}
 
-  /// From bounds as they are: whether the two touch cannot change before this time. `now` when fresh reports
+  /// From bounds as they are: the threshold cannot be crossed before this time. `now` when fresh reports
   /// are needed: bounds that keep away from where the contact changes give a useful certificate; if they do
   /// not, it may be as short as one likes, and with fresh reports the rule decides, or the certificate spans
   /// a tolerance.
-  double until_reports(bool touching) const;
+  double until_reports() const;
 
   /// From fresh reports; `current` is an event that describes the two now.
-  Verdict judge(bool touching, const Event& current, const Promise& promise) const;
+  Verdict judge(const Event& current, const Promise& promise) const;
 
  private:
   double meeting(double gap) const {
-    return earliest_meeting(bound_, partner_, now_, horizons_.meeting, gap);
+    return earliest_meeting(bound_, partner_, now_, horizons_.meeting, gap + threshold_.distance);
   }
   double separation(double gap) const {
-    return earliest_separation(bound_, partner_, now_, horizons_.separation, gap);
+    return earliest_separation(bound_, partner_, now_, horizons_.separation, gap + threshold_.distance);
   }
   double resolution() const;
 
   const ContactRule& rule_;
+  Threshold threshold_;
   const Bound& bound_;
   const Partner& partner_;
   double now_;

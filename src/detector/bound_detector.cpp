@@ -128,12 +128,12 @@ double BoundDetector::pair_outlook(std::uint32_t a, std::uint32_t b, double hori
   ++counters_.certificates;
   const Body& first = bodies_[a];
   const Body& second = bodies_[b];
-  const bool touching = book_.touch(a, b);
-  const Outlook<Bound> outlook(rule(), first.bound, second.bound, time_, {horizon, horizon});
-  if (!fresh(a) || !fresh(b)) return outlook.until_reports(touching);
+  const Outlook<Bound> outlook(rule(), {.within = book_.touch(a, b)}, first.bound, second.bound, time_,
+                               {horizon, horizon});
+  if (!fresh(a) || !fresh(b)) return outlook.until_reports();
   const Promise sum{first.definition.velocity_error + second.definition.velocity_error,
                     first.largest_acceleration() + second.largest_acceleration()};
-  return judge(outlook, touching, contact_event(EventKind::zeno_guard, time_, sphere(a), sphere(b)), sum);
+  return judge(outlook, contact_event(EventKind::zeno_guard, time_, sphere(a), sphere(b)), sum);
 }
 
 double BoundDetector::wall_outlook(std::uint32_t number, double horizon) {
@@ -146,22 +146,22 @@ double BoundDetector::wall_outlook(std::uint32_t number, double horizon) {
   double first = infinity;
   for (const Wall wall : walls) {
     const HalfSpace inside = half_space(*definition_.box, wall);
-    const Outlook<HalfSpace> outlook(rule(), body.bound, inside, time_, {horizon, horizon});
+    const Outlook<HalfSpace> outlook(rule(), {.within = book_.touches_wall(number, wall)}, body.bound, inside,
+                                     time_, {horizon, horizon});
     const Event current = wall_event(EventKind::zeno_guard, time_, sphere(number), *definition_.box, wall);
-    first = std::min(first, judge(outlook, book_.touches_wall(number, wall), current,
-                                  {body.definition.velocity_error, body.largest_acceleration()}));
+    first = std::min(first,
+                     judge(outlook, current, {body.definition.velocity_error, body.largest_acceleration()}));
   }
   return first;
 }
 
 /// Holds fresh reports against the contact rule.
 template <class Partner>
-double BoundDetector::judge(const Outlook<Partner>& outlook, bool touching, const Event& current,
-                            const Promise& promise) {
-  const Verdict verdict = outlook.judge(touching, current, promise);
+double BoundDetector::judge(const Outlook<Partner>& outlook, const Event& current, const Promise& promise) {
+  const Verdict verdict = outlook.judge(current, promise);
   if (verdict.is_news()) {
     Event news = current;
-    news.kind = kind_of(verdict.change, current.wall);
+    news.kind = kind_of(verdict.change, false, current.wall);
     book_.announce(news);
     return infinity;
   }

@@ -166,7 +166,7 @@ class FixedStep final : public Detector {
     const auto change = book_.rule().decide(touching, event.gap, event.approach_speed);
     if (change == ContactRule::Change::none) return;
     if (change == ContactRule::Change::release) return book_.release(event);
-    event.kind = kind_of(change, event.wall);
+    event.kind = kind_of(change, false, event.wall);
     book_.announce(event);
   }
 

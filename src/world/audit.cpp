@@ -65,6 +65,8 @@ class World::Engine::Audit {
     if (engine_.schedule_.contains(number)) find("queue", name(number) + " is not here but scheduled");
     if (!engine_.book_.partners_of(number).empty() || engine_.book_.walls_of(number) != 0)
       find("contact", name(number) + " is not here but touches something");
+    if (!engine_.book_.crossings_of(number).empty())
+      find("sensor", name(number) + " is not here but within a sensor distance");
   }
 
   void check_registration(std::uint32_t number) {
@@ -73,7 +75,8 @@ class World::Engine::Audit {
       find("registration", name(number) + " " + *wrong);
     if (b.dirty || !exact(b)) return;
     const Vec3 room = Vec3{1.0, 1.0, 1.0} * (0.25 * engine_.definition_.contact_tolerance);
-    const double exit = earliest_exit(b.bound, {b.box.lower - room, b.box.upper + room}, now_, b.box_end);
+    const double exit =
+        earliest_exit(engine_.reach(b), {b.box.lower - room, b.box.upper + room}, now_, b.box_end);
     if (too_late(b.box_end, exit, now_))
       find("registration", name(number) + " leaves its box" + times(b.box_end, exit));
   }
@@ -115,45 +118,63 @@ class World::Engine::Audit {
   }
 
   void check_pair(std::uint32_t a, std::uint32_t b) {
-    const bool touching = engine_.book_.touch(a, b);
-    if (touching != engine_.book_.touch(b, a)) return find("contact", pair(a, b) + " touch on one side only");
-    if (engine_.may_touch(a, b) != engine_.may_touch(b, a))
+    if (engine_.book_.touch(a, b) != engine_.book_.touch(b, a))
+      return find("contact", pair(a, b) + " touch on one side only");
+    if (engine_.may_meet(a, b) != engine_.may_meet(b, a))
       return find("filter", "the pair filter is not symmetric for " + pair(a, b));
-    if (!engine_.may_touch(a, b)) {
-      if (touching) find("filter", pair(a, b) + " touch though they may not");
-      return;
+    if (engine_.book_.touch(a, b) && !engine_.may_touch(a, b))
+      return find("filter", pair(a, b) + " touch though they may not");
+    check_crossings(a, b);
+    check_crossings(b, a);
+    if (!engine_.may_meet(a, b) || !settled(a, b)) return;
+    engine_.for_each_threshold(a, b, [&](const Threshold& threshold) { check_threshold(a, b, threshold); });
+  }
+
+  void check_crossings(std::uint32_t a, std::uint32_t b) {
+    for (const Crossing& crossing : engine_.book_.crossings_of(a)) {
+      if (crossing.partner != b) continue;
+      const bool senses = engine_.may_meet(a, b) &&
+                          engine_.sensors_.senses(body(a).definition, body(b).definition, crossing.distance);
+      if (!engine_.book_.is_within(b, a, crossing.distance))
+        find("sensor", pair(a, b) + " sense each other on one side only");
+      if (!senses) find("sensor", pair(a, b) + " are within a distance that neither senses");
     }
-    if (!settled(a, b)) return;
-    const double change = earliest_change(a, b, touching);
+  }
+
+  void check_threshold(std::uint32_t a, std::uint32_t b, const Threshold& threshold) {
+    if (!checkable(a, b, threshold)) return;
+    const double change = earliest_change(a, b, threshold);
     bool watched = false;
     for (const auto& [watcher, partner] : {std::pair(a, b), std::pair(b, a)}) {
       for (const Watch& watch : body(watcher).watches) {
         if (watch.partner != partner || watch.epoch != body(partner).epoch) continue;
         watched = true;
-        if (checkable(a, b) && too_late(watch.time, change, now_))
+        if (too_late(watch.time, change, now_))
           find("certificate", pair(a, b) + " may change unseen" + times(watch.time, change));
       }
     }
-    if (watched || !checkable(a, b)) return;
-    const double until = touching ? infinity : std::min(body(a).box_end, body(b).box_end);
-    if (!touching && !FloatBox(body(a).box).overlaps(FloatBox(body(b).box))) return;
+    if (watched) return;
+    const bool for_ever = threshold.within && !engine_.sensors_.any();
+    const double until = for_ever ? infinity : std::min(body(a).box_end, body(b).box_end);
+    if (!threshold.within && !FloatBox(body(a).box).overlaps(FloatBox(body(b).box))) return;
     if (too_late(until, change, now_))
       find("certificate", pair(a, b) + " are not watched" + times(until, change));
   }
 
-  double earliest_change(std::uint32_t a, std::uint32_t b, bool touching) const {
-    if (touching)
+  double earliest_change(std::uint32_t a, std::uint32_t b, const Threshold& threshold) const {
+    const ContactRule& rule = engine_.book_.rule_of(threshold);
+    if (threshold.within)
       return earliest_separation(body(a).bound, body(b).bound, now_, infinity,
-                                 engine_.book_.rule().release_gap());
-    const double distance = impacts() ? -engine_.definition_.contact_tolerance : 0.0;
-    return earliest_meeting(body(a).bound, body(b).bound, now_, infinity, distance);
+                                 rule.release_gap() + threshold.distance);
+    const double inside = rule.impacts_only() ? rule.tolerance() : 0.0;
+    return earliest_meeting(body(a).bound, body(b).bound, now_, infinity, threshold.distance - inside);
   }
 
   /// Bouncing bodies within the tolerance follow the contact rule, not the bare distance.
-  bool checkable(std::uint32_t a, std::uint32_t b) const {
+  bool checkable(std::uint32_t a, std::uint32_t b, const Threshold& threshold) const {
     if (!exact(body(a)) || !exact(body(b))) return false;
-    return !impacts() ||
-           gap_limits(body(a).bound, body(b).bound, now_).lower > engine_.definition_.contact_tolerance;
+    const ContactRule& rule = engine_.book_.rule_of(threshold);
+    return !rule.impacts_only() || gap_limits(body(a).bound, body(b).bound, now_).lower > rule.tolerance();
   }
 
   /// True when the engine owes a fact about the pair (a body and itself: its walls) now.

@@ -24,17 +24,16 @@ std::optional<Wall> World::Engine::certain_overlap_of_wall(const Bound& bound) c
 /// before.
 void World::Engine::replace(std::uint32_t number, const Bound& bound) {
   const double apart = book_.rule().separation_distance();
-  const auto ends_pair = [&](std::uint32_t partner) {
-    return book_.pending().contains(contact(EventKind::contact_end, number, partner)) ||
-           gap_limits(bound, bodies_[partner].bound, time_).lower >= apart;
-  };
-  const auto ends_wall = [&](Wall wall) {
-    return book_.pending().contains(wall_contact(EventKind::wall_end, number, wall)) ||
-           gap_limits(bound, half_space(*definition_.box, wall), time_).lower >= apart;
+  const auto ends = [&](const Event& end) {
+    if (book_.pending().contains(end)) return true;
+    const std::uint32_t partner = end.first.index == number ? end.second.index : end.first.index;
+    const GapLimits gap = end.wall == Wall::none
+                              ? gap_limits(bound, bodies_[partner].bound, time_)
+                              : gap_limits(bound, half_space(*definition_.box, end.wall), time_);
+    return gap.lower >= end.distance + apart;
   };
   book_.end_contacts(
-      number, time_, [this](std::uint32_t other) { return sphere(other); }, definition_.box, ends_pair,
-      ends_wall);
+      number, time_, [this](std::uint32_t other) { return sphere(other); }, definition_.box, ends);
   void_facts(number);
   appear(number, bound);
 }
@@ -82,8 +81,9 @@ void World::Engine::enable(BodyId id, const State& state) {
 }
 
 void World::Engine::set_filter(BodyId id, const Filter& filter) {
-  if (filter != Filter{}) filtering_ = true;
-  bodies_[id.index].definition.filter = filter;
+  BodyDefinition& definition = bodies_[id.index].definition;
+  definition.filter = filter;
+  learn_filter(definition);
   refilter(id);
 }
 
@@ -93,21 +93,47 @@ void World::Engine::set_pair_filter(PairFilter filter) {
   for (std::uint32_t number = 0; number < bodies_.size(); ++number) refilter(id_of(number));
 }
 
-/// Nothing is known any more of who may touch the body.
+void World::Engine::set_solid(BodyId id, bool solid) {
+  BodyDefinition& definition = bodies_[id.index].definition;
+  definition.solid = solid;
+  learn_filter(definition);
+  refilter(id);
+}
+
+void World::Engine::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
+  sensors_.set(sensor_class, sensor);
+  for (std::uint32_t number = 0; number < bodies_.size(); ++number)
+    if (bodies_[number].definition.sensor_class == sensor_class) refilter(id_of(number));
+}
+
+void World::Engine::set_sensor_class(BodyId id, SensorClass sensor_class) {
+  bodies_[id.index].definition.sensor_class = sensor_class;
+  refilter(id);
+}
+
+void World::Engine::learn_filter(const BodyDefinition& definition) {
+  if (definition.filter != Filter{} || !definition.solid) filtering_ = true;
+}
+
+/// Nothing is known any more of who may touch or sense the body.
 void World::Engine::refilter(BodyId id) {
   const std::uint32_t number = id.index;
   if (!bodies_[number].present()) return;
-  const auto filtered = [=, this](std::uint32_t partner) { return !may_touch(number, partner); };
   book_.end_contacts(
-      number, time_, [this](std::uint32_t other) { return sphere(other); }, definition_.box, filtered,
-      [](Wall) { return false; });
-  book_.drop_filtered(number, [this](std::uint32_t a, std::uint32_t b) { return may_touch(a, b); });
+      number, time_, [this](std::uint32_t other) { return sphere(other); }, definition_.box,
+      [this](const Event& end) { return !may_hold(end); });
+  book_.drop_pending(number, [this](const Event& event) { return may_hold(event); });
   void_facts(number);
 }
 
-bool World::Engine::may_touch(BodyId a, const Filter& filter_of_a, BodyId b,
-                              const Filter& filter_of_b) const {
-  return passes(filter_of_a, filter_of_b) && (!pair_filter_ || pair_filter_(a, b));
+/// Whether the contact or crossing that an event is about is possible at all.
+bool World::Engine::may_hold(const Event& event) const {
+  if (event.second == no_body) return true;
+  const std::uint32_t a = event.first.index;
+  const std::uint32_t b = event.second.index;
+  const bool sensed = event.kind == EventKind::sensor_enter || event.kind == EventKind::sensor_leave;
+  if (!sensed) return may_touch(a, b);
+  return may_meet(a, b) && sensors_.senses(bodies_[a].definition, bodies_[b].definition, event.distance);
 }
 
 }  // namespace kinesphere

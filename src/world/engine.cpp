@@ -21,7 +21,7 @@ BodyId World::Engine::add(const BodyDefinition& definition) {
   Body& body = bodies_[number];
   body.definition = definition;
   body.alive = true;
-  if (definition.filter != Filter{}) filtering_ = true;
+  learn_filter(definition);
   book_.add(number, body.largest_acceleration());
   ++size_;
   appear(number, bound_now(definition));
@@ -74,12 +74,12 @@ bool World::Engine::certainly_overlap(const Bound& a, const Bound& b) const {
 }
 
 std::optional<BodyId> World::Engine::certain_overlap(BodyId id, const Bound& bound,
-                                                     const Filter& filter) const {
+                                                     const BodyDefinition& definition) const {
   std::optional<BodyId> found;
   grid_.for_each_overlap(box_now(bound), [&](std::uint32_t other) {
     const Body& body = bodies_[other];
     const bool certain = other != id.index && certainly_overlap(bound, body.bound) &&
-                         may_touch(id, filter, id_of(other), body.definition.filter);
+                         may_touch(id, definition, id_of(other), body.definition);
     if (certain && (!found || other < found->index)) found = id_of(other);
   });
   return found;

@@ -2,9 +2,12 @@
 //
 // For every pair of living bodies one of these facts is recorded whenever time moves on:
 //   - their boxes do not overlap, and each body stays in its box until its box_end; or
-//   - one of the two watches the other: whether they touch cannot change before the watch's time; or
-//   - both are apart until the earlier of the two box ends; or
-//   - the filters keep them from touching.
+//   - one of the two watches the other: whether they touch, and which sensor distances they are within,
+//   cannot
+//     change before the watch's time; or
+//   - both are apart and cross no sensor distance until the earlier of the two box ends; or
+//   - the filters keep them from touching and sensing each other.
+// A box has room for all that its body can sense around it.
 // A fact is about the true bodies, so later probes leave it true. Only a discontinuity (a kick, a broken
 // promise, a change that the caller makes) ends it: it raises the body's epoch, which voids the watches that
 // others keep of it, and makes the body dirty. A dirty body gets a new box and looks for its neighbours again
@@ -13,6 +16,7 @@
 // its box end, its wall time and its watches.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -24,6 +28,7 @@
 
 #include "contact/contact_book.hpp"
 #include "contact/outlook.hpp"
+#include "contact/sensor_table.hpp"
 #include "kinesphere/world.hpp"
 #include "schedule/schedule.hpp"
 #include "space/hash_grid.hpp"
@@ -31,7 +36,8 @@
 
 namespace kinesphere {
 
-/// Whether the two touch cannot change before `time`, as long as the partner's epoch is still `epoch`.
+/// Whether the two touch or sense each other cannot change before `time`, as long as the partner's epoch is
+/// still `epoch`.
 struct Watch {
   double time;
   std::uint32_t partner;
@@ -47,7 +53,7 @@ struct Watch {
 struct Body {
   BodyDefinition definition;  ///< with the state of the last report
   Bound bound;                ///< since the last report
-  Box box;                    ///< contains the body until box_end
+  Box box;                    ///< contains the body, and all that it senses, until box_end
   double box_end = 0.0;
   double wall_time = 0.0;  ///< no wall contact begins or ends before this or, if it is infinite, box_end
   std::optional<Horizon> horizon;
@@ -71,6 +77,10 @@ struct Body {
   }
 
   bool fresh(double time) const { return bound.time == time; }
+  double box_extent() const {
+    const Vec3 size = box.upper - box.lower;
+    return std::max({size.x, size.y, size.z});
+  }
   double largest_acceleration() const {
     return definition.acceleration_limit + norm(definition.planned_acceleration);
   }
@@ -94,6 +104,9 @@ class World::Engine {
   void set_filter(BodyId id, const Filter& filter);
   void set_pair_filter(PairFilter filter);
   void refilter(BodyId id);
+  void set_solid(BodyId id, bool solid);
+  void set_sensor(SensorClass sensor_class, const Sensor& sensor);
+  void set_sensor_class(BodyId id, SensorClass sensor_class);
   void set_user_data(BodyId id, std::uint64_t data) { bodies_[id.index].definition.user_data = data; }
 
   double time() const { return time_; }
@@ -113,10 +126,18 @@ class World::Engine {
   /// Whether the two overlap by more than the tolerance now, whatever the bodies do within them.
   bool certainly_overlap(const Bound& a, const Bound& b) const;
   std::optional<Wall> certain_overlap_of_wall(const Bound& bound) const;
-  /// The first other body that certainly overlaps body `id` with this bound and filter, and may touch it.
-  std::optional<BodyId> certain_overlap(BodyId id, const Bound& bound, const Filter& filter) const;
-  /// Whether the filters, and the predicate, let two bodies touch.
-  bool may_touch(BodyId a, const Filter& filter_of_a, BodyId b, const Filter& filter_of_b) const;
+  /// The first other body that certainly overlaps body `id` with this bound and definition, and may touch it.
+  std::optional<BodyId> certain_overlap(BodyId id, const Bound& bound,
+                                        const BodyDefinition& definition) const;
+  /// Whether the filters, and the predicate, let two bodies touch or sense each other.
+  bool may_meet(BodyId a, const BodyDefinition& body_a, BodyId b, const BodyDefinition& body_b) const {
+    return passes(body_a.filter, body_b.filter) && (!pair_filter_ || pair_filter_(a, b));
+  }
+  bool may_touch(BodyId a, const BodyDefinition& body_a, BodyId b, const BodyDefinition& body_b) const {
+    return body_a.solid && body_b.solid && may_meet(a, body_a, b, body_b);
+  }
+  const SensorTable& sensors() const { return sensors_; }
+  const ContactBook& book() const { return book_; }
   std::optional<AuditFinding> audit() const;
 
   // What is known at the current time.
@@ -141,11 +162,14 @@ class World::Engine {
 
   // changes.cpp
   void replace(std::uint32_t number, const Bound& bound);
-  void end_filtered_contacts(std::uint32_t number);
-  bool may_touch(std::uint32_t a, std::uint32_t b) const {
-    return !filtering_ ||
-           may_touch(id_of(a), bodies_[a].definition.filter, id_of(b), bodies_[b].definition.filter);
+  void learn_filter(const BodyDefinition& definition);
+  bool may_meet(std::uint32_t a, std::uint32_t b) const {
+    return !filtering_ || may_meet(id_of(a), bodies_[a].definition, id_of(b), bodies_[b].definition);
   }
+  bool may_touch(std::uint32_t a, std::uint32_t b) const {
+    return !filtering_ || may_touch(id_of(a), bodies_[a].definition, id_of(b), bodies_[b].definition);
+  }
+  bool may_hold(const Event& event) const;
 
   // settling.cpp: facts.
   void mark_dirty(std::uint32_t number);
@@ -153,6 +177,7 @@ class World::Engine {
   Result<void> settle_all();
   Result<void> settle_round(const std::vector<std::uint32_t>& round);
   void choose_first_horizons(const std::vector<std::uint32_t>& round);
+  Bound reach(const Body& body) const;
   void register_box(std::uint32_t number);
   Result<void> search(std::uint32_t number);
   Result<void> settle_pair(std::uint32_t number, std::uint32_t partner);
@@ -160,9 +185,11 @@ class World::Engine {
   bool has_watch(std::uint32_t number, std::uint32_t partner) const;
   void watch(std::uint32_t number, std::uint32_t partner, double time);
   void unwatch(std::uint32_t number, std::uint32_t partner);
+  template <class Visit>
+  void for_each_threshold(std::uint32_t a, std::uint32_t b, Visit visit) const;
   template <class Partner>
-  std::optional<double> judge(const Outlook<Partner>& outlook, bool touching, const Event& current,
-                              const Promise& promise);
+  std::optional<double> judge(const Outlook<Partner>& outlook, const Threshold& threshold,
+                              const Event& current, const Promise& promise);
 
   // probing.cpp: reports.
   Result<void> probe(std::span<const std::uint32_t> numbers);
@@ -193,9 +220,10 @@ class World::Engine {
   HeapSchedule schedule_;
   std::vector<std::uint32_t> dirty_;
   Counters counters_;
+  SensorTable sensors_;
   PairFilter pair_filter_;
-  bool filtering_ = false;         ///< a body has had a filter of its own, or there is a predicate
-  bool gathering_ = false;         ///< not all of them have been found: a probe gave a bad answer
+  bool filtering_ = false;  ///< not all bodies may touch: filters, a predicate, bodies that are not solid
+  bool gathering_ = false;  ///< not all of them have been found: a probe gave a bad answer
   const Probe* probe_ = nullptr;   ///< during a call that may probe
   std::string_view probing_call_;  ///< its name, for messages
   bool probing_ = false;
@@ -204,5 +232,18 @@ class World::Engine {
   std::vector<State> probe_states_;
   std::vector<std::uint32_t> partners_;
 };
+
+/// What comes next between two bodies that may meet: their contact, the next sensor distance inward, and the
+/// next one outward.
+template <class Visit>
+void World::Engine::for_each_threshold(std::uint32_t a, std::uint32_t b, Visit visit) const {
+  const BodyDefinition& first = bodies_[a].definition;
+  const BodyDefinition& second = bodies_[b].definition;
+  if (first.solid && second.solid) visit(Threshold{.within = book_.touch(a, b)});
+  if (!sensors_.any()) return;
+  const auto crossed = [&](double distance) { return book_.is_within(a, b, distance); };
+  if (const auto next = sensors_.largest(first, second, crossed)) visit(Threshold{false, *next, true});
+  if (const auto innermost = book_.innermost(a, b)) visit(Threshold{true, *innermost, true});
+}
 
 }  // namespace kinesphere

@@ -8,9 +8,10 @@
 namespace kinesphere {
 
 /// A long horizon means few registrations, but a large box that meets many others. A registration whose box
-/// leaves the body a way D beyond its own width w costs about `registration_cost + density (2 (w + D))^3`
-/// candidate tests and lasts in proportion to D. Per unit of time that is least where 2 D^3 + 3 w D^2 = w^3 +
-/// registration_cost / (8 density).
+/// leaves the body a way D beyond its own width w costs about `registration_cost + larger + density (2 (w +
+/// D))^3` candidate tests and lasts in proportion to D; `larger` are those with boxes so much larger that
+/// this one lies within them whatever its own size is. Per unit of time that is least where 2 D^3 + 3 w D^2 =
+/// w^3 + (registration_cost + larger) / (8 density).
 class Horizon {
  public:
   /// To be read into.
@@ -24,12 +25,17 @@ class Horizon {
     return {first_way, 0x1p10 * contact_tolerance, 0x1p40 * contact_tolerance};
   }
 
+  /// Whether a box counts as `larger` beside one of the other extent.
+  static bool is_larger(double extent, double than_extent) { return extent > 4.0 * than_extent; }
+
   /// Learns from a search with a box of this extent, and chooses the next way.
-  void learn(std::size_t candidates, double box_extent, double body_width) {
+  void learn(std::size_t candidates, std::size_t larger, double box_extent, double body_width) {
     const double reach = 2.0 * std::max(box_extent, shortest_way_);
-    density_ += learning_rate * (static_cast<double>(candidates) / (reach * reach * reach) - density_);
+    density_ +=
+        learning_rate * (static_cast<double>(candidates - larger) / (reach * reach * reach) - density_);
     const double w = body_width;
-    const double target = w * w * w + registration_cost / (8.0 * density_);
+    const double fixed_cost = registration_cost + static_cast<double>(larger);
+    const double target = w * w * w + fixed_cost / (8.0 * density_);
     double way = way_;
     for (int step = 0; step < 3; ++step) {
       const double excess = (2.0 * way + 3.0 * w) * way * way - target;

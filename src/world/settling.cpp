@@ -119,11 +119,18 @@ void World::Engine::choose_first_horizons(const std::vector<std::uint32_t>& roun
       bodies_[number].horizon = Horizon::of_new_body(way, definition_.contact_tolerance);
 }
 
+/// Contains all that the body can touch or sense.
+Bound World::Engine::reach(const Body& body) const {
+  Bound bound = body.bound;
+  if (sensors_.any()) bound.radius += sensors_.reach(body.definition.sensor_class);
+  return bound;
+}
+
 void World::Engine::register_box(std::uint32_t number) {
   Body& body = bodies_[number];
   const double speed = norm(body.bound.velocity) + body.definition.velocity_error;
   body.box_end = just_after(time_ + body.horizon->length(speed, body.largest_acceleration()));
-  body.box = swept_box(body.bound, time_, body.box_end);
+  body.box = swept_box(reach(body), time_, body.box_end);
   grid_.set(number, body.box);
 }
 
@@ -133,23 +140,27 @@ Result<void> World::Engine::search(std::uint32_t number) {
   std::erase_if(bodies_[number].watches,
                 [this](const Watch& w) { return w.epoch != bodies_[w.partner].epoch; });
   partners_ = book_.partners_of(number);
-  const std::size_t touching = partners_.size();
+  for (const Crossing& crossing : book_.crossings_of(number)) partners_.push_back(crossing.partner);
+  const std::size_t known = partners_.size();
   grid_.for_each_overlap(bodies_[number].box, [&](std::uint32_t other) {
     if (other != number) partners_.push_back(other);
   });
-  const std::size_t candidates = partners_.size() - touching;
+  const std::size_t candidates = partners_.size() - known;
   counters_.candidates += candidates;
+  const double extent = bodies_[number].box_extent();
+  const auto larger = static_cast<std::size_t>(std::count_if(
+      partners_.begin() + static_cast<std::ptrdiff_t>(known), partners_.end(),
+      [&](std::uint32_t other) { return Horizon::is_larger(bodies_[other].box_extent(), extent); }));
   for (const std::uint32_t partner : partners_) {
     // A dirty partner will search itself; one that has searched in this round has found this body.
     const Body& other = bodies_[partner];
     if (other.dirty || other.searched || has_watch(number, partner) || has_watch(partner, number)) continue;
-    if (!may_touch(number, partner)) continue;
+    if (!may_meet(number, partner)) continue;
     if (auto settled = settle_pair(number, partner); !settled) return settled;
     if (bodies_[number].dirty) return {};
   }
   Body& body = bodies_[number];
-  const Vec3 size = body.box.upper - body.box.lower;
-  body.horizon->learn(candidates, std::max({size.x, size.y, size.z}), 2.0 * body.bound.radius);
+  body.horizon->learn(candidates, larger, extent, 2.0 * reach(body).radius);
   return settle_walls(number);
 }
 
@@ -159,21 +170,25 @@ Result<void> World::Engine::settle_pair(std::uint32_t number, std::uint32_t part
     const Body& a = bodies_[number];
     const Body& b = bodies_[partner];
     if (a.dirty || b.dirty) return {};  // a broken promise came up: its body searches again
-    const bool touching = book_.touch(number, partner);
-    const Outlook<Bound> outlook(book_.rule(), a.bound, b.bound, time_, {std::min(a.box_end, b.box_end)});
-    ++counters_.certificates;
-    if (!a.fresh(time_) || !b.fresh(time_)) {
-      const double time = outlook.until_reports(touching);
-      if (time > time_) {
-        watch(number, partner, time);
-        return {};
-      }
+    // When a box ends the pair is settled again, unless there is a watch: it must hold for all thresholds.
+    const double settled_again = std::min(a.box_end, b.box_end);
+    const Horizons horizons{settled_again, sensors_.any() ? settled_again : infinity};
+    const bool fresh = a.fresh(time_) && b.fresh(time_);
+    const Promise sum{a.definition.velocity_error + b.definition.velocity_error,
+                      a.largest_acceleration() + b.largest_acceleration()};
+    std::optional<double> next_look = infinity;
+    for_each_threshold(number, partner, [&](const Threshold& threshold) {
+      ++counters_.certificates;
+      const Outlook<Bound> outlook(book_.rule_of(threshold), threshold, a.bound, b.bound, time_, horizons);
+      const auto known = fresh
+                             ? judge(outlook, threshold, contact(EventKind::zeno_guard, number, partner), sum)
+                             : outlook.until_reports();
+      next_look = next_look && known ? std::optional(std::min(*next_look, *known)) : std::nullopt;
+    });
+    if (!fresh && *next_look <= time_) {
       if (auto probed = probe_staler(number, partner); !probed) return probed;
       continue;
     }
-    const Promise sum{a.definition.velocity_error + b.definition.velocity_error,
-                      a.largest_acceleration() + b.largest_acceleration()};
-    const auto next_look = judge(outlook, touching, contact(EventKind::zeno_guard, number, partner), sum);
     unwatch(number, partner);
     if (next_look) watch(number, partner, *next_look);
     return {};
@@ -181,14 +196,15 @@ Result<void> World::Engine::settle_pair(std::uint32_t number, std::uint32_t part
 }
 
 /// Holds fresh reports against the contact rule. Announces what is news; unless that is a begin or an end,
-/// tells how long whether the two touch cannot change.
+/// tells how long the threshold cannot be crossed.
 template <class Partner>
-std::optional<double> World::Engine::judge(const Outlook<Partner>& outlook, bool touching,
+std::optional<double> World::Engine::judge(const Outlook<Partner>& outlook, const Threshold& threshold,
                                            const Event& current, const Promise& promise) {
-  const Verdict verdict = outlook.judge(touching, current, promise);
+  const Verdict verdict = outlook.judge(current, promise);
   if (verdict.is_news()) {
     Event news = current;
-    news.kind = kind_of(verdict.change, current.wall);
+    news.kind = kind_of(verdict.change, threshold.sensed, current.wall);
+    news.distance = threshold.distance;
     book_.announce(news);
     return std::nullopt;
   }
@@ -219,10 +235,12 @@ Result<void> World::Engine::settle_walls(std::uint32_t number) {
   double first = infinity;
   for (const Wall wall : walls) {
     const HalfSpace inside = half_space(*definition_.box, wall);
-    const Outlook<HalfSpace> outlook(book_.rule(), body.bound, inside, time_, {body.box_end, body.box_end});
+    const Threshold threshold{.within = book_.touches_wall(number, wall)};
+    const Outlook<HalfSpace> outlook(book_.rule(), threshold, body.bound, inside, time_,
+                                     {body.box_end, body.box_end});
     const Promise promise{body.definition.velocity_error, body.largest_acceleration()};
-    const auto next_look = judge(outlook, book_.touches_wall(number, wall),
-                                 wall_contact(EventKind::zeno_guard, number, wall), promise);
+    const auto next_look =
+        judge(outlook, threshold, wall_contact(EventKind::zeno_guard, number, wall), promise);
     if (next_look) first = std::min(first, *next_look);
   }
   body.wall_time = first;

@@ -20,7 +20,7 @@ namespace {
 /// Ends with what a transfer as text would change.
 constexpr std::array<std::uint8_t, 8> mark{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'};
 /// Raise it when the fields change, or when the engine would go on from the same fields in another way.
-constexpr std::uint32_t format_version = 1;
+constexpr std::uint32_t format_version = 2;
 constexpr std::size_t header_size = 20;
 constexpr std::size_t checksum_size = 8;
 
@@ -91,9 +91,9 @@ bool is_sound(const Box& box) {
 template <class Self, class Archive>
 void World::Engine::transfer(Self& self, Archive& archive) {
   // The definition comes first, as an engine is made from it; the rest matters only during advance().
-  auto& [definition, book, time, size, bodies, free, grid, schedule, dirty, counters, pair_filter, filtering,
-         gathering, probe, probing_call, probing, probe_ids, probe_states, partners] = self;
-  archive(book, time, size, bodies, free, grid, schedule, dirty, counters, filtering, gathering);
+  auto& [definition, book, time, size, bodies, free, grid, schedule, dirty, counters, sensors, pair_filter,
+         filtering, gathering, probe, probing_call, probing, probe_ids, probe_states, partners] = self;
+  archive(book, time, size, bodies, free, grid, schedule, dirty, counters, sensors, filtering, gathering);
 }
 
 std::vector<std::byte> World::Engine::save() const {
@@ -131,6 +131,8 @@ Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const st
 const char* World::Engine::contradiction() const {
   if (!std::isfinite(time_)) return "time";
   if (!bodies_are_sound()) return "bodies";
+  for (int number = 0; number <= std::numeric_limits<SensorClass>::max(); ++number)
+    if (!check_sensor(sensors_.of(static_cast<SensorClass>(number)), definition_)) return "sensors";
   const auto known = [this](BodyId id) { return was_given_out(id); };
   if (!book_.is_sound(bodies_.size(), time_, definition_.box.has_value(), known)) return "contacts";
   const auto present = static_cast<std::size_t>(
@@ -142,7 +144,9 @@ const char* World::Engine::contradiction() const {
     const bool takes_part = bodies_[number].present();
     if (grid_.contains(number) != takes_part) return "grid";
     if (schedule_.contains(number) != takes_part) return "schedule";
-    if (!takes_part && (!book_.partners_of(number).empty() || book_.walls_of(number) != 0)) return "contacts";
+    if (!takes_part && (!book_.partners_of(number).empty() || !book_.crossings_of(number).empty() ||
+                        book_.walls_of(number) != 0))
+      return "contacts";
   }
   return nullptr;
 }

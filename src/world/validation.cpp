@@ -100,6 +100,15 @@ Result<void> check_state(const State& state, const BodyDefinition& definition, B
   return check.result();
 }
 
+Result<void> check_sensor(const Sensor& sensor, const WorldDefinition& world) {
+  InputCheck check("set_sensor");
+  for (std::size_t number = 0; number < sensor.distances.size(); ++number) {
+    require_size(check, {"sensor", no_body, "distance", number}, sensor.distances[number],
+                 coordinate_limit(world));
+  }
+  return check.result();
+}
+
 Result<void> check_velocity(const Vec3& velocity, BodyId body, std::string_view call) {
   return InputCheck(call).within({"velocity", body}, velocity, magnitude_limit).result();
 }

@@ -16,6 +16,7 @@ Result<void> check_promise(const MotionPromise& promise, BodyId body, const Worl
                            std::string_view call);
 Result<void> check_state(const State& state, const BodyDefinition& definition, BodyId body,
                          const WorldDefinition& world, std::string_view call);
+Result<void> check_sensor(const Sensor& sensor, const WorldDefinition& world);
 Result<void> check_velocity(const Vec3& velocity, BodyId body, std::string_view call);
 Result<void> check_report(const State& state, BodyId body, double time, const WorldDefinition& world,
                           std::string_view call = "advance");

@@ -63,7 +63,7 @@ Result<void> World::check_enabled(BodyId body, bool enabled, std::string_view ca
 /// Whether there is room for body `id` with this definition, where overlaps are not allowed.
 Result<void> World::check_room(const BodyDefinition& body, BodyId id, std::string_view call) const {
   if (definition().allow_overlap) return {};
-  const auto other = engine_->certain_overlap(id, engine_->bound_now(body), body.filter);
+  const auto other = engine_->certain_overlap(id, engine_->bound_now(body), body);
   return other ? Result<void>(overlap_error(call, *other, text_of(*other))) : Result<void>();
 }
 
@@ -88,7 +88,7 @@ Result<void> World::check_growth(const BodyDefinition& changed, BodyId id, std::
                      " must keep the whole sphere in the box, but it would overlap the wall " +
                      std::string(name_of(*wall))};
   }
-  if (const auto other = engine_->certain_overlap(id, bound, body.definition.filter))
+  if (const auto other = engine_->certain_overlap(id, bound, body.definition))
     return overlap_error(call, *other, text_of(*other), argument);
   return {};
 }
@@ -115,8 +115,8 @@ Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodie
     std::optional<std::uint32_t> other;
     earlier.for_each_overlap(box, [&](std::uint32_t candidate) {
       const bool overlap = engine_->certainly_overlap(bound, engine_->bound_now(bodies[candidate])) &&
-                           engine_->may_touch(engine_->next_id(number), bodies[number].filter,
-                                              engine_->next_id(candidate), bodies[candidate].filter);
+                           engine_->may_touch(engine_->next_id(number), bodies[number],
+                                              engine_->next_id(candidate), bodies[candidate]);
       if (overlap && (!other || candidate < *other)) other = candidate;
     });
     if (other) return overlap_error(call, no_body, "bodies[" + std::to_string(*other) + "]");
@@ -214,6 +214,26 @@ Result<void> World::refilter(BodyId body) {
   return valid;
 }
 
+Result<void> World::set_solid(BodyId body, bool solid) {
+  auto valid = check_call(body, "set_solid");
+  if (valid) engine_->set_solid(body, solid);
+  return valid;
+}
+
+Result<void> World::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
+  auto valid = first_error(check_idle(engine_->probing(), "set_sensor"), check_sensor(sensor, definition()));
+  if (valid) engine_->set_sensor(sensor_class, sensor);
+  return valid;
+}
+
+Result<void> World::set_sensor_class(BodyId body, SensorClass sensor_class) {
+  auto valid = check_call(body, "set_sensor_class");
+  if (valid) engine_->set_sensor_class(body, sensor_class);
+  return valid;
+}
+
+const Sensor& World::sensor(SensorClass sensor_class) const { return engine_->sensors().of(sensor_class); }
+
 Result<void> World::set_user_data(BodyId body, std::uint64_t data) {
   auto valid = check_call(body, "set_user_data");
   if (valid) engine_->set_user_data(body, data);
@@ -258,6 +278,22 @@ Result<BodyView> World::body(BodyId id) const {
   if (auto valid = check_alive(id, "body"); !valid) return valid.error();
   const Body& body = engine_->table()[id.index];
   return BodyView{body.definition, body.bound, body.box, body.box_end, body.enabled};
+}
+
+Result<std::vector<BodyId>> World::touching(BodyId body) const {
+  if (auto valid = check_alive(body, "touching"); !valid) return valid.error();
+  std::vector<BodyId> partners;
+  for (const std::uint32_t partner : engine_->book().partners_of(body.index))
+    partners.push_back(engine_->id_of(partner));
+  return partners;
+}
+
+Result<std::vector<Sensed>> World::sensed(BodyId body) const {
+  if (auto valid = check_alive(body, "sensed"); !valid) return valid.error();
+  std::vector<Sensed> within;
+  for (const Crossing& crossing : engine_->book().crossings_of(body.index))
+    within.push_back({engine_->id_of(crossing.partner), crossing.distance});
+  return within;
 }
 
 std::vector<BodyId> World::bodies() const {

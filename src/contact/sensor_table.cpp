@@ -1,0 +1,23 @@
+#include "contact/sensor_table.hpp"
+
+#include <algorithm>
+
+namespace kinesphere {
+
+void SensorTable::set(SensorClass sensor_class, const Sensor& sensor) {
+  if (sensor_class >= sensors_.size()) sensors_.resize(sensor_class + std::size_t{1});
+  sensors_[sensor_class] = sensor;
+  any_ = std::any_of(sensors_.begin(), sensors_.end(), [](const Sensor& s) { return !s.distances.empty(); });
+}
+
+const Sensor& SensorTable::of(SensorClass sensor_class) const {
+  static const Sensor nothing;
+  return sensor_class < sensors_.size() ? sensors_[sensor_class] : nothing;
+}
+
+double SensorTable::reach(SensorClass sensor_class) const {
+  const std::vector<double>& distances = of(sensor_class).distances;
+  return distances.empty() ? 0.0 : *std::max_element(distances.begin(), distances.end());
+}
+
+}  // namespace kinesphere

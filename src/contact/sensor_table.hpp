@@ -1,0 +1,53 @@
+// Which distances two bodies sense each other at, by their classes and categories.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "kinesphere/body.hpp"
+#include "kinesphere/sensor.hpp"
+
+namespace kinesphere {
+
+class SensorTable {
+ public:
+  void set(SensorClass sensor_class, const Sensor& sensor);
+  /// That of a class which was never set senses nothing.
+  const Sensor& of(SensorClass sensor_class) const;
+  /// False in a world without sensors.
+  bool any() const { return any_; }
+  /// Nothing farther away than this is sensed (length; the largest distance, or 0).
+  double reach(SensorClass sensor_class) const;
+
+  /// The largest distance at which either of the two senses the other and that is not `known`(distance).
+  template <class Known>
+  std::optional<double> largest(const BodyDefinition& a, const BodyDefinition& b, Known known) const {
+    std::optional<double> found;
+    const auto consider = [&](const BodyDefinition& watcher, const BodyDefinition& watched) {
+      const Sensor& sensor = of(watcher.sensor_class);
+      if ((sensor.mask & watched.filter.category) == 0) return;
+      for (const double distance : sensor.distances)
+        if ((!found || distance > *found) && !known(distance)) found = distance;
+    };
+    consider(a, b);
+    consider(b, a);
+    return found;
+  }
+  /// Whether one of the two senses the other at this distance.
+  bool senses(const BodyDefinition& a, const BodyDefinition& b, double distance) const {
+    return largest(a, b, [=](double other) { return other != distance; }).has_value();
+  }
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [sensors, any] = self;
+    archive(sensors, any);
+  }
+
+ private:
+  std::vector<Sensor> sensors_;  ///< by class
+  bool any_ = false;
+};
+
+}  // namespace kinesphere
