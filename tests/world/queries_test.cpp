@@ -171,7 +171,7 @@ class Queries : public testing::TestWithParam<CrowdKind> {
 };
 
 TEST_P(Queries, AgreeWithBruteForce) {
-  for (int stop = 1; stop <= 80; ++stop) {
+  for (int stop = 1; stop <= 40; ++stop) {
     // Before the world has looked at the changes, too.
     for (int k = 0; k < 4; ++k) ASSERT_NO_FATAL_FAILURE(ask()) << "stop " << stop;
     while (const auto event = crowd.advance(-1.0 + 0.05 * stop)) {
