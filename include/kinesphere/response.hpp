@@ -15,4 +15,18 @@ struct Bounce {
 /// (restitution 1), which keeps inelastic collapse from stopping time (Luding and McNamara's TC model).
 Bounce bounce(const Event& contact, double first_mass, double second_mass, double restitution);
 
+/// As bounce(), for bodies that come to rest in a heap: a `repeated` contact loses energy like any other, but
+/// the two leave each other with `resting_speed` (> 0) at least. So they never stop dead: a heap at rest
+/// keeps up tiny hops of that speed, and its cost is bounded: a body that carries its own weight n times over
+/// has about n g / resting_speed contacts in a unit of time. Restitution 1 gains nothing either. For rest to
+/// be told from flight the world's zeno_interval should be the time of such a hop, 2 resting_speed / g, and
+/// resting_speed at least least_resting_speed().
+Bounce settle(const Event& contact, double first_mass, double second_mass, double restitution,
+              double resting_speed);
+
+/// sqrt(3 tolerance acceleration): the speed of a body that falls from the outer edge of the contact
+/// tolerance to half of it inside, where the world looks again. Slower ones would sink to where only the Zeno
+/// guard holds them. `acceleration` is the largest of a body, limit and plan; both must be >= 0.
+double least_resting_speed(double contact_tolerance, double acceleration);
+
 }  // namespace kinesphere

@@ -33,6 +33,7 @@ struct Scene {
   std::unique_ptr<const Motion> motion;
   Response response = Response::pass_through;
   double restitution = 1.0;
+  double resting_speed = 0.0;  ///< positive: bodies settle() with it instead of just bounce()
   double end_time = 1.0;
 };
 
@@ -84,7 +85,11 @@ struct SceneParameters {
   double redraw_interval = 0.2;  ///< how long a random force lasts
   Response response = Response::bounce;
   double restitution = 1.0;
+  /// Scene::resting_speed. When positive and too small for the contact tolerance, it is raised to
+  /// least_resting_speed().
+  double resting_speed = 0.0;
   double contact_tolerance = 1e-6;
+  double zeno_interval = 0.0;  ///< WorldDefinition::zeno_interval
   double seconds = 15.0;
   std::uint64_t seed = 1;
 };

@@ -1,14 +1,36 @@
 #include "kinesphere/response.hpp"
 
-namespace kinesphere {
+#include <algorithm>
+#include <cmath>
 
-Bounce bounce(const Event& contact, double first_mass, double second_mass, double restitution) {
-  const double kept = contact.repeated ? 1.0 : restitution;
+namespace kinesphere {
+namespace {
+
+/// The two leave each other with `kept` times their approach speed.
+Bounce rebound(const Event& contact, double first_mass, double second_mass, double kept) {
   const Vec3 change = contact.normal * ((1.0 + kept) * contact.approach_speed);
   if (contact.second == no_body) return {contact.first_state.velocity - change, {}};
   const double mass = first_mass + second_mass;
   return {contact.first_state.velocity - change * (second_mass / mass),
           contact.second_state.velocity + change * (first_mass / mass)};
+}
+
+}  // namespace
+
+Bounce bounce(const Event& contact, double first_mass, double second_mass, double restitution) {
+  return rebound(contact, first_mass, second_mass, contact.repeated ? 1.0 : restitution);
+}
+
+Bounce settle(const Event& contact, double first_mass, double second_mass, double restitution,
+              double resting_speed) {
+  const double approach = contact.approach_speed;
+  const bool rests = contact.repeated && approach > 0.0 && restitution < 1.0;
+  const double kept = rests ? std::max(restitution, resting_speed / approach) : restitution;
+  return rebound(contact, first_mass, second_mass, kept);
+}
+
+double least_resting_speed(double contact_tolerance, double acceleration) {
+  return std::sqrt(3.0 * contact_tolerance * acceleration);
 }
 
 }  // namespace kinesphere

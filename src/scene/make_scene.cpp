@@ -1,4 +1,5 @@
 // Scenes from parameters, and the built-in ones.
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -7,6 +8,7 @@
 #include "kinesphere/motion/random_forces.hpp"
 #include "kinesphere/motion/velocity_field.hpp"
 #include "kinesphere/random.hpp"
+#include "kinesphere/response.hpp"
 #include "kinesphere/scene.hpp"
 #include "scene/placement.hpp"
 
@@ -32,6 +34,8 @@ Result<void> check(const SceneParameters& p) {
       .finite({"gravity"}, p.gravity)
       .box({"box"}, p.box)
       .positive({"contact_tolerance"}, p.contact_tolerance)
+      .not_negative({"resting_speed"}, p.resting_speed)
+      .not_negative({"zeno_interval"}, p.zeno_interval)
       .require(p.restitution >= 0.0 && p.restitution <= 1.0, ErrorCode::out_of_range, {"restitution"},
                "must lie in [0, 1]", p.restitution)
       .result();
@@ -80,9 +84,12 @@ Result<Scene> make_scene(const SceneParameters& p) {
   scene.name = p.name;
   scene.response = p.response;
   scene.restitution = p.restitution;
+  const double least = least_resting_speed(p.contact_tolerance, p.limit_max + norm(p.gravity));
+  if (p.resting_speed > 0.0) scene.resting_speed = std::max(p.resting_speed, least);
   scene.end_time = p.seconds;
   if (p.walls) scene.world.box = p.box;
   scene.world.contact_tolerance = p.contact_tolerance;
+  scene.world.zeno_interval = p.zeno_interval;
   scene.world.contacts = p.response == Response::bounce ? ContactMode::impacts : ContactMode::begin_and_end;
 
   std::vector<double> radii;
@@ -142,6 +149,21 @@ const std::vector<SceneParameters>& built_in_scenes() {
                          .box = {{0, 0, 0}, {100, 100, 100}},
                          .restitution = 0.9,
                          .seconds = 10.0}),
+      // They fall into a heap 6 spheres deep and come to rest.
+      with_name("pile", {.motion = Kind::ballistic,
+                         .radius_min = 0.45,
+                         .radius_max = 0.55,
+                         .speed_min = 0.0,
+                         .speed_max = 1.0,
+                         .limit_min = 0.0,
+                         .limit_max = 0.0,
+                         .gravity = {0, 0, -9.81},
+                         .box = {{0, 0, 0}, {12, 12, 20}},
+                         .restitution = 0.5,
+                         .resting_speed = 0.5,
+                         .contact_tolerance = 5e-4,
+                         .zeno_interval = 0.1,
+                         .seconds = 20.0}),
   };
   return scenes;
 }

@@ -105,7 +105,10 @@ class Simulation {
     const std::uint32_t first = event.first.index;
     const bool pair = event.second != no_body;
     const std::uint32_t second = pair ? event.second.index : first;
-    const Bounce after = bounce(event, mass(first), mass(second), scene_.restitution);
+    const double restitution = scene_.restitution;
+    const Bounce after = scene_.resting_speed > 0.0
+                             ? settle(event, mass(first), mass(second), restitution, scene_.resting_speed)
+                             : bounce(event, mass(first), mass(second), restitution);
     if (auto kicked = kick(first, event.time, after.first_velocity); !kicked) return kicked;
     return pair ? kick(second, event.time, after.second_velocity) : Result<void>();
   }
