@@ -15,12 +15,12 @@ struct Bounce {
 /// (restitution 1), which keeps inelastic collapse from stopping time (Luding and McNamara's TC model).
 Bounce bounce(const Event& contact, double first_mass, double second_mass, double restitution);
 
-/// As bounce(), for bodies that come to rest in a heap: a `repeated` contact loses energy like any other, but
-/// the two leave each other with `resting_speed` (> 0) at least. So they never stop dead: a heap at rest
-/// keeps up tiny hops of that speed, and its cost is bounded: a body that carries its own weight n times over
-/// has about n g / resting_speed contacts in a unit of time. Restitution 1 gains nothing either. For rest to
-/// be told from flight the world's zeno_interval should be the time of such a hop, 2 resting_speed / g, and
-/// resting_speed at least least_resting_speed().
+/// As bounce(), for bodies that come to rest in a heap: also a `repeated` contact loses energy, but no two
+/// leave each other more slowly than with `resting_speed` (> 0) or, in a contact that is not repeated or of
+/// restitution 1, than they came. So nothing stops dead: a heap at rest keeps up tiny hops of that speed, and
+/// its cost is bounded: a body that carries n times its own weight has about n g / resting_speed contacts in
+/// a unit of time. For rest to be told from flight the world's zeno_interval should be the time of such a
+/// hop, 2 resting_speed / g, and resting_speed at least least_resting_speed().
 Bounce settle(const Event& contact, double first_mass, double second_mass, double restitution,
               double resting_speed);
 

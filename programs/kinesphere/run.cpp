@@ -110,7 +110,7 @@ std::string summary_of(const SceneParameters& parameters, const RunOptions& opti
   summary.row("simulated", fmt::format("{} s", number(result.simulated_time)),
               fmt::format("{} body-seconds", number(result.body_time)));
   summary.space();
-  add_events(summary, result, scene.response == Response::pass_through);
+  add_events(summary, result, scene);
   summary.space();
   summary.row("probes", grouped(counters.probes),
               fmt::format("{} per body-second", number(probes / result.body_time)));

@@ -59,13 +59,14 @@ void add_scene(Summary& summary, const SceneParameters& parameters) {
   summary.row("seed", std::to_string(parameters.seed));
 }
 
-void add_events(Summary& summary, const SimulationResult& result, bool with_ends) {
+void add_events(Summary& summary, const SimulationResult& result, const Scene& scene) {
   const Counters& counters = result.counters;
   const auto row = [&](std::string label, EventKind begin, EventKind end) {
     const std::uint64_t begun = counters.count(begin);
     std::string note =
         fmt::format("{} per body-second", number(static_cast<double>(begun) / result.body_time));
-    if (with_ends) note += fmt::format(", {} ended", grouped(counters.count(end)));
+    if (scene.response == Response::pass_through)
+      note += fmt::format(", {} ended", grouped(counters.count(end)));
     summary.row(std::move(label), grouped(begun), std::move(note));
   };
   row("contacts", EventKind::contact_begin, EventKind::contact_end);
@@ -73,8 +74,11 @@ void add_events(Summary& summary, const SimulationResult& result, bool with_ends
   if (counters.repeated_contacts > 0) {
     summary.row("repeated", grouped(counters.repeated_contacts), "contacts within the Zeno interval");
   }
-  if (const auto count = counters.count(EventKind::zeno_guard); count > 0) {
-    summary.row("zeno guard", grouped(count), "contacts where time would have stood still");
+  const std::uint64_t guards = counters.count(EventKind::zeno_guard);
+  if (guards + counters.zeno_steps > 0 || scene.resting_speed > 0.0) {
+    summary.row("zeno guard", grouped(guards),
+                fmt::format("contacts left to overlap; {} looks put off within the tolerance",
+                            grouped(counters.zeno_steps)));
   }
   if (const auto count = counters.count(EventKind::bound_violation); count > 0) {
     summary.row("bound violations", grouped(count), "states that broke a body's promise");

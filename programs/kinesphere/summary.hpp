@@ -34,8 +34,8 @@ std::string number(double value);
 
 /// What the scene is: name, motion, bodies, seed, response.
 void add_scene(Summary& summary, const SceneParameters& parameters);
-/// Contacts, walls and what went wrong; `with_ends` where contacts have ends.
-void add_events(Summary& summary, const SimulationResult& result, bool with_ends);
+/// Contacts, walls and what went wrong; how often the Zeno guard acted, if it did or the scene settles.
+void add_events(Summary& summary, const SimulationResult& result, const Scene& scene);
 /// Real time spent, per simulated second too, and the real-time factor: simulated over real time.
 void add_speed(Summary& summary, double simulated_seconds, double real_seconds);
 

@@ -24,9 +24,10 @@ Bounce bounce(const Event& contact, double first_mass, double second_mass, doubl
 Bounce settle(const Event& contact, double first_mass, double second_mass, double restitution,
               double resting_speed) {
   const double approach = contact.approach_speed;
-  const bool rests = contact.repeated && approach > 0.0 && restitution < 1.0;
-  const double kept = rests ? std::max(restitution, resting_speed / approach) : restitution;
-  return rebound(contact, first_mass, second_mass, kept);
+  if (!(approach > 0.0)) return rebound(contact, first_mass, second_mass, restitution);
+  const bool gains = contact.repeated && restitution < 1.0;
+  const double least = gains ? resting_speed : std::min(resting_speed, approach);
+  return rebound(contact, first_mass, second_mass, std::max(restitution, least / approach));
 }
 
 double least_resting_speed(double contact_tolerance, double acceleration) {

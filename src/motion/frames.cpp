@@ -30,12 +30,13 @@ Result<Frames> Frames::create(FramesDefinition definition) {
 }
 
 Frames::Frames(FramesDefinition definition)
-    : previous_(definition.start),
-      latest_(std::move(definition.start)),
+    : latest_(std::move(definition.start)),
       limits_(std::move(definition.acceleration_limits)),
       interval_(definition.interval),
       position_error_(definition.position_error),
-      start_time_(definition.start_time) {}
+      start_time_(definition.start_time) {
+  for (const Vec3& position : latest_) chords_.push_back({start_time_, position, {}});
+}
 
 Result<void> Frames::push(std::span<const Vec3> positions) {
   InputCheck check("push");
@@ -43,8 +44,11 @@ Result<void> Frames::push(std::span<const Vec3> positions) {
                 "must have one entry per body,", size(), positions.size());
   check_positions(check, "positions", positions);
   if (check.error()) return *check.error();
-  previous_.swap(latest_);
-  latest_.assign(positions.begin(), positions.end());
+  const double begin = latest_time();
+  for (std::size_t body = 0; body < size(); ++body) {
+    chords_[body] = {begin, latest_[body], (positions[body] - latest_[body]) / interval_};
+    latest_[body] = positions[body];
+  }
   ++latest_frame_;
   return {};
 }
@@ -58,29 +62,30 @@ BodyDefinition Frames::promise(std::uint32_t body, double t) const {
           .velocity = now.velocity};
 }
 
-State Frames::state(std::uint32_t body, double t) const {
-  assert(previous_time() <= t && t <= latest_time());
-  return chord(body).state_at(t);
+State Frames::state(std::uint32_t body, double t) const { return piece(body, t, t).state_at(t); }
+
+Trajectory Frames::trajectory(std::uint32_t body, double begin, double end) const {
+  return {piece(body, begin, end)};
 }
 
-Trajectory Frames::trajectory(std::uint32_t body, [[maybe_unused]] double begin, double end) const {
-  assert(previous_time() <= begin && begin <= end && end <= latest_time());
-  Segment segment = chord(body);
-  segment.end = end;
-  return {segment};
-}
-
-bool Frames::kick(std::uint32_t, double, const Vec3&) { return false; }
-
-std::unique_ptr<Motion> Frames::clone() const { return std::make_unique<Frames>(*this); }
-
-Segment Frames::chord(std::uint32_t body) const {
-  return {.begin = previous_time(),
-          .end = latest_time(),
-          .position = previous_[body],
-          .velocity = (latest_[body] - previous_[body]) / interval_,
+Segment Frames::piece(std::uint32_t body, [[maybe_unused]] double begin, double end) const {
+  const Chord& chord = chords_[body];
+  assert(chord.begin <= begin && begin <= end && end <= latest_time());
+  return {.begin = chord.begin,
+          .end = end,
+          .position = chord.position,
+          .velocity = chord.velocity,
           .acceleration = {},
           .jerk = {}};
 }
+
+bool Frames::kick(std::uint32_t body, double t, const Vec3& velocity) {
+  if (!(chords_[body].begin <= t && t <= latest_time()) || !is_finite(velocity)) return false;
+  chords_[body] = {t, state(body, t).position, velocity};
+  latest_[body] = chords_[body].position + velocity * (latest_time() - t);
+  return true;
+}
+
+std::unique_ptr<Motion> Frames::clone() const { return std::make_unique<Frames>(*this); }
 
 }  // namespace kinesphere

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/contact_event.hpp"
+#include "contact/contact_rule.hpp"
 #include "kinesphere/random.hpp"
 #include "kinesphere/response.hpp"
 
@@ -60,6 +61,42 @@ TEST(Bounce, RepeatedContactLosesNothing) {
   event.repeated = true;
   const Bounce after = bounce(event, 1.0, 3.0, 0.0);
   EXPECT_NEAR(norm_squared(after.first_velocity) + 3.0 * norm_squared(after.second_velocity), 4.0, 1e-12);
+}
+
+Event head_on(double approach, bool repeated) {
+  Event event = contact_event(EventKind::contact_begin, 0.0, {{0, 0}, 1, {{}, {approach, 0, 0}}},
+                              {{1, 0}, 1, {{2, 0, 0}, {}}});
+  event.repeated = repeated;
+  return event;
+}
+
+double parting_speed(const Bounce& after) { return after.second_velocity.x - after.first_velocity.x; }
+
+TEST(Settle, LosesEnergyUntilTheRestingSpeed) {
+  for (const bool repeated : {false, true}) {
+    const Event event = head_on(8.0, repeated);
+    const Bounce fast = settle(event, 1.0, 3.0, 0.25, 0.5);
+    EXPECT_NEAR(parting_speed(fast), 2.0, 1e-12) << "repeated or not";
+    EXPECT_NEAR(fast.first_velocity.x + 3.0 * fast.second_velocity.x, 8.0, 1e-12) << "momentum";
+    EXPECT_NEAR(parting_speed(settle(event, 1.0, 3.0, 0.0, 0.5)), 0.5, 1e-12) << "never a dead stop";
+    const double slow = parting_speed(settle(head_on(0.125, repeated), 1.0, 1.0, 0.5, 0.5));
+    EXPECT_NEAR(slow, repeated ? 0.5 : 0.125, 1e-12);
+    EXPECT_NEAR(parting_speed(settle(head_on(0.125, repeated), 1.0, 1.0, 1.0, 0.5)), 0.125, 1e-12);
+    EXPECT_EQ(parting_speed(settle(head_on(0.0, repeated), 1.0, 1.0, 0.5, 0.5)), 0.0);
+  }
+}
+
+/// Who falls from the outer edge of the tolerance to half of it inside arrives with this speed, and a hop
+/// that begins with it ends within the Zeno interval.
+TEST(Settle, LeastRestingSpeedFitsTheTolerance) {
+  for (const double tolerance : {1e-6, 1e-3}) {
+    const double speed = least_resting_speed(tolerance, 9.81);
+    EXPECT_NEAR(speed * speed / (2.0 * 9.81), 1.5 * tolerance, 1e-12 * tolerance);
+    const ContactRule rule({.contact_tolerance = tolerance});
+    EXPECT_EQ(rule.guarded_gap(0.0), -0.5 * tolerance);
+    EXPECT_LT(2.0 * speed / 9.81, rule.zeno_interval(9.81));
+  }
+  EXPECT_EQ(least_resting_speed(1e-3, 0.0), 0.0);
 }
 
 }  // namespace

@@ -28,7 +28,25 @@ TEST(Frames, InterpolateBetweenTheLastTwo) {
   EXPECT_EQ(frames.state(0, 1.5), (State{{1, 0, 0}, {2, 2, 0}}));
   EXPECT_EQ(frames.state(0, 1.75), (State{{1.5, 0.5, 0}, {2, 2, 0}}));
   EXPECT_EQ(frames.state(0, 2.0), (State{{2, 1, 0}, {2, 2, 0}}));
-  EXPECT_FALSE(frames.kick(0, 1.75, {}));
+}
+
+TEST(Frames, KickTurnsTheRestOfTheFrame) {
+  Frames frames =
+      Frames::create({.start = {{0, 0, 0}, {5, 5, 5}}, .acceleration_limits = {8.0, 8.0}, .interval = 1.0})
+          .value();
+  frames.push(std::vector<Vec3>{{4, 0, 0}, {5, 5, 5}}).value();
+  EXPECT_TRUE(frames.kick(0, 0.5, {-2, 0, 6}));
+  EXPECT_EQ(frames.state(0, 0.5), (State{{2, 0, 0}, {-2, 0, 6}}));
+  EXPECT_EQ(frames.state(0, 0.75), (State{{1.5, 0, 1.5}, {-2, 0, 6}}));
+  EXPECT_EQ(frames.latest()[0], (Vec3{1, 0, 3}));
+  EXPECT_EQ(frames.latest()[1], (Vec3{5, 5, 5}));
+  EXPECT_FALSE(frames.kick(0, 0.25, {})) << "before the last kick";
+  EXPECT_FALSE(frames.kick(0, 1.25, {})) << "after the last frame";
+  EXPECT_FALSE(frames.kick(0, 0.75, {std::numeric_limits<double>::quiet_NaN(), 0, 0}));
+  EXPECT_TRUE(frames.kick(0, 1.0, {0, 7, 0}));
+  EXPECT_EQ(frames.state(0, 1.0), (State{{1, 0, 3}, {0, 7, 0}}));
+  frames.push(std::vector<Vec3>{{1, 7, 3}, {5, 5, 5}}).value();
+  EXPECT_EQ(frames.state(0, 1.5), (State{{1, 3.5, 3}, {0, 7, 0}}));
 }
 
 TEST(Frames, PromiseTheJumpsOfTheChord) {

@@ -6,6 +6,7 @@
 //   // frames.push() once before the bodies are added to the world; then, each frame:
 //   frames.push(positions).value();
 //   while (auto event = world.advance(frames.latest_time(), frames.probe()).value()) { ... }
+//   positions = frames.latest();  // where kicks at events have left the bodies
 #pragma once
 
 #include <cstdint>
@@ -41,12 +42,18 @@ struct FramesDefinition {
 /// make chord velocities off by 2 e / dt, which is added to the velocity error.
 ///
 /// States are known from the last frame but one to the last, so a game looks at the world one frame late.
-/// kick() returns false: the game itself decides where its next frame shows a body. When it makes a velocity
-/// jump, for a bounce say, the promise does not cover that, and the world must be told: with the world's time
-/// at latest_time(), push the frame, then call
-///   world.kick(id, frames.state(body, world.time()).velocity).value();
-/// for each such body before going on (and again a frame later if the jump fell between two frames, as then
-/// two chords differ from the one before).
+///
+/// A contact comes at its exact time, between those two frames. Whoever wants it answered there kicks the
+/// body in the frames and in the world:
+///   frames.kick(id.index, event->time, velocity);
+///   world.kick(id, velocity).value();
+/// From then to the last frame the body goes on with that velocity, and the game takes its place from
+/// latest() and its velocity from there. A velocity jump that the game makes by itself, in a frame that it
+/// pushes, is not covered by the promise either. The world must be told: with its time at latest_time(), push
+/// the frame, then call
+///   world.kick(id, frames.state(id.index, world.time()).velocity).value();
+/// before going on (and again a frame later if the jump fell between two frames, as then two chords differ
+/// from the one before).
 class Frames final : public Motion {
  public:
   /// Errors: not_finite or out_of_range, naming the field and the body.
@@ -62,20 +69,31 @@ class Frames final : public Motion {
   double previous_time() const { return time_of(latest_frame_ == 0 ? 0 : latest_frame_ - 1); }
   double latest_time() const { return time_of(latest_frame_); }
 
+  /// Where the bodies are at latest_time(), kicks included.
+  const std::vector<Vec3>& latest() const { return latest_; }
+
   std::size_t size() const override { return latest_.size(); }
   BodyDefinition promise(std::uint32_t body, double t) const override;
   State state(std::uint32_t body, double t) const override;
   /// One segment.
   Trajectory trajectory(std::uint32_t body, double begin, double end) const override;
+  /// Needs previous_time() <= t <= latest_time().
   bool kick(std::uint32_t body, double t, const Vec3& velocity) override;
   std::unique_ptr<Motion> clone() const override;
 
  private:
   explicit Frames(FramesDefinition definition);
   double time_of(std::uint64_t frame) const { return start_time_ + static_cast<double>(frame) * interval_; }
-  Segment chord(std::uint32_t body) const;
+  Segment piece(std::uint32_t body, double begin, double end) const;
 
-  std::vector<Vec3> previous_;
+  /// From its time to latest_time().
+  struct Chord {
+    double begin;  ///< of the frame before the last one, or the last kick since
+    Vec3 position;
+    Vec3 velocity;
+  };
+
+  std::vector<Chord> chords_;
   std::vector<Vec3> latest_;
   std::vector<double> limits_;
   double interval_;

@@ -1,0 +1,67 @@
+// Four hundred drones wander about. Each knows how long it is certain to touch nobody, whatever the others
+// do, and asks the world again only when that time runs out; it turns away from whom it may meet too soon.
+#include <kinesphere/motion/steered.hpp>
+#include <kinesphere/random.hpp>
+#include <kinesphere/world.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+using namespace kinesphere;
+
+int main() {
+  const double tick = 0.1, seconds = 20.0, reaction = 0.7, agility = 4.0;
+  const Vec3 middle{70, 70, 70};
+
+  std::vector<State> start;
+  Random random(3);
+  for (int k = 0; k < 400; ++k) {
+    const Vec3 place{20.0 * (k % 8), 20.0 * (k / 8 % 8), 20.0 * (k / 64)};
+    start.push_back({place, 3.0 * random.point_in_ball()});
+  }
+  Steered drones =
+      Steered::create({.start = start, .acceleration_limits = std::vector(start.size(), agility)}).value();
+  World world = World::create({.contact_tolerance = 1e-3}).value();
+  std::vector<BodyId> ids;
+  for (std::uint32_t k = 0; k < drones.size(); ++k) {
+    BodyDefinition drone = drones.promise(k, 0.0);
+    drone.radius = 0.3;
+    ids.push_back(world.add(drone).value());
+  }
+
+  std::vector<double> certain_until(ids.size(), 0.0);
+  std::uint64_t looks = 0, questions = 0, turns = 0;
+  while (world.time() < seconds) {
+    const double now = world.time();
+    for (const BodyId id : ids) {
+      const State self = drones.state(id.index, now);
+      ++looks;
+      // On with the crowd: about the middle, not too fast.
+      Vec3 wish = 0.05 * (middle - self.position) - 0.5 * self.velocity;
+      if (certain_until[id.index] < now + reaction) {
+        ++questions;
+        const EarliestContact contact = world.earliest_contact(id, drones.probe()).value();
+        certain_until[id.index] = contact.time;
+        if (contact.time < now + reaction) {
+          ++turns;
+          wish = 1e3 * (self.position - drones.state(contact.partner.index, now).position);
+        }
+      }
+      drones.steer(id.index, now, wish * std::min(1.0, agility / norm(wish))).value();
+    }
+    while (auto event = world.advance(now + tick, drones.probe()).value())
+      std::printf("%s at %.3f\n", name_of(event->kind).data(), event->time);
+  }
+
+  const Counters& counters = world.counters();
+  const auto contacts = static_cast<unsigned long long>(counters.count(EventKind::contact_begin));
+  const double probes = static_cast<double>(counters.probes) / (seconds * static_cast<double>(ids.size()));
+  const auto share = [&](std::uint64_t part) {
+    return 100.0 * static_cast<double>(part) / static_cast<double>(looks);
+  };
+  std::printf("%.1f %% of the time a drone had to ask, %.1f %% of the time to turn away\n", share(questions),
+              share(turns));
+  std::printf("%llu contacts; %.2f probes per drone and second\n", contacts, probes);
+  return contacts == 0 && probes < 20.0 ? 0 : 1;
+}
