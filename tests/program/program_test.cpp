@@ -104,6 +104,13 @@ TEST_F(ProgramTest, SummarisesARun) {
   EXPECT_NE(result.out.find("42"), std::string::npos);
 }
 
+TEST_F(ProgramTest, TellsOfTheZenoGuardWhereBodiesSettle) {
+  const ProgramRun result = run("run pile --bodies 50 --seconds 3");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(lines_with(result.out, "repeated "), 1u) << result.out;
+  EXPECT_EQ(lines_with(result.out, "zeno guard "), 1u) << result.out;
+}
+
 TEST_F(ProgramTest, RunsScenesOfNothing) {
   for (const char* nothing : {" --bodies 0", " --seconds 0"}) {
     const ProgramRun result =

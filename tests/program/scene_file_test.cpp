@@ -16,7 +16,8 @@ TEST(SceneFile, ReadsEveryField) {
   const SceneParameters p = parse_scene(R"({
     "name": "all", "motion": "ballistic", "bodies": 7, "radius": [1, 2.5], "speed": [3, 4], "limit": [5, 6],
     "gravity": [0, 0, -9.81], "box": [[-1, -2, -3], [4, 5, 6]], "walls": false, "redraw_interval": 0.5,
-    "response": "pass_through", "restitution": 0.25, "contact_tolerance": 1e-9, "seconds": 3,
+    "response": "pass_through", "restitution": 0.25, "resting_speed": 0.75, "contact_tolerance": 1e-9,
+    "zeno_interval": 0.125, "seconds": 3,
     "seed": 18446744073709551615 })",
                                         "s.json")
                                 .parameters;
@@ -35,6 +36,8 @@ TEST(SceneFile, ReadsEveryField) {
   EXPECT_EQ(p.redraw_interval, 0.5);
   EXPECT_EQ(p.response, Response::pass_through);
   EXPECT_EQ(p.restitution, 0.25);
+  EXPECT_EQ(p.resting_speed, 0.75);
+  EXPECT_EQ(p.zeno_interval, 0.125);
   EXPECT_EQ(p.contact_tolerance, 1e-9);
   EXPECT_EQ(p.seconds, 3.0);
   EXPECT_EQ(p.seed, 18446744073709551615u);

@@ -95,14 +95,18 @@ class PileWatch {
   /// All pairs that can touch within the next interval, in which nobody gets faster than falling lets them.
   void find_neighbours(double time, double interval) {
     double fastest = 0.0;
-    for (std::uint32_t body = 0; body < since_.size(); ++body)
-      fastest = std::max(fastest, norm(state(body, time).velocity));
+    std::vector<Vec3> at;
+    for (std::uint32_t body = 0; body < since_.size(); ++body) {
+      const State now = state(body, time);
+      fastest = std::max(fastest, norm(now.velocity));
+      at.push_back(now.position);
+      near_[body].clear();
+    }
     const double reach = 2.0 * interval * (2.0 * fastest + 10.0 * interval);
     for (std::uint32_t a = 0; a < since_.size(); ++a) {
-      near_[a].clear();
       for (std::uint32_t b = 0; b < a; ++b) {
-        const double radii = scene_.bodies[a].radius + scene_.bodies[b].radius;
-        if (norm(state(a, time).position - state(b, time).position) > radii + reach) continue;
+        const double near = scene_.bodies[a].radius + scene_.bodies[b].radius + reach;
+        if (norm_squared(at[a] - at[b]) > near * near) continue;
         near_[a].push_back(b);
         near_[b].push_back(a);
       }
