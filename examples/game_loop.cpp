@@ -27,11 +27,17 @@ int main() {
   }
 
   Frames frames = Frames::create({.start = position,
+                                  .velocities = velocity,
                                   .acceleration_limits = std::vector(position.size(), 1.01 * norm(gravity)),
                                   .interval = dt})
                       .value();
   World world =
       World::create({.box = room, .contact_tolerance = 1e-3, .contacts = ContactMode::impacts}).value();
+  for (std::uint32_t k = 0; k < frames.size(); ++k) {
+    BodyDefinition ball = frames.promise(k, 0.0);
+    ball.radius = radius;
+    world.add(ball).value();
+  }
 
   double deepest = 0.0;
   for (int frame = 1; frame <= 600; ++frame) {
@@ -40,14 +46,6 @@ int main() {
       position[k] += velocity[k] * dt;
     }
     frames.push(position).value();
-    if (frame == 1) {  // now their velocities are known
-      for (std::uint32_t k = 0; k < frames.size(); ++k) {
-        BodyDefinition ball = frames.promise(k, 0.0);
-        ball.radius = radius;
-        world.add(ball).value();
-      }
-    }
-
     const auto kick = [&](BodyId ball, double time, const Vec3& bounced) {
       velocity[ball.index] = bounced;
       frames.kick(ball.index, time, bounced);

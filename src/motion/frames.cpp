@@ -10,9 +10,9 @@ namespace kinesphere {
 
 namespace {
 
-void check_positions(InputCheck& check, std::string_view argument, std::span<const Vec3> positions) {
-  for (std::uint32_t body = 0; body < positions.size(); ++body) {
-    check.finite({argument, {body, 0}}, positions[body]);
+void check_vectors(InputCheck& check, std::string_view argument, std::span<const Vec3> vectors) {
+  for (std::uint32_t body = 0; body < vectors.size(); ++body) {
+    check.finite({argument, {body, 0}}, vectors[body]);
   }
 }
 
@@ -24,7 +24,12 @@ Result<Frames> Frames::create(FramesDefinition definition) {
       .positive({"interval"}, definition.interval)
       .not_negative({"position_error"}, definition.position_error)
       .acceleration_limits(definition.acceleration_limits, definition.start.size());
-  check_positions(check, "start", definition.start);
+  check_vectors(check, "start", definition.start);
+  const std::vector<Vec3>& velocities = definition.velocities;
+  check.require(velocities.empty() || velocities.size() == definition.start.size(), ErrorCode::out_of_range,
+                {"velocities"}, "must have no entry or one per body,", definition.start.size(),
+                velocities.size());
+  check_vectors(check, "velocities", velocities);
   if (check.error()) return *check.error();
   return Frames(std::move(definition));
 }
@@ -35,14 +40,18 @@ Frames::Frames(FramesDefinition definition)
       interval_(definition.interval),
       position_error_(definition.position_error),
       start_time_(definition.start_time) {
-  for (const Vec3& position : latest_) chords_.push_back({start_time_, position, {}});
+  chords_.resize(latest_.size());
+  for (std::size_t body = 0; body < latest_.size(); ++body) {
+    const Vec3 velocity = definition.velocities.empty() ? Vec3{} : definition.velocities[body];
+    chords_[body] = {start_time_, latest_[body], velocity};
+  }
 }
 
 Result<void> Frames::push(std::span<const Vec3> positions) {
   InputCheck check("push");
   check.require(positions.size() == size(), ErrorCode::out_of_range, {"positions"},
                 "must have one entry per body,", size(), positions.size());
-  check_positions(check, "positions", positions);
+  check_vectors(check, "positions", positions);
   if (check.error()) return *check.error();
   const double begin = latest_time();
   for (std::size_t body = 0; body < size(); ++body) {

@@ -30,6 +30,17 @@ TEST(Frames, InterpolateBetweenTheLastTwo) {
   EXPECT_EQ(frames.state(0, 2.0), (State{{2, 1, 0}, {2, 2, 0}}));
 }
 
+TEST(Frames, BeginWithTheVelocitiesOfTheGame) {
+  FramesDefinition definition{.start = {{1, 2, 3}}, .velocities = {{4, 5, 6}}, .acceleration_limits = {1.0}};
+  const Frames frames = Frames::create(definition).value();
+  EXPECT_EQ(frames.promise(0, 0.0).velocity, (Vec3{4, 5, 6}));
+  definition.velocities.push_back({});
+  EXPECT_EQ(Frames::create(definition).error().code, ErrorCode::out_of_range);
+  EXPECT_EQ(Frames::create(definition).error().argument, "velocities");
+  definition.velocities = {{0, std::numeric_limits<double>::infinity(), 0}};
+  EXPECT_EQ(Frames::create(definition).error().code, ErrorCode::not_finite);
+}
+
 TEST(Frames, KickTurnsTheRestOfTheFrame) {
   Frames frames =
       Frames::create({.start = {{0, 0, 0}, {5, 5, 5}}, .acceleration_limits = {8.0, 8.0}, .interval = 1.0})

@@ -1,9 +1,10 @@
 // The motion of a game that moves its bodies in fixed steps: straight lines between its last two frames.
 //
 //   Frames frames = Frames::create({.start = positions,
+//                                   .velocities = velocities,
 //                                   .acceleration_limits = limits,
 //                                   .interval = 1.0 / 60}).value();
-//   // frames.push() once before the bodies are added to the world; then, each frame:
+//   // add bodies with frames.promise(); then, each frame:
 //   frames.push(positions).value();
 //   while (auto event = world.advance(frames.latest_time(), frames.probe()).value()) { ... }
 //   positions = frames.latest();  // where kicks at events have left the bodies
@@ -22,6 +23,9 @@ namespace kinesphere {
 struct FramesDefinition {
   /// Positions in frame 0, by body.
   std::vector<Vec3> start;
+  /// Velocities there, by body; when empty all zero. Bodies can be added to the world before the second frame
+  /// if that one moves them with these velocities up to A dt.
+  std::vector<Vec3> velocities{};
   /// A >= 0 (length / time^2), by body, gravity included. See Frames for what exactly it limits.
   std::vector<double> acceleration_limits;
   /// dt > 0 (time): frame k shows the bodies at start_time + k dt.
@@ -64,7 +68,7 @@ class Frames final : public Motion {
   Result<void> push(std::span<const Vec3> positions);
 
   /// States can be asked for from previous_time() to latest_time(), once there are two frames; before that
-  /// both are start_time, and all velocities zero. Beyond, a debug build stops, and a release build answers
+  /// both are start_time. Beyond, a debug build stops, and a release build answers
   /// with the extrapolation of the chord.
   double previous_time() const { return time_of(latest_frame_ == 0 ? 0 : latest_frame_ - 1); }
   double latest_time() const { return time_of(latest_frame_); }
