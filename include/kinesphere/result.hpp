@@ -30,6 +30,10 @@ enum class ErrorCode {
   probe_in_progress,  ///< the world was called from inside its own probe
   unsupported,        ///< this detector cannot do what the scene asks for
   bad_snapshot,       ///< bytes that no world can be restored from
+  recording,          ///< the world is being recorded already
+  not_recording,      ///< the world is not being recorded
+  bad_recording,      ///< bytes that are no recording
+  diverged,           ///< a replay went another way than its recording
 };
 
 struct Error {

@@ -25,6 +25,7 @@
 #include <span>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace kinesphere {
@@ -76,6 +77,8 @@ class ByteWriter {
   void append(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
   const std::vector<std::byte>& bytes() const { return bytes_; }
   std::vector<std::byte> take() { return std::move(bytes_); }
+  /// Begins anew, in the same memory.
+  void clear() { bytes_.clear(); }
 
  private:
   template <class T>
@@ -108,6 +111,11 @@ class ByteWriter {
   template <class T, std::size_t size>
   void write(const std::array<T, size>& values) {
     for (const T& value : values) write(value);
+  }
+  template <class... Ts>
+  void write(const std::variant<Ts...>& value) {
+    write(static_cast<std::uint8_t>(value.index()));
+    std::visit([this](const auto& held) { write(held); }, value);
   }
 
   template <class Values>
@@ -179,6 +187,15 @@ class ByteReader {
   template <class T, std::size_t size>
   void read(std::array<T, size>& values) {
     for (T& value : values) read(value);
+  }
+  template <class... Ts>
+  void read(std::variant<Ts...>& value) {
+    const std::size_t index = read_word<std::uint8_t>();
+    if (index >= sizeof...(Ts)) failed_ = true;
+    const auto read_as = [&]<std::size_t... k>(std::index_sequence<k...>) {
+      (void)((index == k && (read(value.template emplace<k>()), true)) || ...);
+    };
+    if (!failed_) read_as(std::index_sequence_for<Ts...>());
   }
 
   template <class T, class Take>

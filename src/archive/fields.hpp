@@ -61,6 +61,12 @@ void transfer(Self& self, Archive& archive) {
           velocity, filter, solid, sensor_class, user_data);
 }
 
+template <Some<MotionPromise> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [acceleration_limit, planned_acceleration, position_error, velocity_error] = self;
+  archive(acceleration_limit, planned_acceleration, position_error, velocity_error);
+}
+
 template <Some<Bound> Self, class Archive>
 void transfer(Self& self, Archive& archive) {
   auto& [time, position, velocity, planned_acceleration, radius, growth_speed, growth_acceleration] = self;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <set>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -37,15 +36,16 @@ class World::Engine::Answers {
   Onset of_world() const;
   DistanceLimits distance(std::uint32_t a, std::uint32_t b, double time) const;
 
-  /// The answer of `ask(Answers)`. With a probe, what limits it is probed and it is asked again, until fresh
-  /// reports limit it; stopping early is safe. Each round probes at least one body.
-  template <class Ask>
-  static Result<Refined> answer(Engine& engine, const Result<void>& valid, const Probe* probe,
-                                std::string_view call, std::size_t max_rounds, Ask ask) {
+  /// The answer of `ask(Answers)`. What limits it is probed and it is asked again, until fresh reports limit
+  /// it; stopping early is safe. `refresh(numbers)` probes those of them whose reports are old, at least one
+  /// in each round, and tells whether there were any.
+  template <class Refresh, class Ask>
+  static Result<Refined> answer(const Engine& engine, const Result<void>& valid, Refresh refresh,
+                                std::size_t max_rounds, Ask ask) {
     if (!valid) return valid.error();
     Refined refined{ask(Answers(engine))};
-    for (std::size_t round = 0; probe && round < max_rounds; ++round) {
-      const auto probed = engine.probe_stale(concerned(refined.onset), *probe, call);
+    for (std::size_t round = 0; round < max_rounds; ++round) {
+      const auto probed = refresh(concerned(refined.onset));
       if (!probed) return probed.error();
       if (!probed.value()) break;
       refined = {ask(Answers(engine)), true};

@@ -146,7 +146,8 @@ class World::Engine {
   Result<bool> probe_stale(std::span<const std::uint32_t> numbers, const Probe& ask, std::string_view call);
   // snapshot.cpp: the whole state as bytes.
   std::vector<std::byte> save() const;
-  static Result<std::unique_ptr<Engine>> restore(std::span<const std::byte> bytes);
+  static Result<std::unique_ptr<Engine>> restore(std::span<const std::byte> bytes, PairFilter pair_filter);
+  bool has_pair_filter() const { return static_cast<bool>(pair_filter_); }
 
  private:
   class Audit;

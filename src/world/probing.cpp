@@ -29,11 +29,12 @@ Result<void> World::Engine::probe(std::span<const std::uint32_t> numbers) {
   probe_ids_.clear();
   for (const std::uint32_t number : numbers) probe_ids_.push_back(id_of(number));
   probe_states_.assign(numbers.size(), State{unanswered, unanswered});
+  // Counted first: a probe that throws leaves the same world as one that does not answer.
+  counters_.probes += numbers.size();
   {
     const WhileTrue guard(probing_);
     (*probe_)(probe_ids_, time_, probe_states_);
   }
-  counters_.probes += numbers.size();
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     if (auto valid = check_report(probe_states_[k], probe_ids_[k], time_, definition_, probing_call_); !valid)
       return valid;

@@ -2,13 +2,14 @@
 //
 // Everything is kept as it stands, the order of grid cells, heap and lists included: what a search meets
 // first decides who is probed first, so only the same order goes on the same way. Memory that is merely kept
-// for later is not part of it. A snapshot is
-//   mark (8 bytes), format version (4), length of the content (8), content, checksum of all before (8).
+// for later is not part of it.
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "archive/archive.hpp"
+#include "archive/envelope.hpp"
 #include "archive/fields.hpp"
 #include "input/input_check.hpp"
 #include "world/engine.hpp"
@@ -17,58 +18,16 @@
 namespace kinesphere {
 namespace {
 
-/// Ends with what a transfer as text would change.
-constexpr std::array<std::uint8_t, 8> mark{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'};
-/// Raise it when the fields change, or when the engine would go on from the same fields in another way.
-constexpr std::uint32_t format_version = 2;
-constexpr std::size_t header_size = 20;
-constexpr std::size_t checksum_size = 8;
+/// Raise the version when the fields change, or when the engine would go on from the same fields in another
+/// way.
+constexpr Envelope envelope{{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'},
+                            2,
+                            "world",
+                            "World::restore",
+                            "snapshot",
+                            ErrorCode::bad_snapshot};
 
-/// 64-bit FNV-1a over words of eight bytes, then the bytes that are left: damage to one word always shows.
-std::uint64_t checksum(std::span<const std::byte> bytes) {
-  std::uint64_t sum = 0xcbf29ce484222325u;
-  const auto mix = [&sum](std::uint64_t word) { sum = (sum ^ word) * 0x100000001b3u; };
-  ByteReader reader(bytes);
-  for (std::uint64_t word = 0; reader.remaining() >= sizeof word;) {
-    reader(word);
-    mix(word);
-  }
-  for (std::uint8_t byte = 0; reader.remaining() > 0;) {
-    reader(byte);
-    mix(byte);
-  }
-  return sum;
-}
-
-Error refusal(const std::string& what) {
-  return {ErrorCode::bad_snapshot, "snapshot", no_body, "World::restore: snapshot " + what};
-}
-
-/// The content of bytes that are what they should be as a whole.
-Result<std::span<const std::byte>> content_of(std::span<const std::byte> bytes) {
-  auto found_mark = mark;
-  std::uint32_t version = 0;
-  std::uint64_t length = 0;
-  ByteReader header(bytes);
-  header(found_mark);
-  if (header.failed() || found_mark != mark)
-    return refusal("must begin with the mark of a world, but does not");
-  header(version);
-  if (!header.failed() && version != format_version) {
-    return refusal("must be of format version " + std::to_string(format_version) + ", but is of version " +
-                   std::to_string(version));
-  }
-  header(length);
-  if (header.failed() || header.remaining() < checksum_size || length != header.remaining() - checksum_size) {
-    return refusal("must be whole, but its " + std::to_string(bytes.size()) +
-                   " bytes are not as many as it says it has");
-  }
-  const auto summed = bytes.first(bytes.size() - checksum_size);
-  std::uint64_t expected = 0;
-  ByteReader(bytes.last(checksum_size))(expected);
-  if (checksum(summed) != expected) return refusal("must be undamaged, but its checksum is wrong");
-  return summed.subspan(header_size);
-}
+Error refusal(const std::string& what) { return envelope.refusal(what); }
 
 bool is_sound(const Bound& bound, double now, const WorldDefinition& world) {
   BodyDefinition as_body;
@@ -100,15 +59,12 @@ std::vector<std::byte> World::Engine::save() const {
   ByteWriter content;
   content(definition_);
   transfer(*this, content);
-  ByteWriter snapshot;
-  snapshot(mark, format_version, content.bytes().size());
-  snapshot.append(content.bytes());
-  snapshot(checksum(snapshot.bytes()));
-  return snapshot.take();
+  return envelope.seal(content.bytes());
 }
 
-Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const std::byte> bytes) {
-  auto content = content_of(bytes);
+Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const std::byte> bytes,
+                                                              PairFilter pair_filter) {
+  auto content = envelope.open(bytes);
   if (!content) return content.error();
   ByteReader reader(*content);
   WorldDefinition definition;
@@ -123,6 +79,8 @@ Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const st
     return refusal("must hold a world, but its content does not have the form of one");
   if (const char* where = engine->contradiction())
     return refusal(std::string("must hold a world that can be, but contradicts itself in its ") + where);
+  if (pair_filter) engine->filtering_ = true;
+  engine->pair_filter_ = std::move(pair_filter);
   return engine;
 }
 

@@ -1,10 +1,12 @@
-// The public face of the engine: every call is checked here before anything changes.
+// The public face of the engine: every call is checked here before anything changes, and what changes is told
+// to the recorder.
 #include "kinesphere/world.hpp"
 
 #include <set>
 #include <utility>
 
 #include "input/input_check.hpp"
+#include "recording/recorder.hpp"
 #include "world/engine.hpp"
 #include "world/validation.hpp"
 
@@ -24,6 +26,15 @@ World::World(std::unique_ptr<Engine> engine) : engine_(std::move(engine)) {}
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 World::~World() = default;
+
+// The engine is const to all else, so that no change can forget to be recorded.
+World::Engine& World::changeable() { return const_cast<Engine&>(*engine_); }
+
+template <class Change>
+World::Engine& World::changing(const Change& change) {
+  if (recorder_) recorder_->note(change);
+  return changeable();
+}
 
 Result<World> World::create(const WorldDefinition& definition) {
   if (auto valid = check_world(definition); !valid) return valid.error();
@@ -100,7 +111,7 @@ Result<void> World::check_new(const BodyDefinition& body, BodyId id, std::string
 
 Result<BodyId> World::add(const BodyDefinition& body) {
   if (auto valid = check_new(body, engine_->next_id(), "add"); !valid) return valid.error();
-  return engine_->add(body);
+  return changing(step::Add{body}).add(body);
 }
 
 Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodies) {
@@ -124,13 +135,13 @@ Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodie
   }
   std::vector<BodyId> ids;
   ids.reserve(bodies.size());
-  for (const BodyDefinition& body : bodies) ids.push_back(engine_->add(body));
+  for (const BodyDefinition& body : bodies) ids.push_back(changing(step::Add{body}).add(body));
   return ids;
 }
 
 Result<void> World::remove(BodyId body) {
   auto valid = check_call(body, "remove");
-  if (valid) engine_->remove(body);
+  if (valid) changing(step::Remove{body}).remove(body);
   return valid;
 }
 
@@ -145,33 +156,33 @@ Result<void> World::remove_all(std::span<const BodyId> bodies) {
                    call + ": " + text_of(bodies[number]) + " is named twice"};
     }
   }
-  for (const BodyId body : bodies) engine_->remove(body);
+  for (const BodyId body : bodies) changing(step::Remove{body}).remove(body);
   return {};
 }
 
 Result<void> World::kick(BodyId body, const Vec3& velocity) {
   auto valid = first_error(check_enabled(body, true, "kick"), check_velocity(velocity, body, "kick"));
-  if (valid) engine_->kick(body, velocity);
+  if (valid) changing(step::Kick{body, velocity}).kick(body, velocity);
   return valid;
 }
 
 Result<void> World::teleport(BodyId body, const State& state) {
   auto valid = check_enabled(body, true, "teleport");
   if (valid) valid = check_moved(body, state, "teleport");
-  if (valid) engine_->teleport(body, state);
+  if (valid) changing(step::Teleport{body, state}).teleport(body, state);
   return valid;
 }
 
 Result<void> World::enable(BodyId body, const State& state) {
   auto valid = check_enabled(body, false, "enable");
   if (valid) valid = check_moved(body, state, "enable");
-  if (valid) engine_->enable(body, state);
+  if (valid) changing(step::Enable{body, state}).enable(body, state);
   return valid;
 }
 
 Result<void> World::disable(BodyId body) {
   auto valid = check_enabled(body, true, "disable");
-  if (valid) engine_->disable(body);
+  if (valid) changing(step::Disable{body}).disable(body);
   return valid;
 }
 
@@ -182,7 +193,7 @@ Result<void> World::set_radius(BodyId body, double radius) {
   BodyDefinition changed = engine_->table()[body.index].definition;
   changed.radius = radius;
   valid = check_growth(changed, body, "radius", "set_radius");
-  if (valid) engine_->set_radius(body, radius);
+  if (valid) changing(step::SetRadius{body, radius}).set_radius(body, radius);
   return valid;
 }
 
@@ -192,25 +203,26 @@ Result<void> World::set_promise(BodyId body, const MotionPromise& promise) {
   if (!valid) return valid;
   const BodyDefinition changed = with_promise(engine_->table()[body.index].definition, promise);
   valid = check_growth(changed, body, "position_error", "set_promise");
-  if (valid) engine_->set_promise(body, promise);
+  if (valid) changing(step::SetPromise{body, promise}).set_promise(body, promise);
   return valid;
 }
 
 Result<void> World::set_filter(BodyId body, const Filter& filter) {
   auto valid = check_call(body, "set_filter");
-  if (valid) engine_->set_filter(body, filter);
+  if (valid) changing(step::SetFilter{body, filter}).set_filter(body, filter);
   return valid;
 }
 
 Result<void> World::set_pair_filter(PairFilter filter) {
   auto valid = check_idle(engine_->probing(), "set_pair_filter");
-  if (valid) engine_->set_pair_filter(std::move(filter));
+  const bool given = static_cast<bool>(filter);
+  if (valid) changing(step::SetPairFilter{given}).set_pair_filter(std::move(filter));
   return valid;
 }
 
 Result<void> World::refilter(BodyId body) {
   auto valid = check_call(body, "refilter");
-  if (valid) engine_->refilter(body);
+  if (valid) changing(step::Refilter{body}).refilter(body);
   return valid;
 }
 
@@ -236,7 +248,7 @@ const Sensor& World::sensor(SensorClass sensor_class) const { return engine_->se
 
 Result<void> World::set_user_data(BodyId body, std::uint64_t data) {
   auto valid = check_call(body, "set_user_data");
-  if (valid) engine_->set_user_data(body, data);
+  if (valid) changing(step::SetUserData{body, data}).set_user_data(body, data);
   return valid;
 }
 
@@ -248,7 +260,20 @@ Result<std::uint64_t> World::user_data(BodyId body) const {
 Result<std::optional<Event>> World::advance(double until, Probe probe) {
   const auto valid = first_error(check_idle(engine_->probing(), "advance"), check_time(until, time()));
   if (!valid) return valid.error();
-  return engine_->advance(until, probe);
+  if (!recorder_) return changeable().advance(until, probe);
+  Recorder::Listener listener(*recorder_, *this, probe, until);
+  auto event = changeable().advance(until, listener);
+  if (event) listener.succeeded(*event);
+  return event;
+}
+
+Result<bool> World::refresh(std::span<const std::uint32_t> numbers, const Probe& probe,
+                            std::string_view call) {
+  if (!recorder_) return changeable().probe_stale(numbers, probe, call);
+  Recorder::Listener listener(*recorder_, *this, probe);
+  auto probed = changeable().probe_stale(numbers, listener, call);
+  if (probed) listener.succeeded();
+  return probed;
 }
 
 double World::time() const { return engine_->time(); }
@@ -263,8 +288,8 @@ Result<std::vector<std::byte>> World::save() const {
   return engine_->save();
 }
 
-Result<World> World::restore(std::span<const std::byte> snapshot) {
-  auto engine = Engine::restore(snapshot);
+Result<World> World::restore(std::span<const std::byte> snapshot, PairFilter pair_filter) {
+  auto engine = Engine::restore(snapshot, std::move(pair_filter));
   if (!engine) return engine.error();
   return World(std::move(*engine));
 }
@@ -272,6 +297,24 @@ Result<World> World::restore(std::span<const std::byte> snapshot) {
 Result<World> World::clone() const {
   if (auto idle = check_idle(engine_->probing(), "clone"); !idle) return idle.error();
   return World(std::make_unique<Engine>(*engine_));
+}
+
+Result<void> World::start_recording() {
+  auto idle = check_idle(engine_->probing(), "start_recording");
+  if (!idle) return idle;
+  if (recorder_)
+    return Error{ErrorCode::recording, "world", no_body,
+                 "start_recording: the world is being recorded already"};
+  recorder_ = std::make_unique<Recorder>(*this, engine_->has_pair_filter());
+  return {};
+}
+
+Result<std::vector<std::byte>> World::stop_recording() {
+  if (auto idle = check_idle(engine_->probing(), "stop_recording"); !idle) return idle.error();
+  if (!recorder_)
+    return Error{ErrorCode::not_recording, "world", no_body,
+                 "stop_recording: the world is not being recorded"};
+  return std::exchange(recorder_, nullptr)->finish(*this);
 }
 
 Result<BodyView> World::body(BodyId id) const {

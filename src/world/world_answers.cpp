@@ -3,6 +3,7 @@
 
 #include "input/input_check.hpp"
 #include "world/answers.hpp"
+#include "world/refresher.hpp"
 #include "world/validation.hpp"
 
 namespace kinesphere {
@@ -55,43 +56,47 @@ Result<void> World::check_pair(BodyId first, BodyId second, std::string_view cal
 }
 
 Result<SafeTime> World::safe_until(BodyId first, BodyId second) const {
-  return safe_time(Engine::Answers::answer(*engine_, check_pair(first, second, "safe_until"), nullptr,
-                                           "safe_until", any_number, about_pair(first, second)));
+  return safe_time(Engine::Answers::answer(*engine_, check_pair(first, second, "safe_until"), without_probe,
+                                           any_number, about_pair(first, second)));
 }
 
 Result<SafeTime> World::safe_until(BodyId first, BodyId second, Probe probe) {
-  return safe_time(Engine::Answers::answer(*engine_, check_pair(first, second, "safe_until"), &probe,
-                                           "safe_until", any_number, about_pair(first, second)));
+  return safe_time(Engine::Answers::answer(*engine_, check_pair(first, second, "safe_until"),
+                                           Refresher(*this, probe, "safe_until"), any_number,
+                                           about_pair(first, second)));
 }
 
 Result<SafeTime> World::safe_until(BodyId body) const {
-  return safe_time(Engine::Answers::answer(*engine_, check_call(body, "safe_until"), nullptr, "safe_until",
+  return safe_time(Engine::Answers::answer(*engine_, check_call(body, "safe_until"), without_probe,
                                            any_number, about_body(body)));
 }
 
 Result<SafeTime> World::safe_until(BodyId body, Probe probe) {
-  return safe_time(Engine::Answers::answer(*engine_, check_call(body, "safe_until"), &probe, "safe_until",
-                                           any_number, about_body(body)));
+  return safe_time(Engine::Answers::answer(*engine_, check_call(body, "safe_until"),
+                                           Refresher(*this, probe, "safe_until"), any_number,
+                                           about_body(body)));
 }
 
 Result<SafeTime> World::safe_until() const {
-  return safe_time(Engine::Answers::answer(*engine_, check_idle(engine_->probing(), "safe_until"), nullptr,
-                                           "safe_until", max_rounds_of_world, about_world));
+  return safe_time(Engine::Answers::answer(*engine_, check_idle(engine_->probing(), "safe_until"),
+                                           without_probe, max_rounds_of_world, about_world));
 }
 
 Result<SafeTime> World::safe_until(Probe probe) {
-  return safe_time(Engine::Answers::answer(*engine_, check_idle(engine_->probing(), "safe_until"), &probe,
-                                           "safe_until", max_rounds_of_world, about_world));
+  return safe_time(Engine::Answers::answer(*engine_, check_idle(engine_->probing(), "safe_until"),
+                                           Refresher(*this, probe, "safe_until"), max_rounds_of_world,
+                                           about_world));
 }
 
 Result<EarliestContact> World::earliest_contact(BodyId body) const {
-  return earliest(*engine_, Engine::Answers::answer(*engine_, check_call(body, "earliest_contact"), nullptr,
-                                                    "earliest_contact", any_number, about_body(body)));
+  return earliest(*engine_, Engine::Answers::answer(*engine_, check_call(body, "earliest_contact"),
+                                                    without_probe, any_number, about_body(body)));
 }
 
 Result<EarliestContact> World::earliest_contact(BodyId body, Probe probe) {
-  return earliest(*engine_, Engine::Answers::answer(*engine_, check_call(body, "earliest_contact"), &probe,
-                                                    "earliest_contact", any_number, about_body(body)));
+  return earliest(*engine_, Engine::Answers::answer(*engine_, check_call(body, "earliest_contact"),
+                                                    Refresher(*this, probe, "earliest_contact"), any_number,
+                                                    about_body(body)));
 }
 
 Result<DistanceLimits> World::distance_limits(BodyId first, BodyId second, double time) const {
@@ -106,7 +111,7 @@ Result<DistanceLimits> World::distance_limits(BodyId first, BodyId second, doubl
                                  check_not_past(time, this->time(), "distance_limits"));
   if (!valid) return valid.error();
   const std::uint32_t both[] = {first.index, second.index};
-  const auto probed = engine_->probe_stale(both, probe, "distance_limits");
+  const auto probed = refresh(both, probe, "distance_limits");
   if (!probed) return probed.error();
   DistanceLimits limits = Engine::Answers(*engine_).distance(first.index, second.index, time);
   limits.probed = probed.value();

@@ -4,6 +4,7 @@
 
 #include "input/input_check.hpp"
 #include "world/queries.hpp"
+#include "world/refresher.hpp"
 #include "world/validation.hpp"
 
 namespace kinesphere {
@@ -60,18 +61,17 @@ bool leaves_open(const Hit&) { return true; }
 
 /// Asks for the states that leave the answer open, and again, until fresh reports stand behind it. Without a
 /// probe the first answer is the last.
-template <class Queries, class Engine, class Ask>
-auto answer(Engine& engine, const Result<void>& valid, const Probe* probe, std::string_view call, Ask ask)
+template <class Queries, class Engine, class Refresh, class Ask>
+auto answer(const Engine& engine, const Result<void>& valid, Refresh refresh, std::string_view call, Ask ask)
     -> Result<decltype(ask(Queries(engine)))> {
   if (const auto callable = first_error(check_idle(engine.probing(), call), valid); !callable)
     return callable.error();
   for (;;) {
     auto found = ask(Queries(engine));
-    if (!probe) return found;
     std::vector<std::uint32_t> open;
     for (const auto& each : found)
       if (leaves_open(each)) open.push_back(each.body.index);
-    const auto probed = engine.probe_stale(open, *probe, call);
+    const auto probed = refresh(open);
     if (!probed) return probed.error();
     if (!probed.value()) return found;
   }
@@ -96,60 +96,61 @@ auto about_way(const Vec3& origin, double radius, const Vec3& direction, double 
 }  // namespace
 
 Result<std::vector<Found>> World::overlapping(const Vec3& centre, double radius) const {
-  return answer<Engine::Queries>(*engine_, check_sphere(centre, radius, definition()), nullptr, "overlapping",
-                                 about_sphere(centre, radius));
+  return answer<Engine::Queries>(*engine_, check_sphere(centre, radius, definition()), without_probe,
+                                 "overlapping", about_sphere(centre, radius));
 }
 
 Result<std::vector<Found>> World::overlapping(const Vec3& centre, double radius, Probe probe) {
-  return answer<Engine::Queries>(*engine_, check_sphere(centre, radius, definition()), &probe, "overlapping",
+  return answer<Engine::Queries>(*engine_, check_sphere(centre, radius, definition()),
+                                 Refresher(*this, probe, "overlapping"), "overlapping",
                                  about_sphere(centre, radius));
 }
 
 Result<std::vector<Found>> World::overlapping(const Box& box) const {
-  return answer<Engine::Queries>(*engine_, check_region(box, definition()), nullptr, "overlapping",
+  return answer<Engine::Queries>(*engine_, check_region(box, definition()), without_probe, "overlapping",
                                  about_box(box));
 }
 
 Result<std::vector<Found>> World::overlapping(const Box& box, Probe probe) {
-  return answer<Engine::Queries>(*engine_, check_region(box, definition()), &probe, "overlapping",
-                                 about_box(box));
+  return answer<Engine::Queries>(*engine_, check_region(box, definition()),
+                                 Refresher(*this, probe, "overlapping"), "overlapping", about_box(box));
 }
 
 Result<std::vector<Near>> World::nearest(const Vec3& point, std::size_t count) const {
-  return answer<Engine::Queries>(*engine_, check_point(point, definition()), nullptr, "nearest",
+  return answer<Engine::Queries>(*engine_, check_point(point, definition()), without_probe, "nearest",
                                  about_nearest(point, count));
 }
 
 Result<std::vector<Near>> World::nearest(const Vec3& point, std::size_t count, Probe probe) {
-  return answer<Engine::Queries>(*engine_, check_point(point, definition()), &probe, "nearest",
-                                 about_nearest(point, count));
+  return answer<Engine::Queries>(*engine_, check_point(point, definition()),
+                                 Refresher(*this, probe, "nearest"), "nearest", about_nearest(point, count));
 }
 
 Result<std::vector<Hit>> World::ray_cast(const Vec3& origin, const Vec3& direction, double length) const {
   return answer<Engine::Queries>(*engine_,
-                                 check_way(origin, 0.0, direction, length, definition(), "ray_cast"), nullptr,
-                                 "ray_cast", about_way(origin, 0.0, direction, length));
+                                 check_way(origin, 0.0, direction, length, definition(), "ray_cast"),
+                                 without_probe, "ray_cast", about_way(origin, 0.0, direction, length));
 }
 
 Result<std::vector<Hit>> World::ray_cast(const Vec3& origin, const Vec3& direction, double length,
                                          Probe probe) {
-  return answer<Engine::Queries>(*engine_,
-                                 check_way(origin, 0.0, direction, length, definition(), "ray_cast"), &probe,
-                                 "ray_cast", about_way(origin, 0.0, direction, length));
+  return answer<Engine::Queries>(
+      *engine_, check_way(origin, 0.0, direction, length, definition(), "ray_cast"),
+      Refresher(*this, probe, "ray_cast"), "ray_cast", about_way(origin, 0.0, direction, length));
 }
 
 Result<std::vector<Hit>> World::sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
                                             double length) const {
   return answer<Engine::Queries>(*engine_,
                                  check_way(origin, radius, direction, length, definition(), "sphere_cast"),
-                                 nullptr, "sphere_cast", about_way(origin, radius, direction, length));
+                                 without_probe, "sphere_cast", about_way(origin, radius, direction, length));
 }
 
 Result<std::vector<Hit>> World::sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
                                             double length, Probe probe) {
-  return answer<Engine::Queries>(*engine_,
-                                 check_way(origin, radius, direction, length, definition(), "sphere_cast"),
-                                 &probe, "sphere_cast", about_way(origin, radius, direction, length));
+  return answer<Engine::Queries>(
+      *engine_, check_way(origin, radius, direction, length, definition(), "sphere_cast"),
+      Refresher(*this, probe, "sphere_cast"), "sphere_cast", about_way(origin, radius, direction, length));
 }
 
 }  // namespace kinesphere

@@ -226,7 +226,7 @@ Bytes rich_snapshot(ContactMode mode) {
   return p.world.save().value();
 }
 
-/// As snapshot.cpp has it.
+/// As archive/checksum.hpp has it.
 std::uint64_t checksum(std::span<const std::byte> bytes) {
   std::uint64_t sum = 0xcbf29ce484222325u;
   for (std::size_t k = 0; k < bytes.size();) {

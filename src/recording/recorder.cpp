@@ -1,0 +1,49 @@
+#include "recording/recorder.hpp"
+
+#include "recording/format.hpp"
+
+namespace kinesphere {
+
+Recorder::Recorder(const World& world, bool has_pair_filter) {
+  content_(world.save().value(), has_pair_filter);
+}
+
+std::vector<std::byte> Recorder::finish(const World& world) {
+  note(step::End{world.time(), Checksum().add(world.save().value()).value()});
+  return recording_envelope.seal(std::exchange(content_, {}).bytes());
+}
+
+Recorder::Listener::Listener(Recorder& recorder, const World& world, const Probe& probe,
+                             std::optional<double> until)
+    : recorder_(recorder), world_(world), probe_(probe) {
+  step::Asking& asking = recorder_.asking_;
+  asking.until = until;
+  asking.answers.clear();
+  asking.failed = true;
+  asking.event.reset();
+}
+
+Recorder::Listener::~Listener() {
+  if (!recorder_.asking_.until && recorder_.asking_.answers.empty()) return;
+  recorder_.hash_.add(world_, recorder_.asking_);
+  recorder_.asking_.hash = recorder_.hash_.value();
+  // As a Step, without a copy.
+  recorder_.content_(static_cast<std::uint8_t>(Step(step::Asking()).index()), recorder_.asking_);
+}
+
+void Recorder::Listener::operator()(std::span<const BodyId> ids, double time, std::span<State> states) {
+  // Without an answer, until there is one: the probe may throw.
+  auto& answers = recorder_.asking_.answers;
+  const std::size_t first = answers.size();
+  for (std::size_t k = 0; k < ids.size(); ++k)
+    answers.push_back({{time, ids[k], states[k]}, k + 1 == ids.size()});
+  probe_(ids, time, states);
+  for (std::size_t k = 0; k < ids.size(); ++k) answers[first + k].report.state = states[k];
+}
+
+void Recorder::Listener::succeeded(const std::optional<Event>& event) {
+  recorder_.asking_.failed = false;
+  recorder_.asking_.event = event;
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,156 @@
+// The steps of a recording: one class for each call that changes a world, with its arguments, and one for all
+// calls that ask probes.
+//
+// A class of a change lists its fields for archives, and says how the change is made again: through the
+// public call, which checks what it is handed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "archive/archive.hpp"
+#include "archive/checksum.hpp"
+#include "archive/fields.hpp"
+#include "kinesphere/recording.hpp"
+
+namespace kinesphere {
+
+template <Some<Report> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [time, body, state] = self;
+  archive(time, body, state);
+}
+
+namespace step {
+
+struct Add {
+  BodyDefinition body{};
+
+  Result<void> repeat(World& world) const {
+    const auto added = world.add(body);
+    return added ? Result<void>() : Result<void>(added.error());
+  }
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [definition] = self;
+    archive(definition);
+  }
+};
+
+/// A change of one body that takes no argument, by its call.
+template <Result<void> (World::*call)(BodyId)>
+struct Plain {
+  BodyId body{};
+
+  Result<void> repeat(World& world) const { return (world.*call)(body); }
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [id] = self;
+    archive(id);
+  }
+};
+using Remove = Plain<&World::remove>;
+using Disable = Plain<&World::disable>;
+using Refilter = Plain<&World::refilter>;
+
+/// A change of one body that takes one argument. `Parameter` is as the call declares it.
+template <class Argument, class Parameter, Result<void> (World::*call)(BodyId, Parameter)>
+struct With {
+  BodyId body{};
+  Argument argument{};
+
+  Result<void> repeat(World& world) const { return (world.*call)(body, argument); }
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [id, value] = self;
+    archive(id, value);
+  }
+};
+using Kick = With<Vec3, const Vec3&, &World::kick>;
+using Teleport = With<State, const State&, &World::teleport>;
+using Enable = With<State, const State&, &World::enable>;
+using SetRadius = With<double, double, &World::set_radius>;
+using SetPromise = With<MotionPromise, const MotionPromise&, &World::set_promise>;
+using SetFilter = With<Filter, const Filter&, &World::set_filter>;
+using SetUserData = With<std::uint64_t, std::uint64_t, &World::set_user_data>;
+
+/// The predicate is code, and not recorded: only that there is one from now on, or none.
+struct SetPairFilter {
+  bool given = false;
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [is_given] = self;
+    archive(is_given);
+  }
+};
+
+/// A report as one of several that a single call of a probe gave.
+struct Answer {
+  Report report{};
+  bool last = false;
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [reported, is_last] = self;
+    archive(reported, is_last);
+  }
+};
+
+/// A call that asked probes: advance(), or any other outside it.
+struct Asking {
+  std::optional<double> until{};  ///< of an advance()
+  std::vector<Answer> answers{};
+  bool failed = true;  ///< the last answer was refused, or the probe threw instead
+  std::optional<Event> event{};
+  std::uint64_t hash = 0;  ///< of all outcomes so far
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [advance_until, all_answers, has_failed, outcome, running_hash] = self;
+    archive(advance_until, all_answers, has_failed, outcome, running_hash);
+  }
+};
+
+/// The last one.
+struct End {
+  double time = 0.0;
+  std::uint64_t checksum = 0;  ///< of the world's snapshot
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [end_time, sum] = self;
+    archive(end_time, sum);
+  }
+};
+
+}  // namespace step
+
+/// Their order is part of the format.
+using Step = std::variant<step::Asking, step::Add, step::Remove, step::Kick, step::Teleport, step::SetRadius,
+                          step::SetPromise, step::Disable, step::Enable, step::SetFilter, step::SetPairFilter,
+                          step::Refilter, step::SetUserData, step::End>;
+
+/// A hash over the outcomes of all steps so far: events to the last bit, and all work that was done.
+class StepHash {
+ public:
+  void add(const World& world, const step::Asking& asking);
+  std::uint64_t value() const { return sum_.value(); }
+
+ private:
+  Checksum sum_;
+  ByteWriter outcome_;  ///< kept for its memory
+};
+
+/// What a recording holds, read and found to have the form of one.
+struct RecordingContent {
+  std::vector<std::byte> snapshot{};
+  bool has_pair_filter = false;
+  std::vector<Step> steps{};
+};
+
+Result<RecordingContent> read_content(std::span<const std::byte> recording);
+
+}  // namespace kinesphere

@@ -1,0 +1,211 @@
+// Replays: a world that is driven by a recording, and compared with it at each step.
+#include <array>
+#include <bit>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "input/input_check.hpp"
+#include "recording/step.hpp"
+#include "world/engine.hpp"
+
+namespace kinesphere {
+namespace {
+
+std::string hex(std::uint64_t hash) {
+  std::array<char, 17> text;
+  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
+  return text.data();
+}
+
+std::string outcome_text(const std::optional<Event>& event, bool failed) {
+  if (failed) return "a refused answer of the probe";
+  if (!event) return "no event";
+  std::string text(name_of(event->kind));
+  text += " of " + text_of(event->first);
+  if (event->second != no_body) text += " and " + text_of(event->second);
+  if (event->wall != Wall::none) text += " at " + std::string(name_of(event->wall));
+  return text + " at time " + text_of(event->time);
+}
+
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+/// Answers as recorded, as long as it is asked as recorded. The first other question gets no answer, which
+/// ends the call that asks.
+class RecordedProbe {
+ public:
+  explicit RecordedProbe(const std::vector<step::Answer>& answers) : answers_(answers) {}
+
+  void operator()(std::span<const BodyId> ids, double time, std::span<State> states) {
+    for (std::size_t k = 0; k < ids.size() && difference_.empty(); ++k) {
+      const step::Answer* const answer = next_ < answers_.size() ? &answers_[next_] : nullptr;
+      const bool same = answer && answer->report.body == ids[k] && same_bits(answer->report.time, time) &&
+                        answer->last == (k + 1 == ids.size());
+      if (!same) {
+        difference_ = expected() + ", but found a probe of " + text_of(ids[k]) + " at time " + text_of(time);
+        if (ids.size() > 1)
+          difference_ += ", number " + std::to_string(k + 1) + " of " + std::to_string(ids.size());
+        break;
+      }
+      states[k] = answer->report.state;
+      ++next_;
+    }
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+    if (!difference_.empty() && !ids.empty()) states[0].position = {nothing, nothing, nothing};
+  }
+
+  /// What went another way; empty when nothing did.
+  std::string difference() const {
+    if (!difference_.empty() || next_ == answers_.size()) return difference_;
+    return expected() + ", but found the end of the call";
+  }
+
+ private:
+  std::string expected() const {
+    if (next_ >= answers_.size()) return "expected no further probe";
+    const Report& report = answers_[next_].report;
+    return "expected a probe of " + text_of(report.body) + " at time " + text_of(report.time) +
+           (answers_[next_].last ? ", the last of its call" : "");
+  }
+
+  const std::vector<step::Answer>& answers_;
+  std::size_t next_ = 0;
+  std::string difference_;
+};
+
+}  // namespace
+
+class Replay::Player {
+ public:
+  Player(World world, std::vector<Step> steps, PairFilter pair_filter)
+      : world_(std::move(world)), steps_(std::move(steps)), pair_filter_(std::move(pair_filter)) {}
+
+  Result<std::optional<Event>> advance() {
+    while (!finished()) {
+      if (divergence_) return *divergence_;
+      const Step& step = steps_[next_];
+      std::visit([this](const auto& each) { repeat(each); }, step);
+      if (divergence_) return *divergence_;
+      ++next_;
+      const auto* asking = std::get_if<step::Asking>(&step);
+      if (asking && asking->until) return asking->event;
+    }
+    return std::optional<Event>();
+  }
+
+  bool finished() const { return next_ == steps_.size(); }
+  const World& world() const { return world_; }
+  std::size_t step() const { return next_; }
+  std::size_t step_count() const { return steps_.size(); }
+  std::uint64_t hash() const { return hash_.value(); }
+
+ private:
+  template <class Change>
+  void repeat(const Change& change) {
+    if (const auto made = change.repeat(world_); !made)
+      diverge("expected a change that can be made, but found: " + made.error().message);
+  }
+
+  void repeat(const step::SetPairFilter& change) {
+    if (const auto made = world_.set_pair_filter(change.given ? pair_filter_ : PairFilter()); !made)
+      diverge("expected a change that can be made, but found: " + made.error().message);
+  }
+
+  void repeat(const step::Asking& recorded) {
+    step::Asking found;
+    RecordedProbe probe(recorded.answers);
+    std::string refused;
+    if (recorded.until) {
+      const auto event = world_.advance(*recorded.until, probe);
+      found.failed = !event;
+      if (event) found.event = *event;
+      if (!event) refused = event.error().message;
+    } else {
+      const auto refreshed = refresh(recorded, probe);
+      found.failed = !refreshed;
+      if (!refreshed) refused = refreshed.error().message;
+    }
+    hash_.add(world_, found);
+    if (const auto difference = probe.difference(); !difference.empty()) return diverge(difference);
+    const std::string expected = outcome_text(recorded.event, recorded.failed);
+    const std::string came = outcome_text(found.event, found.failed);
+    if (expected != came)
+      return diverge("expected " + expected + ", but found " + came + (refused.empty() ? "" : ": ") +
+                     refused);
+    if (hash_.value() != recorded.hash) {
+      diverge("expected the hash " + hex(recorded.hash) + ", but found " + hex(hash_.value()) +
+              ": other states in the event, or other work done");
+    }
+  }
+
+  void repeat(const step::End& end) {
+    if (!same_bits(world_.time(), end.time)) {
+      return diverge("expected the end to come at time " + text_of(end.time) + ", but found it at " +
+                     text_of(world_.time()));
+    }
+    const std::uint64_t found = Checksum().add(world_.save().value()).value();
+    if (found != end.checksum) {
+      diverge("expected to end as the world with the checksum " + hex(end.checksum) + ", but found " +
+              hex(found));
+    }
+  }
+
+  Result<bool> refresh(const step::Asking& recorded, const Probe& probe) {
+    std::vector<std::uint32_t> numbers;
+    for (const step::Answer& answer : recorded.answers) {
+      if (auto valid = world_.check_enabled(answer.report.body, true, "refresh"); !valid)
+        return valid.error();
+      numbers.push_back(answer.report.body.index);
+    }
+    return world_.refresh(numbers, probe, "refresh");
+  }
+
+  void diverge(const std::string& what) {
+    divergence_ =
+        Error{ErrorCode::diverged, "recording", no_body,
+              "Replay::advance: recording, step " + std::to_string(next_ + 1) + " of " +
+                  std::to_string(steps_.size()) + " at time " + text_of(world_.time()) + ": " + what};
+  }
+
+  World world_;
+  std::vector<Step> steps_;
+  PairFilter pair_filter_;
+  std::size_t next_ = 0;
+  StepHash hash_;
+  std::optional<Error> divergence_;
+};
+
+Result<Replay> Replay::open(std::span<const std::byte> recording, PairFilter pair_filter) {
+  auto content = read_content(recording);
+  if (!content) return content.error();
+  bool needs_filter = content->has_pair_filter;
+  for (const Step& step : content->steps) {
+    const auto* set = std::get_if<step::SetPairFilter>(&step);
+    needs_filter = needs_filter || (set && set->given);
+  }
+  if (needs_filter && !pair_filter) {
+    return Error{ErrorCode::out_of_range, "pair_filter", no_body,
+                 "Replay::open: pair_filter must be given, as the recorded world had one, but is empty"};
+  }
+  auto world = World::restore(content->snapshot, content->has_pair_filter ? pair_filter : PairFilter());
+  if (!world) return world.error();
+  return Replay(
+      std::make_unique<Player>(std::move(*world), std::move(content->steps), std::move(pair_filter)));
+}
+
+Replay::Replay(std::unique_ptr<Player> player) : player_(std::move(player)) {}
+Replay::Replay(Replay&&) noexcept = default;
+Replay& Replay::operator=(Replay&&) noexcept = default;
+Replay::~Replay() = default;
+
+Result<std::optional<Event>> Replay::advance() { return player_->advance(); }
+bool Replay::finished() const { return player_->finished(); }
+const World& Replay::world() const { return player_->world(); }
+std::size_t Replay::step() const { return player_->step(); }
+std::size_t Replay::step_count() const { return player_->step_count(); }
+std::uint64_t Replay::hash() const { return player_->hash(); }
+
+}  // namespace kinesphere
