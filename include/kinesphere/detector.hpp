@@ -2,11 +2,13 @@
 // that anyone can run.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "kinesphere/body.hpp"
 #include "kinesphere/bound.hpp"
@@ -40,6 +42,10 @@ class Detector {
   virtual Result<Bound> bound(std::uint32_t body) const = 0;
   /// Differences that an audit finds, if the detector has one.
   virtual std::optional<AuditFinding> audit() const { return std::nullopt; }
+  // Recording (recording.hpp), for detectors that are a World: bodies carry their number as user data.
+  // Errors: unsupported, and those of World.
+  virtual Result<void> start_recording();
+  virtual Result<std::vector<std::byte>> stop_recording();
 };
 
 /// Makes the detector that is to watch the bodies of a motion.

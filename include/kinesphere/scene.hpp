@@ -46,6 +46,9 @@ struct SimulationObserver {
   double frame_interval = std::numeric_limits<double>::infinity();
   /// Called with the detector before every advance (tests audit here).
   std::function<void(const Detector&)> between_events;
+  /// Called before anything is done with the detector, and when all is done; an error ends the simulation.
+  std::function<Result<void>(Detector&)> at_start;
+  std::function<Result<void>(Detector&)> at_end;
 };
 
 struct SimulationResult {

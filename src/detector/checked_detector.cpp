@@ -53,6 +53,8 @@ class CheckedDetector final : public Detector {
     return detector_->bound(body);
   }
   std::optional<AuditFinding> audit() const override { return detector_->audit(); }
+  Result<void> start_recording() override { return detector_->start_recording(); }
+  Result<std::vector<std::byte>> stop_recording() override { return detector_->stop_recording(); }
 
  private:
   bool is_present(std::uint32_t body) const { return body < present_.size() && present_[body]; }

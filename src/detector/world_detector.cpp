@@ -15,7 +15,9 @@ class WorldDetector final : public Detector {
   std::string_view name() const override { return "world"; }
 
   Result<void> add(std::uint32_t number, const BodyDefinition& definition) override {
-    const auto id = world_.add(definition);
+    BodyDefinition numbered = definition;
+    numbered.user_data = number;  // for whoever sees a recording
+    const auto id = world_.add(numbered);
     if (!id) return id.error();
     ids_[number] = *id;
     if (id->index >= numbers_.size()) numbers_.resize(id->index + 1);
@@ -47,6 +49,8 @@ class WorldDetector final : public Detector {
   Counters counters() const override { return world_.counters(); }
   Result<Bound> bound(std::uint32_t number) const override { return world_.body(ids_[number])->bound; }
   std::optional<AuditFinding> audit() const override { return world_.audit(); }
+  Result<void> start_recording() override { return world_.start_recording(); }
+  Result<std::vector<std::byte>> stop_recording() override { return world_.stop_recording(); }
 
  private:
   struct Departed {

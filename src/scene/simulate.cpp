@@ -139,7 +139,14 @@ Result<SimulationResult> simulate(const Scene& scene, const DetectorMaker& make,
   const std::unique_ptr<Motion> motion = scene.motion->clone();
   auto detector = make(scene.world, *motion);
   if (!detector) return detector.error();
-  return Simulation(scene, *motion, **detector, observer).run();
+  if (observer.at_start) {
+    if (auto started = observer.at_start(**detector); !started) return started.error();
+  }
+  auto result = Simulation(scene, *motion, **detector, observer).run();
+  if (result && observer.at_end) {
+    if (auto ended = observer.at_end(**detector); !ended) return ended.error();
+  }
+  return result;
 }
 
 }  // namespace kinesphere

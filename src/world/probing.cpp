@@ -43,12 +43,13 @@ Result<void> World::Engine::probe(std::span<const std::uint32_t> numbers) {
   return {};
 }
 
-/// Outside advance(): probes those whose reports are not of this time. True when there were any.
+/// Outside advance(): probes those whose reports are not of this time, except for disabled ones. True when
+/// there were any.
 Result<bool> World::Engine::probe_stale(std::span<const std::uint32_t> numbers, const Probe& ask,
                                         std::string_view call) {
   std::vector<std::uint32_t> stale;
   for (const std::uint32_t number : numbers)
-    if (!bodies_[number].fresh(time_)) stale.push_back(number);
+    if (bodies_[number].enabled && !bodies_[number].fresh(time_)) stale.push_back(number);
   if (stale.empty()) return false;
   probe_ = &ask;
   probing_call_ = call;

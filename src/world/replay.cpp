@@ -29,6 +29,12 @@ std::string outcome_text(const std::optional<Event>& event, bool failed) {
   return text + " at time " + text_of(event->time);
 }
 
+std::vector<std::byte> bytes_of(const std::optional<Event>& event) {
+  ByteWriter writer;
+  writer(event);
+  return writer.take();
+}
+
 bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
@@ -135,9 +141,11 @@ class Replay::Player {
     if (expected != came)
       return diverge("expected " + expected + ", but found " + came + (refused.empty() ? "" : ": ") +
                      refused);
+    if (bytes_of(found.event) != bytes_of(recorded.event))
+      return diverge("expected " + expected + ", but found it with other figures");
     if (hash_.value() != recorded.hash) {
-      diverge("expected the hash " + hex(recorded.hash) + ", but found " + hex(hash_.value()) +
-              ": other states in the event, or other work done");
+      diverge("expected the hash " + hex(recorded.hash) + ", but found " + hex(hash_.value()) + ": " + came +
+              " took other work");
     }
   }
 

@@ -52,10 +52,15 @@ class Playground {
   /// The body moves with `acceleration`, or with its plan when none is given.
   BodyId add(const BodyDefinition& body, std::optional<Vec3> acceleration = std::nullopt) {
     const BodyId id = world.add(body).value();
+    start_course(id, body, acceleration);
+    return id;
+  }
+
+  /// For a body that has been added to the world already.
+  void start_course(BodyId id, const BodyDefinition& body, std::optional<Vec3> acceleration = std::nullopt) {
     if (id.index >= courses_.size()) courses_.resize(id.index + 1);
     courses_[id.index] = {
         world.time(), {body.position, body.velocity}, acceleration.value_or(body.planned_acceleration)};
-    return id;
   }
 
   State state(BodyId id, double t) const { return courses_[id.index].at(t); }

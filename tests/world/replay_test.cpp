@@ -1,0 +1,475 @@
+// Recordings: a replay goes the same way to the last bit, whatever was done; another way is named; bytes that
+// are no recording are refused.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "archive/checksum.hpp"
+#include "archive/fields.hpp"
+#include "kinesphere/recording.hpp"
+#include "support/expect_error.hpp"
+#include "world/crowd.hpp"
+
+namespace kinesphere {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+/// Filters by what the bodies carry, so that it can be given again for another world.
+PairFilter filter_of(const World& world) {
+  return [&world](BodyId a, BodyId b) {
+    const auto data = [&](BodyId id) { return world.contains(id) ? world.user_data(id).value() : 0; };
+    return (a.index + b.index) % 2 == 1 || (data(a) == 0 && data(b) == 0);
+  };
+}
+
+/// A crowd to which everything is done that one may do to a world.
+class Bustle : public Crowd {
+ public:
+  explicit Bustle(const CrowdKind& kind) : Crowd(kind) {
+    distort = [this, noise = distort](BodyId id, double time, State& state) {
+      noise(id, time, state);
+      if (mischief_ == 0 || --mischief_ > 0) return;
+      if (throws_) throw std::runtime_error("no answer");
+      state.velocity.x = std::numeric_limits<double>::infinity();
+    };
+  }
+
+  void go(double duration) {
+    const double start = world.time();
+    for (int stop = 1; stop <= 20; ++stop) {
+      const double until = start + duration * stop / 20;
+      for (int k = 0; k < 3; ++k) do_anything();
+      while (const auto event = advance_somehow(until)) {
+        if (world.contains(event->first) && is_enabled(event->first)) bounce_if_both(*event);
+        if (random.uniform() < 0.2) do_anything();
+      }
+    }
+  }
+
+  const std::vector<Event>& events() const { return events_; }
+
+ private:
+  bool is_enabled(BodyId id) const { return world.body(id).value().enabled; }
+
+  void bounce_if_both(const Event& event) {
+    if (event.second == no_body || (world.contains(event.second) && is_enabled(event.second))) bounce(event);
+  }
+
+  /// The probe fails now and then, in both ways; the call is then repeated.
+  std::optional<Event> advance_somehow(double until) {
+    for (;;) {
+      mischief_ = random.uniform() < 0.2 ? 1 + static_cast<int>(random.bits() % 5) : 0;
+      throws_ = random.uniform() < 0.5;
+      try {
+        auto event = world.advance(until, probe());
+        if (!event) continue;
+        if (*event) events_.push_back(**event);
+        mischief_ = 0;
+        return *event;
+      } catch (const std::runtime_error&) {
+      }
+    }
+  }
+
+  void place(BodyId id, const State& state) {
+    set_position(id, state.position);
+    set_velocity(id, state.velocity);
+  }
+
+  void do_anything() {
+    const BodyId id = any();
+    const State state{any_point(), 2.0 * random.point_in_ball()};
+    switch (random.bits() % 14) {
+      case 0:
+        if (!is_enabled(id)) {
+          world.enable(id, state).value();
+          return place(id, state);
+        }
+        return world.disable(id).value();
+      case 1:
+        if (!is_enabled(id)) return;
+        world.teleport(id, state).value();
+        return place(id, state);
+      case 2:
+        return world.set_radius(id, 0.5 * random.uniform()).value();
+      case 3: {
+        const BodyDefinition now = world.body(id).value().definition;
+        const Vec3 plan = random.point_in_ball();
+        world.set_promise(id, {2.0, plan, now.position_error, now.velocity_error}).value();
+        return Playground::steer(id, plan + 1.9 * random.point_in_ball());
+      }
+      case 4:
+        return world.set_filter(id, {1 + random.bits() % 3, 1 + random.bits() % 3, 0}).value();
+      case 5:
+        if (random.uniform() < 0.3)
+          return world.set_pair_filter(random.uniform() < 0.5 ? filter_of(world) : PairFilter()).value();
+        world.set_user_data(id, random.bits() % 2).value();
+        return world.refilter(id).value();
+      case 6:
+        return ask();
+      case 7: {
+        const BodyDefinition pair[2] = {{.radius = 0.2, .position = any_point()},
+                                        {.radius = 0.1, .position = any_point()}};
+        for (const BodyId added : world.add_all(pair).value())
+          start_course(added, world.body(added).value().definition);
+        return;
+      }
+      case 8: {
+        const BodyId ids[] = {id};
+        if (world.size() > 5) world.remove_all(ids).value();
+        return;
+      }
+      case 9:
+        // What is refused leaves no trace.
+        EXPECT_FALSE(world.set_radius(id, -1.0));
+        EXPECT_FALSE(world.advance(world.time() - 1.0, probe()));
+        return;
+      case 10:
+        if (world.size() > 5) world.remove(id).value();
+        return;
+      case 11:
+        return join();
+      default:
+        if (is_enabled(id)) kick(id, 2.0 * random.point_in_ball());
+    }
+  }
+
+  void ask() {
+    (void)world.safe_until(any(), probe());
+    (void)world.safe_until(probe());
+    (void)world.earliest_contact(any(), probe());
+    (void)world.distance_limits(any(), any(), world.time() + 1.0, probe());
+    (void)world.nearest(any_point(), 3, probe());
+    mischief_ = random.uniform() < 0.5 ? 2 : 0;
+    throws_ = false;
+    (void)world.overlapping(any_point(), 3.0, probe());
+    mischief_ = 0;
+    (void)world.ray_cast(any_point(), {1, 0, 0}, 5.0, probe());
+  }
+
+  std::vector<Event> events_;
+  int mischief_ = 0;  ///< how many states from now the probe fails; 0: it does not
+  bool throws_ = false;
+};
+
+std::vector<Event> events_of(Replay& replay) {
+  std::vector<Event> events;
+  while (!replay.finished()) {
+    const auto event = replay.advance();
+    if (!event) {
+      ADD_FAILURE() << event.error().message;
+      break;
+    }
+    if (*event) events.push_back(**event);
+  }
+  return events;
+}
+
+std::uint64_t hash_of(const std::vector<Event>& events) {
+  EventHash hash;
+  for (const Event& event : events) hash.add(event);
+  return hash.value();
+}
+
+class Recording : public testing::TestWithParam<CrowdKind> {};
+INSTANTIATE_TEST_SUITE_P(Crowds, Recording, crowd_kinds());
+
+/// The replay of a bustling crowd. `replay` finds its own world by `itself`, where the pair filter looks.
+struct Replayed {
+  explicit Replayed(const Bytes& bytes)
+      : replay(Replay::open(bytes, [this](BodyId a, BodyId b) {
+                 return filter_of(replay.world())(a, b);
+               }).value()) {}
+  Replayed(const Replayed&) = delete;
+  Replayed& operator=(const Replayed&) = delete;
+  Replay replay;
+};
+
+TEST_P(Recording, ReplaysToTheLastBitWhateverWasDone) {
+  Bustle bustle(GetParam());
+  bustle.world.start_recording().value();
+  bustle.go(2.0);
+  const Bytes bytes = bustle.world.stop_recording().value();
+  Replayed again(bytes);
+  const auto events = events_of(again.replay);
+  EXPECT_GT(again.replay.step_count(), 50u);
+  EXPECT_EQ(events.size(), bustle.events().size());
+  EXPECT_EQ(hash_of(events), hash_of(bustle.events()));
+  EXPECT_EQ(again.replay.world().save().value(), bustle.world.save().value());
+  EXPECT_EQ(again.replay.step(), again.replay.step_count());
+}
+
+TEST_P(Recording, BeginsAndEndsAnywhere) {
+  Bustle bustle(GetParam());
+  bustle.go(0.5);
+  for (int part = 0; part < 3; ++part) {
+    const std::size_t before = bustle.events().size();
+    bustle.world.start_recording().value();
+    bustle.go(0.3);
+    Replayed again(bustle.world.stop_recording().value());
+    EXPECT_EQ(events_of(again.replay).size(), bustle.events().size() - before);
+    EXPECT_EQ(again.replay.world().save().value(), bustle.world.save().value());
+  }
+}
+
+TEST_P(Recording, ChangesNothing) {
+  Bustle recorded(GetParam());
+  recorded.world.start_recording().value();
+  recorded.go(1.0);
+  Bustle alone(GetParam());
+  alone.go(1.0);
+  EXPECT_EQ(hash_of(recorded.events()), hash_of(alone.events()));
+  EXPECT_EQ(recorded.world.save().value(), alone.world.save().value());
+}
+
+TEST_P(Recording, IsReadWithoutAReplay) {
+  Bustle bustle(GetParam());
+  bustle.world.start_recording().value();
+  const std::uint64_t probes = bustle.world.counters().probes;
+  bustle.go(1.0);
+  const RecordedRun run = read_recording(bustle.world.stop_recording().value()).value();
+  EXPECT_EQ(run.start_time, -1.0);
+  EXPECT_EQ(run.end_time, bustle.world.time());
+  EXPECT_EQ(hash_of(run.events), hash_of(bustle.events()));
+  // The rest are those of probes that failed.
+  EXPECT_LE(run.reports.size(), bustle.world.counters().probes - probes);
+  EXPECT_GE(run.reports.size(), (bustle.world.counters().probes - probes) / 2);
+  for (const Report& report : run.reports) ASSERT_TRUE(is_finite(report.state.velocity));
+}
+
+TEST(RecordingOfAWorld, GoesWithAWorldThatIsMovedAndNotWithAClone) {
+  Playground p;
+  p.add({});
+  p.world.start_recording().value();
+  EXPECT_FALSE(p.world.clone().value().recording());
+  World moved = std::move(p.world);
+  EXPECT_TRUE(moved.recording());
+  p.world = std::move(moved);
+  p.kick({0, 0}, {1, 0, 0});
+  Replay replay = Replay::open(p.world.stop_recording().value()).value();
+  EXPECT_FALSE(p.world.recording());
+  EXPECT_FALSE(replay.advance().value());
+  EXPECT_TRUE(replay.finished());
+  EXPECT_EQ(replay.world().body({0, 0})->definition.velocity, (Vec3{1, 0, 0}));
+}
+
+// Another way.
+
+/// Two bodies that meet at time 2 and pass; a wall after that.
+Bytes meeting(bool with_kick = false) {
+  Playground p({.box = Box{{-10, -10, -10}, {10, 10, 10}}});
+  p.world.start_recording().value();
+  p.add({.acceleration_limit = 1, .position = {-3, 0, 0}, .velocity = {1, 0, 0}});
+  p.add({.acceleration_limit = 1, .position = {3, 0, 0}, .velocity = {-1, 0, 0}});
+  EXPECT_TRUE(p.advance(20.0));
+  if (with_kick) p.kick({1, 0}, {0, 1, 0});
+  while (p.advance(20.0)) {
+  }
+  return p.world.stop_recording().value();
+}
+
+/// Makes length and checksum right again.
+Bytes sealed(Bytes bytes) {
+  const auto write = [&](std::size_t at, std::uint64_t number) {
+    for (std::size_t k = 0; k < 8; ++k) bytes[at + k] = static_cast<std::byte>(number >> (8 * k));
+  };
+  write(12, bytes.size() - 28);
+  write(bytes.size() - 8, Checksum().add(std::span(bytes).first(bytes.size() - 8)).value());
+  return bytes;
+}
+
+/// The recording with one number for another, the first time that it stands after `from`.
+Bytes with(Bytes bytes, double number, double other, std::size_t from = 0) {
+  ByteWriter old_bytes, new_bytes;
+  old_bytes(number);
+  new_bytes(other);
+  const auto at = std::search(bytes.begin() + static_cast<std::ptrdiff_t>(from), bytes.end(),
+                              old_bytes.bytes().begin(), old_bytes.bytes().end());
+  EXPECT_NE(at, bytes.end());
+  std::copy(new_bytes.bytes().begin(), new_bytes.bytes().end(), at);
+  return sealed(bytes);
+}
+
+std::string divergence(const Bytes& bytes) {
+  Replay replay = Replay::open(bytes).value();
+  for (std::size_t k = 0; k <= replay.step_count(); ++k) {
+    const auto event = replay.advance();
+    if (event) continue;
+    EXPECT_EQ(event.error().code, ErrorCode::diverged);
+    EXPECT_EQ(event.error().argument, "recording");
+    EXPECT_FALSE(replay.finished());
+    EXPECT_EQ(replay.advance().error().message, event.error().message) << "it stays diverged";
+    return event.error().message;
+  }
+  ADD_FAILURE() << "went the same way";
+  return {};
+}
+
+TEST(Divergence, IsNamedWithStepAndTime) {
+  const Bytes bytes = meeting();
+  const RecordedRun run = read_recording(bytes).value();
+  ASSERT_GE(run.events.size(), 2u);
+  // A body that starts elsewhere: the first probe comes at another time.
+  const std::string other_start = divergence(with(bytes, -3.0, -2.5));
+  EXPECT_TRUE(other_start.starts_with("Replay::advance: recording, step 3 of ")) << other_start;
+  EXPECT_NE(other_start.find(": expected a probe of body "), std::string::npos) << other_start;
+  EXPECT_NE(other_start.find(", but found a probe of body "), std::string::npos) << other_start;
+  // An event at another time.
+  const std::string other_event = divergence(with(bytes, run.events[0].gap, run.events[0].gap / 2));
+  EXPECT_NE(other_event.find("expected contact_begin of body 0 and body 1 at time "), std::string::npos);
+  EXPECT_NE(other_event.find(", but found it with other figures"), std::string::npos) << other_event;
+  // Another end of an advance.
+  const std::string other_until = divergence(with(bytes, 20.0, 1.0));
+  EXPECT_NE(other_until.find("but found the end of the call"), std::string::npos) << other_until;
+}
+
+TEST(Divergence, ShowsInAChangeThatCannotBeMade) {
+  const Bytes bytes = meeting(true);
+  ByteWriter kick;
+  kick(std::uint8_t{3}, BodyId{1, 0}, Vec3{0, 1, 0});
+  Bytes other = bytes;
+  const auto at = std::search(other.begin(), other.end(), kick.bytes().begin(), kick.bytes().end());
+  ASSERT_NE(at, other.end());
+  at[1] = std::byte{9};
+  const std::string message = divergence(sealed(other));
+  EXPECT_NE(
+      message.find("expected a change that can be made, but found: kick: body 9 was never in this world"),
+      std::string::npos)
+      << message;
+}
+
+TEST(Divergence, OfThePairFilterShows) {
+  Playground p;
+  p.add({.position = {-3, 0, 0}, .velocity = {1, 0, 0}});
+  p.add({.position = {3, 0, 0}, .velocity = {-1, 0, 0}});
+  p.world.set_pair_filter([](BodyId, BodyId) { return false; }).value();
+  p.world.start_recording().value();
+  EXPECT_FALSE(p.advance(5.0));
+  const Bytes bytes = p.world.stop_recording().value();
+  Replay same = Replay::open(bytes, [](BodyId, BodyId) { return false; }).value();
+  EXPECT_TRUE(same.advance());
+  Replay other = Replay::open(bytes, [](BodyId, BodyId) { return true; }).value();
+  EXPECT_EQ(other.advance().error().code, ErrorCode::diverged);
+  expect_error(Replay::open(bytes), ErrorCode::out_of_range, "pair_filter", "Replay::open");
+}
+
+// Bytes that are no recording.
+
+testing::AssertionResult is_refused(const Bytes& bytes, const std::string& why) {
+  for (const auto& error : {Replay::open(bytes).error(), read_recording(bytes).error()}) {
+    if (error.code != ErrorCode::bad_recording || error.argument != "recording" ||
+        !error.message.starts_with("Replay::open: recording must ") ||
+        error.message.find(why) == std::string::npos)
+      return testing::AssertionFailure() << error.message;
+  }
+  return testing::AssertionSuccess();
+}
+
+TEST(BadRecording, EveryTruncationIsRefused) {
+  const Bytes bytes = meeting(true);
+  for (std::size_t length = 0; length < bytes.size(); ++length) {
+    const Bytes cut(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length));
+    ASSERT_TRUE(is_refused(cut, length < 8 ? "mark" : "whole")) << length;
+    if (length < 28) continue;
+    ASSERT_TRUE(is_refused(sealed(cut), "form")) << length;
+  }
+}
+
+TEST(BadRecording, EveryFlippedBitIsRefused) {
+  const Bytes bytes = meeting(true);
+  for (std::size_t k = 0; k < bytes.size(); ++k) {
+    Bytes changed = bytes;
+    changed[k] ^= static_cast<std::byte>(1u << (k % 8));
+    ASSERT_TRUE(is_refused(changed, "")) << k;
+  }
+}
+
+TEST(BadRecording, SaysWhatIsWrong) {
+  const Bytes bytes = meeting();
+  EXPECT_TRUE(is_refused({}, "mark of a recording"));
+  EXPECT_TRUE(is_refused(World::create({})->save().value(), "mark of a recording"));
+  EXPECT_EQ(World::restore(bytes).error().code, ErrorCode::bad_snapshot);
+  Bytes newer = bytes;
+  newer[8] = std::byte{200};
+  EXPECT_TRUE(is_refused(newer, "format version 1, but is of version 200"));
+  Bytes more = bytes;
+  more.push_back(std::byte{0});
+  EXPECT_TRUE(is_refused(more, "whole"));
+  // The snapshot inside is refused on its own.
+  Bytes damaged = bytes;
+  damaged[60] ^= std::byte{1};
+  expect_error(Replay::open(sealed(damaged)), ErrorCode::bad_snapshot, "snapshot", "World::restore");
+  expect_error(read_recording(sealed(damaged)), ErrorCode::bad_snapshot, "snapshot", "World::restore");
+}
+
+TEST(BadRecording, SealedNonsenseIsRefusedOrDivergesOrIsHarmless) {
+  Bustle bustle({ContactMode::begin_and_end, true, 0.0, 8, 11});
+  bustle.world.start_recording().value();
+  bustle.go(0.5);
+  const Bytes bytes = bustle.world.stop_recording().value();
+  // Changes in the snapshot are refused by its own checksum (tests of snapshots go on from there).
+  const std::size_t steps = 20 + 8 + bustle.world.save().value().size() / 2;
+  ASSERT_GT(bytes.size(), steps + 1000);
+  int diverged = 0, refused = 0;
+  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    Bytes changed = bytes;
+    const std::uint64_t changes = 1 + random.bits() % 2;
+    for (std::uint64_t k = 0; k < changes; ++k) {
+      const std::size_t at = steps + random.bits() % (bytes.size() - steps - 8);
+      if (random.bits() % 4 == 0)
+        changed[at] = static_cast<std::byte>(random.bits());
+      else
+        changed[at] ^= static_cast<std::byte>(1u << (random.bits() % 8));
+    }
+    auto replay = Replay::open(sealed(changed), [](BodyId a, BodyId b) { return a.index + b.index != 3; });
+    if (!replay) {
+      ++refused;
+      continue;
+    }
+    while (!replay->finished()) {
+      const auto event = replay->advance();
+      if (event) continue;
+      ASSERT_EQ(event.error().code, ErrorCode::diverged);
+      ++diverged;
+      break;
+    }
+    // Wherever it stopped, it is a world that can be.
+    const auto filter = [](BodyId, BodyId) { return true; };
+    ASSERT_TRUE(World::restore(replay->world().save().value(), filter));
+  }
+  EXPECT_GT(diverged, 500);
+  EXPECT_GT(refused, 50);
+}
+
+TEST(WrongCalls, OfRecording) {
+  Playground p;
+  p.add({});
+  expect_error(p.world.stop_recording(), ErrorCode::not_recording, "world", "stop_recording");
+  p.world.start_recording().value();
+  expect_error(p.world.start_recording(), ErrorCode::recording, "world", "start_recording");
+  int calls = 0;
+  p.distort = [&](BodyId, double, State&) {
+    ++calls;
+    const auto started = p.world.start_recording();
+    const auto stopped = p.world.stop_recording();
+    ASSERT_FALSE(started);
+    ASSERT_FALSE(stopped);
+    EXPECT_EQ(started.error().message, "start_recording: a probe may not call the world that asked it");
+    EXPECT_EQ(stopped.error().message, "stop_recording: a probe may not call the world that asked it");
+  };
+  p.kick({0, 0}, {1, 0, 0});
+  p.advance(1.0);
+  p.kick({0, 0}, {2, 0, 0});
+  p.advance(2.0);
+  EXPECT_GT(calls, 0);
+  EXPECT_TRUE(p.world.stop_recording());
+  expect_error(p.world.stop_recording(), ErrorCode::not_recording, "world", "stop_recording");
+}
+
+}  // namespace
+}  // namespace kinesphere
