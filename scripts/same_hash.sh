@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Runs one scene with the library built by both compilers, at several optimisation levels and with sanitizers,
-# and fails unless all of them, and the program given, find the same events bit for bit.
+# and fails unless all of them, and the program given, find the same events bit for bit, and go through a recording
+# of that program without diverging.
 # Usage: same_hash.sh <the program kinesphere> [scene bodies seconds]
 set -euo pipefail
 
@@ -21,7 +22,10 @@ configurations=(
   "clang-O3-native clang++ -O3 -march=native"
 )
 
-expected=$("$program" run "$scene" --bodies "$bodies" --seconds "$seconds" --hash-only)
+mkdir -p build/hash
+recording=$(mktemp build/hash/recording-XXXXXX)
+trap 'rm -f "$recording"' EXIT
+expected=$("$program" run "$scene" --bodies "$bodies" --seconds "$seconds" --record "$recording" --hash-only)
 echo "$expected  $program"
 different=0
 for configuration in "${configurations[@]}"; do
@@ -35,11 +39,12 @@ for configuration in "${configurations[@]}"; do
     exit 1
   fi
   hash=$("$build/tests/scene_hash" "$scene" "$bodies" "$seconds")
-  echo "$hash  $name"
-  if [[ $hash != "$expected" ]]; then different=$((different + 1)); fi
+  replayed=$("$build/tests/scene_hash" "$recording" || true)
+  echo "$hash  ${replayed:-diverged}  $name"
+  if [[ $hash != "$expected" || $replayed != "$expected" ]]; then different=$((different + 1)); fi
 done
 
 if [[ $different != 0 ]]; then
-  echo "same_hash: $different of ${#configurations[@]} builds find other events than the program" >&2
+  echo "same_hash: $different of ${#configurations[@]} builds find other events than the program, or other ones in its recording" >&2
   exit 1
 fi

@@ -42,6 +42,8 @@ class Detector {
   virtual Result<Bound> bound(std::uint32_t body) const = 0;
   /// Differences that an audit finds, if the detector has one.
   virtual std::optional<AuditFinding> audit() const { return std::nullopt; }
+  /// What it takes, for detectors that know.
+  virtual std::optional<Memory> memory() const { return std::nullopt; }
   // Recording (recording.hpp), for detectors that are a World: bodies carry their number as user data.
   // Errors: unsupported, and those of World.
   virtual Result<void> start_recording();

@@ -2,10 +2,13 @@
 // and the benchmarks.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -56,12 +59,17 @@ struct SimulationResult {
   double simulated_time = 0.0;
   double body_time = 0.0;          ///< sum over bodies of the time they were there
   std::uint64_t contact_hash = 0;  ///< of all events, in order; see EventHash
+  std::optional<Memory> memory{};  ///< of the detector at the end, if it knows
 };
 
 /// Runs a scene under a detector that `make` creates: adds and removes bodies when their time comes, answers
 /// contacts as the scene's response says.
 Result<SimulationResult> simulate(const Scene& scene, const DetectorMaker& make,
                                   const SimulationObserver& observer = {});
+
+/// What simulate() gave when its detector was recorded (SimulationObserver::at_start and at_end), from the
+/// recording alone. Errors: as Replay::open() and Replay::advance(), which is where it stops.
+Result<SimulationResult> replay(std::span<const std::byte> recording);
 
 /// A hash of events that any change of a bit in time, kind, ids or wall changes (64-bit FNV-1a).
 class EventHash {

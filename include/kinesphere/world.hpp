@@ -42,6 +42,7 @@
 #include "kinesphere/counters.hpp"
 #include "kinesphere/event.hpp"
 #include "kinesphere/filter.hpp"
+#include "kinesphere/inspection.hpp"
 #include "kinesphere/probe.hpp"
 #include "kinesphere/queries.hpp"
 #include "kinesphere/result.hpp"
@@ -172,6 +173,21 @@ class World {
   /// Which sensor distances it is within, in the order in which they were crossed.
   Result<std::vector<Sensed>> sensed(BodyId body) const;
 
+  // Seeing inside (inspection.hpp).
+
+  /// Cost: O(n).
+  Memory memory() const;
+  /// Of the grid, by level. Cost: all cells.
+  std::vector<CellView> cells() const;
+  /// Of pairs, in no particular order. Cost: all of them.
+  std::vector<Certificate> certificates() const;
+  /// Timing costs two looks at the clock a call of advance() and a probe; at first it is off, and costs
+  /// nothing. Switched on it begins from zero. It is no part of snapshots, clones and recordings. Errors:
+  /// probe_in_progress.
+  Result<void> set_timing(bool on);
+  /// What was spent while timing was on.
+  Timings timings() const;
+
   /// Rebuilds from scratch what should be true now (every registration, certificate and scheduled time)
   /// and returns the first difference. Meant for tests: O(n^2).
   std::optional<AuditFinding> audit() const;
@@ -268,11 +284,15 @@ class World {
   /// For this change, which has been found to be possible.
   template <class Change>
   Engine& changing(const Change& change);
-  /// For calls that probe outside advance(): those of them whose reports are old. True when there were any.
+  Result<std::optional<Event>> recorded_advance(double until, const Probe& probe);
+  Result<std::optional<Event>> timed_advance(double until, const Probe& probe);
+  /// For calls that probe outside advance(): those bodies whose reports are old. True when there were any.
   Result<bool> refresh(std::span<const std::uint32_t> numbers, const Probe& probe, std::string_view call);
 
   std::unique_ptr<const Engine> engine_;
   std::unique_ptr<Recorder> recorder_;  ///< while there is a recording
+  Timings timings_{};
+  bool timing_ = false;
 };
 
 }  // namespace kinesphere

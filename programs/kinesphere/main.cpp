@@ -10,6 +10,7 @@
 #include "kinesphere/version.hpp"
 #include "list_scenes.hpp"
 #include "program_error.hpp"
+#include "replay.hpp"
 #include "run.hpp"
 #include "tracks.hpp"
 #include "verify.hpp"
@@ -28,10 +29,12 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", std::string(version));
   app.require_subcommand(0, 1);
   RunOptions run_options;
+  ReplayOptions replay_options;
   VerifyOptions verify_options;
   TracksOptions tracks_options;
   BenchOptions bench_options;
   const CLI::App* const run_command = add_run_command(app, run_options);
+  const CLI::App* const replay_command = add_replay_command(app, replay_options);
   const CLI::App* const tracks_command = add_tracks_command(app, tracks_options);
   const CLI::App* const verify_command = add_verify_command(app, verify_options);
   const CLI::App* const scenes_command = add_scenes_command(app);
@@ -44,11 +47,12 @@ int main(int argc, char** argv) {
     return complain(fmt::format("{} (see --help)", error.what()));
   }
   if (*run_command) return run(run_options);
+  if (*replay_command) return replay(replay_options);
   if (*tracks_command) return tracks(tracks_options);
   if (*verify_command) return verify(verify_options);
   if (*scenes_command) return list_scenes();
   if (*bench_command) return bench_paper(bench_options);
-  throw ProgramError("expected a command: run, tracks, verify, scenes or bench (see --help)");
+  throw ProgramError("expected a command: run, replay, tracks, verify, scenes or bench (see --help)");
 }
 
 }  // namespace

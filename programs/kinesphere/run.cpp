@@ -10,6 +10,7 @@
 
 #include "contact_log.hpp"
 #include "frames_xyz.hpp"
+#include "output_file.hpp"
 #include "program_error.hpp"
 #include "progress.hpp"
 #include "summary.hpp"
@@ -29,6 +30,7 @@ double frame_interval_of(const RunOptions& options, const Scene& scene) {
 struct Attachments {
   std::unique_ptr<ContactLog> contacts;
   std::unique_ptr<FramesXyz> frames;
+  std::unique_ptr<OutputFile> recording;
   std::unique_ptr<Progress> progress;
   std::optional<AuditFinding> finding;
   double finding_time = 0.0;
@@ -38,8 +40,13 @@ Attachments attach(const RunOptions& options, const Scene& scene) {
   Attachments attached;
   if (!options.contacts.empty() && options.contacts == options.frames)
     throw ProgramError("--frames: expected another file than that of --contacts, but got " + options.frames);
+  if (!options.record.empty() && (options.record == options.contacts || options.record == options.frames))
+    throw ProgramError("--record: expected a file of its own, but got " + options.record);
+  if (!options.record.empty() && options.detector.name != "world")
+    throw ProgramError("--record: expected only with --detector world");
   if (!options.contacts.empty()) attached.contacts = std::make_unique<ContactLog>(options.contacts);
   if (!options.frames.empty()) attached.frames = std::make_unique<FramesXyz>(options.frames, scene);
+  if (!options.record.empty()) attached.recording = std::make_unique<OutputFile>(options.record);
   if (!options.quiet && !options.hash_only) {
     attached.progress = std::make_unique<Progress>(scene.world.start_time, scene.end_time);
   }
@@ -55,6 +62,15 @@ SimulationObserver observer_of(const RunOptions& options, const Scene& scene, At
     observer.frame_interval = frame_interval_of(options, scene);
     observer.on_frame = [&](const Detector& detector, const Motion& motion, double time) {
       attached.frames->write(detector, motion, time);
+    };
+  }
+  if (attached.recording) {
+    observer.at_start = [](Detector& detector) { return detector.start_recording(); };
+    observer.at_end = [&](Detector& detector) -> Result<void> {
+      const auto recording = detector.stop_recording();
+      if (!recording) return recording.error();
+      attached.recording->write({reinterpret_cast<const char*>(recording->data()), recording->size()});
+      return {};
     };
   }
   const bool show = attached.progress && attached.progress->visible();
@@ -121,6 +137,10 @@ std::string summary_of(const SceneParameters& parameters, const RunOptions& opti
                 fmt::format("{} candidates", grouped(counters.candidates)));
   }
   summary.row("pair tests", grouped(counters.certificates));
+  if (result.memory && !scene.bodies.empty()) {
+    summary.row("memory", grouped((result.memory->total() - result.memory->recording) / scene.bodies.size()),
+                "bytes per body");
+  }
   summary.space();
   summary.row("hash", fmt::format("{:016x}", result.contact_hash));
   add_speed(summary, result.simulated_time, real_seconds);
@@ -137,6 +157,8 @@ CLI::App* add_run_command(CLI::App& program, RunOptions& options) {
   command->add_option("--contacts", options.contacts, "Write every event to this .csv or .jsonl file")
       ->type_name("FILE");
   command->add_option("--frames", options.frames, "Write snapshots to this file (extended XYZ, for OVITO)")
+      ->type_name("FILE");
+  command->add_option("--record", options.record, "Write a recording to this file, for `kinesphere replay`")
       ->type_name("FILE");
   command
       ->add_option("--frame-interval", options.frame_interval,
@@ -162,6 +184,7 @@ int run(const RunOptions& options) {
   attached.progress.reset();
   if (attached.contacts) attached.contacts->commit();
   if (attached.frames) attached.frames->commit();
+  if (attached.recording) attached.recording->commit();
   if (options.hash_only) {
     fmt::print("{:016x}\n", result.contact_hash);
   } else if (!options.quiet) {

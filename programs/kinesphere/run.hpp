@@ -15,6 +15,7 @@ struct RunOptions {
   DetectorOptions detector;
   std::string contacts;
   std::string frames;
+  std::string record;
   std::optional<double> frame_interval;
   bool audit = false;
   bool hash_only = false;

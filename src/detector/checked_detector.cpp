@@ -53,6 +53,7 @@ class CheckedDetector final : public Detector {
     return detector_->bound(body);
   }
   std::optional<AuditFinding> audit() const override { return detector_->audit(); }
+  std::optional<Memory> memory() const override { return detector_->memory(); }
   Result<void> start_recording() override { return detector_->start_recording(); }
   Result<std::vector<std::byte>> stop_recording() override { return detector_->stop_recording(); }
 

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "detector/checked_detector.hpp"
+#include "detector/numbered_event.hpp"
 #include "kinesphere/detector.hpp"
 
 namespace kinesphere {
@@ -40,7 +41,7 @@ class WorldDetector final : public Detector {
       for (std::size_t k = 0; k < ids.size(); ++k) states[k] = motion_.state(numbers_[ids[k].index], time);
     };
     auto event = world_.advance(until, probe);
-    if (event && *event) return std::optional(by_number(**event));
+    if (event && *event) return std::optional(numbered(**event, [this](BodyId id) { return number_of(id); }));
     if (event) departed_.clear();
     return event;
   }
@@ -49,6 +50,7 @@ class WorldDetector final : public Detector {
   Counters counters() const override { return world_.counters(); }
   Result<Bound> bound(std::uint32_t number) const override { return world_.body(ids_[number])->bound; }
   std::optional<AuditFinding> audit() const override { return world_.audit(); }
+  std::optional<Memory> memory() const override { return world_.memory(); }
   Result<void> start_recording() override { return world_.start_recording(); }
   Result<std::vector<std::byte>> stop_recording() override { return world_.stop_recording(); }
 
@@ -58,23 +60,10 @@ class WorldDetector final : public Detector {
     std::uint32_t number;
   };
 
-  BodyId number_of(BodyId id) const {
-    if (id == no_body) return id;
+  std::uint32_t number_of(BodyId id) const {
     for (const Departed& departed : departed_)
-      if (departed.id == id) return {departed.number, 0};
-    return {numbers_[id.index], 0};
-  }
-
-  /// The event with numbers for ids, and the smaller number first.
-  Event by_number(Event event) const {
-    event.first = number_of(event.first);
-    event.second = number_of(event.second);
-    if (event.second != no_body && event.second < event.first) {
-      std::swap(event.first, event.second);
-      std::swap(event.first_state, event.second_state);
-      event.normal = -event.normal;
-    }
-    return event;
+      if (departed.id == id) return departed.number;
+    return numbers_[id.index];
   }
 
   World world_;

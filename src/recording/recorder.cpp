@@ -1,5 +1,6 @@
 #include "recording/recorder.hpp"
 
+#include "archive/heap_counter.hpp"
 #include "recording/format.hpp"
 
 namespace kinesphere {
@@ -12,6 +13,8 @@ std::vector<std::byte> Recorder::finish(const World& world) {
   note(step::End{world.time(), Checksum().add(world.save().value()).value()});
   return recording_envelope.seal(std::exchange(content_, {}).bytes());
 }
+
+std::size_t Recorder::memory() const { return sizeof *this + heap_bytes(content_.bytes(), asking_.answers); }
 
 Recorder::Listener::Listener(Recorder& recorder, const World& world, const Probe& probe,
                              std::optional<double> until)

@@ -18,6 +18,9 @@ class Recorder {
   /// The whole recording. The recorder is empty then.
   std::vector<std::byte> finish(const World& world);
 
+  /// Bytes that it holds.
+  std::size_t memory() const;
+
   class Listener;
 
  private:

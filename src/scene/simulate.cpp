@@ -55,6 +55,7 @@ class Simulation {
     if (auto advanced = advance_to(scene_.end_time); !advanced) return advanced.error();
     if (last_frame != scene_.end_time) show(scene_.end_time);
     result_.counters = detector_.counters();
+    result_.memory = detector_.memory();
     result_.simulated_time = scene_.end_time - start;
     result_.contact_hash = hash_.value();
     return result_;

@@ -55,6 +55,10 @@ class HashGrid {
   template <class Visit>
   void for_each_overlap(const Box& box, Visit visit) const;
 
+  /// Calls visit(Box, number of bodies) for each cell that holds something, level by level.
+  template <class Visit>
+  void for_each_cell(Visit visit) const;
+
   /// What is wrong with the body's registration, if anything: it must stand, as `box`, in every cell that the
   /// box meets and in no other. Cost: all cells.
   std::optional<std::string> check(std::uint32_t body, const Box& box) const;
@@ -192,6 +196,18 @@ void HashGrid::for_each_overlap(const Box& box, Visit visit) const {
       for (std::int32_t y = range.first.y; y <= range.last.y; ++y)
         for (std::int32_t x = range.first.x; x <= range.last.x; ++x)
           if (const Cell* cell = level.find({x, y, z})) visit_cell(*cell);
+  }
+}
+
+template <class Visit>
+void HashGrid::for_each_cell(Visit visit) const {
+  for (const Level& level : levels_) {
+    const double edge = 1.0 / level.cells_per_length;
+    for (const Cell& cell : level.cells) {
+      const auto [x, y, z] = cell.index;
+      const Vec3 lower = Vec3{1.0 * x, 1.0 * y, 1.0 * z} * edge;
+      if (!cell.entries.empty()) visit(Box{lower, lower + Vec3{edge, edge, edge}}, cell.entries.size());
+    }
   }
 }
 

@@ -139,6 +139,10 @@ class World::Engine {
   const SensorTable& sensors() const { return sensors_; }
   const ContactBook& book() const { return book_; }
   std::optional<AuditFinding> audit() const;
+  // inspection.cpp
+  Memory memory() const;
+  std::vector<Certificate> certificates() const;
+  const HashGrid& grid() const { return grid_; }
 
   // What is known at the current time.
   class Answers;

@@ -260,6 +260,10 @@ Result<std::uint64_t> World::user_data(BodyId body) const {
 Result<std::optional<Event>> World::advance(double until, Probe probe) {
   const auto valid = first_error(check_idle(engine_->probing(), "advance"), check_time(until, time()));
   if (!valid) return valid.error();
+  return timing_ ? timed_advance(until, probe) : recorded_advance(until, probe);
+}
+
+Result<std::optional<Event>> World::recorded_advance(double until, const Probe& probe) {
   if (!recorder_) return changeable().advance(until, probe);
   Recorder::Listener listener(*recorder_, *this, probe, until);
   auto event = changeable().advance(until, listener);

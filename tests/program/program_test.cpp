@@ -37,7 +37,7 @@ TEST_F(ProgramTest, SaysItsVersionAndHelps) {
   const ProgramRun version_run = run("--version");
   EXPECT_EQ(version_run.exit_code, 0);
   EXPECT_EQ(version_run.out, std::string(version) + "\n");
-  for (const char* command : {"--help", "run --help", "tracks --help", "verify --help", "scenes --help"}) {
+  for (const char* command : {"--help", "run --help", "replay --help", "tracks --help", "verify --help", "scenes --help"}) {
     const ProgramRun help = run(command);
     EXPECT_EQ(help.exit_code, 0) << command;
     EXPECT_EQ(help.err, "") << command;
@@ -54,7 +54,7 @@ TEST_F(ProgramTest, ListsTheScenes) {
 
 TEST_F(ProgramTest, RefusesWrongOptions) {
   const std::string scene = write("s.json", small_scene);
-  expect_wrong_input("", {"expected a command: run, tracks, verify, scenes or bench"});
+  expect_wrong_input("", {"expected a command: run, replay, tracks, verify, scenes or bench"});
   expect_wrong_input("fly", {"fly"});
   expect_wrong_input("run", {"SCENE"});
   expect_wrong_input("run " + scene + " --fast", {"--fast"});

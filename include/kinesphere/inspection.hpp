@@ -1,0 +1,58 @@
+// Seeing inside a world: what it takes, where its time goes, and what there is to draw.
+//
+//   for (const BodyId id : world.bodies()) {
+//     const BodyView body = world.body(id).value();
+//     draw(body.bound.centre_at(world.time()), body.bound.radius_at(world.time()));
+//     draw(body.box);
+//   }
+//   for (const CellView& cell : world.cells()) draw(cell.box);
+//   for (const Certificate& c : world.certificates()) draw(c.first, c.second, c.until - world.time());
+//
+// All of it is a copy: whatever is done with it, the world stays as it is.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kinesphere/body_id.hpp"
+#include "kinesphere/vec3.hpp"
+
+namespace kinesphere {
+
+/// Memory by part (bytes): what has been asked of the allocator, used yet or not, and 16 bytes a block, which
+/// is what allocators usually take for themselves; a node of a tree counts with four pointers.
+struct Memory {
+  std::size_t bodies = 0;     ///< definitions, bounds and boxes
+  std::size_t watches = 0;    ///< certificates of pairs
+  std::size_t contacts = 0;   ///< who touches whom, and events on their way
+  std::size_t grid = 0;       ///< cells, and the boxes in them
+  std::size_t schedule = 0;   ///< who is due when
+  std::size_t recording = 0;  ///< what has been recorded so far
+  std::size_t other = 0;
+
+  std::size_t total() const { return bodies + watches + contacts + grid + schedule + recording + other; }
+};
+
+/// Real time spent (seconds) since World::set_timing(true).
+struct Timings {
+  std::uint64_t advances = 0;  ///< calls of advance()
+  double advance = 0.0;        ///< in advance(), the probes in it too
+  double probes = 0.0;         ///< in the caller's probes
+};
+
+/// A cell of the grid that holds something. Cells are cubes, on levels each four times as large as the next.
+struct CellView {
+  Box box{};
+  std::size_t bodies = 0;  ///< whose registered boxes meet it
+};
+
+/// What is recorded of a pair: whether the two touch does not change before `until`, as long as both keep
+/// their promises and nobody changes them. Pairs of which nothing is recorded are apart at least until the
+/// box of one of them ends (BodyView::box_end).
+struct Certificate {
+  BodyId first;  ///< first < second
+  BodyId second;
+  double until;  ///< may be infinite
+};
+
+}  // namespace kinesphere

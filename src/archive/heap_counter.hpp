@@ -1,0 +1,68 @@
+// An archive (archive.hpp) that only counts the memory behind a value: what it has asked of the allocator.
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+
+#include "archive/archive.hpp"
+
+namespace kinesphere {
+
+class HeapCounter {
+ public:
+  template <class... Values>
+  void operator()(const Values&... values) {
+    (count(values), ...);
+  }
+  std::size_t bytes() const { return bytes_; }
+
+ private:
+  /// What allocators usually take for themselves.
+  static constexpr std::size_t block_overhead = 16;
+  static constexpr std::size_t node_overhead = 4 * sizeof(void*);
+
+  template <class T>
+  void count(const T& value) {
+    if constexpr (!std::is_trivially_copyable_v<T>) detail::transfer_fields(value, *this);
+  }
+  template <class T>
+  void count(const std::vector<T>& values) {
+    if (values.capacity() > 0) bytes_ += values.capacity() * sizeof(T) + block_overhead;
+    count_all(values);
+  }
+  template <class T, class Less>
+  void count(const std::set<T, Less>& values) {
+    bytes_ += values.size() * (sizeof(T) + node_overhead + block_overhead);
+    count_all(values);
+  }
+  template <class T>
+  void count(const std::optional<T>& value) {
+    if (value) count(*value);
+  }
+  template <class A, class B>
+  void count(const std::pair<A, B>& value) {
+    (*this)(value.first, value.second);
+  }
+  template <class T, std::size_t size>
+  void count(const std::array<T, size>& values) {
+    count_all(values);
+  }
+
+  template <class Values>
+  void count_all(const Values& values) {
+    if constexpr (!std::is_trivially_copyable_v<typename Values::value_type>)
+      for (const auto& value : values) count(value);
+  }
+
+  std::size_t bytes_ = 0;
+};
+
+/// Of all of them.
+template <class... Values>
+std::size_t heap_bytes(const Values&... values) {
+  HeapCounter counter;
+  counter(values...);
+  return counter.bytes();
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,88 @@
+// Seeing inside: memory, timings, and what there is to draw.
+#include "kinesphere/inspection.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "archive/fields.hpp"
+#include "archive/heap_counter.hpp"
+#include "recording/recorder.hpp"
+#include "world/engine.hpp"
+#include "world/validation.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// Adds the time that it lives to a sum of seconds, also while an exception passes.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& sum) : sum_(sum) {}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+  ~Stopwatch() { sum_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& sum_;
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace
+
+Memory World::Engine::memory() const {
+  Memory memory;
+  for (const Body& body : bodies_) memory.watches += heap_bytes(body.watches);
+  memory.bodies = heap_bytes(bodies_) - memory.watches;
+  memory.contacts = heap_bytes(book_);
+  memory.grid = heap_bytes(grid_);
+  memory.schedule = heap_bytes(schedule_);
+  memory.other = sizeof *this + heap_bytes(free_, dirty_, probe_ids_, probe_states_, partners_);
+  return memory;
+}
+
+std::vector<Certificate> World::Engine::certificates() const {
+  std::vector<Certificate> all;
+  for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
+    for (const Watch& watch : bodies_[number].watches) {
+      if (watch.epoch != bodies_[watch.partner].epoch) continue;
+      const auto [first, second] = std::minmax({id_of(number), id_of(watch.partner)});
+      all.push_back({first, second, watch.time});
+    }
+  }
+  return all;
+}
+
+Memory World::memory() const {
+  Memory memory = engine_->memory();
+  if (recorder_) memory.recording = recorder_->memory();
+  return memory;
+}
+
+std::vector<CellView> World::cells() const {
+  std::vector<CellView> all;
+  engine_->grid().for_each_cell([&](const Box& box, std::size_t bodies) { all.push_back({box, bodies}); });
+  return all;
+}
+
+std::vector<Certificate> World::certificates() const { return engine_->certificates(); }
+
+Result<void> World::set_timing(bool on) {
+  auto valid = check_idle(engine_->probing(), "set_timing");
+  if (!valid) return valid;
+  if (on && !timing_) timings_ = {};
+  timing_ = on;
+  return valid;
+}
+
+Timings World::timings() const { return timings_; }
+
+Result<std::optional<Event>> World::timed_advance(double until, const Probe& probe) {
+  ++timings_.advances;
+  const Stopwatch whole(timings_.advance);
+  return recorded_advance(until, [&](std::span<const BodyId> ids, double time, std::span<State> states) {
+    const Stopwatch asking(timings_.probes);
+    probe(ids, time, states);
+  });
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,176 @@
+// Seeing inside: memory by part, timings, cells and certificates.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+#include "support/expect_error.hpp"
+#include "world/crowd.hpp"
+
+namespace kinesphere {
+namespace {
+
+struct BusyCrowd : Crowd {
+  BusyCrowd() : Crowd({ContactMode::begin_and_end, true, 0.0, 200, 3}) { run(0.0); }
+};
+
+TEST(Memory, GrowsWithTheBodiesAndBelongsToParts) {
+  World world = World::create({}).value();
+  const Memory none = world.memory();
+  EXPECT_EQ(none.bodies + none.watches + none.contacts + none.grid + none.schedule + none.recording, 0u);
+  EXPECT_GT(none.other, 0u);
+  EXPECT_EQ(none.total(), none.other);
+  BusyCrowd crowd;
+  const Memory memory = crowd.world.memory();
+  const std::size_t count = crowd.world.size();
+  // What each part needs at least.
+  EXPECT_GE(memory.bodies, count * sizeof(BodyView));
+  EXPECT_GE(memory.watches, crowd.world.certificates().size() * 16);
+  EXPECT_GE(memory.contacts, count * 24);
+  EXPECT_GE(memory.grid, count * 2 * 28);
+  EXPECT_GE(memory.schedule, count * 20);
+  EXPECT_EQ(memory.recording, 0u);
+  // And no more than a few times that.
+  EXPECT_LT(memory.total(), count * 4000);
+  EXPECT_EQ(memory.total(),
+            memory.bodies + memory.watches + memory.contacts + memory.grid + memory.schedule + memory.other);
+}
+
+TEST(Memory, ShowsARecordingGrow) {
+  BusyCrowd crowd;
+  const std::size_t before = crowd.world.memory().total();
+  crowd.world.start_recording().value();
+  const std::size_t at_start = crowd.world.memory().recording;
+  EXPECT_GE(at_start, crowd.world.save().value().size());
+  crowd.run(1.0);
+  EXPECT_GT(crowd.world.memory().recording, at_start);
+  const std::size_t recorded = crowd.world.stop_recording().value().size();
+  EXPECT_EQ(crowd.world.memory().recording, 0u);
+  EXPECT_GT(recorded, at_start);
+  EXPECT_LT(crowd.world.memory().total(), before + recorded);
+}
+
+TEST(Cells, HoldTheRegisteredBoxes) {
+  const BusyCrowd crowd{};
+  const std::vector<CellView> cells = crowd.world.cells();
+  std::size_t entries = 0;
+  for (const CellView& cell : cells) {
+    EXPECT_GT(cell.bodies, 0u);
+    entries += cell.bodies;
+    EXPECT_NEAR(cell.box.upper.x - cell.box.lower.x, cell.box.upper.z - cell.box.lower.z, 1e-9);
+  }
+  EXPECT_GE(entries, crowd.world.size());
+  for (const BodyId id : crowd.world.bodies()) {
+    const Box box = crowd.world.body(id).value().box;
+    const Vec3 middle = 0.5 * (box.lower + box.upper);
+    const auto holds = [&](const CellView& cell) {
+      for (int axis = 0; axis < 3; ++axis)
+        if (middle[axis] < cell.box.lower[axis] || middle[axis] > cell.box.upper[axis]) return false;
+      return true;
+    };
+    EXPECT_TRUE(std::any_of(cells.begin(), cells.end(), holds)) << id;
+  }
+  EXPECT_TRUE(World::create({}).value().cells().empty());
+}
+
+TEST(Certificates, AreTrueOfTheTruth) {
+  BusyCrowd crowd;
+  const std::vector<Certificate> all = crowd.world.certificates();
+  ASSERT_GT(all.size(), 20u);
+  std::size_t checked = 0;
+  for (const Certificate& certificate : all) {
+    ASSERT_LT(certificate.first, certificate.second);
+    EXPECT_GE(certificate.until, crowd.world.time());
+    if (crowd.gap(certificate.first, certificate.second) <= 5 * Crowd::eps) continue;
+    const double end = std::min(certificate.until, crowd.world.time() + 10.0);
+    for (int k = 0; k <= 20; ++k, ++checked) {
+      const double time = crowd.world.time() + (end - crowd.world.time()) * k / 20;
+      EXPECT_GE(crowd.gap(certificate.first, certificate.second, time), -Crowd::eps);
+    }
+  }
+  EXPECT_GT(checked, 100u);
+  EXPECT_TRUE(World::create({}).value().certificates().empty());
+}
+
+TEST(Certificates, OfABodyThatIsKickedAreGone) {
+  BusyCrowd crowd;
+  const BodyId body = crowd.world.certificates().front().first;
+  crowd.kick(body, {1, 1, 1});
+  for (const Certificate& certificate : crowd.world.certificates())
+    EXPECT_TRUE(certificate.first != body && certificate.second != body);
+}
+
+TEST(Timings, AreOffAtFirstAndThenTellProbesFromTheRest) {
+  Playground p;
+  p.add({.acceleration_limit = 1, .position = {-5, 0, 0}, .velocity = {1, 0, 0}});
+  p.add({.acceleration_limit = 1, .position = {5, 0, 0}, .velocity = {-1, 0, 0}});
+  p.run(1.0);
+  EXPECT_EQ(p.world.timings().advances, 0u);
+  EXPECT_EQ(p.world.timings().advance, 0.0);
+  p.world.set_timing(true).value();
+  p.distort = [](BodyId, double, State&) { std::this_thread::sleep_for(std::chrono::milliseconds(2)); };
+  const std::uint64_t probes = p.world.counters().probes;
+  p.run(6.0);
+  const Timings timings = p.world.timings();
+  EXPECT_GT(timings.advances, 1u);
+  EXPECT_GE(timings.probes, 0.002 * static_cast<double>(p.world.counters().probes - probes));
+  EXPECT_GE(timings.advance, timings.probes);
+  p.world.set_timing(false).value();
+  p.run(7.0);
+  EXPECT_EQ(p.world.timings().advances, timings.advances) << "kept, but not gone on with";
+  p.world.set_timing(true).value();
+  EXPECT_EQ(p.world.timings().advances, 0u);
+}
+
+TEST(Timings, CountAProbeThatThrows) {
+  Playground p;
+  p.add({});
+  p.world.set_timing(true).value();
+  p.kick({0, 0}, {1, 0, 0});
+  p.run(1.0);
+  p.kick({0, 0}, {2, 0, 0});
+  p.distort = [](BodyId, double, State&) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    throw std::runtime_error("no answer");
+  };
+  EXPECT_THROW(p.advance(2.0), std::runtime_error);
+  EXPECT_GE(p.world.timings().probes, 0.002);
+  EXPECT_GE(p.world.timings().advance, p.world.timings().probes);
+}
+
+TEST(Timings, AndRecordingsDoNotDisturbEachOther) {
+  BusyCrowd timed;
+  timed.world.set_timing(true).value();
+  timed.world.start_recording().value();
+  timed.run(1.0);
+  BusyCrowd plain;
+  plain.run(1.0);
+  EXPECT_EQ(timed.hash.value(), plain.hash.value());
+  EXPECT_EQ(timed.world.save().value(), plain.world.save().value());
+  EXPECT_GT(timed.world.timings().advance, 0.0);
+  EXPECT_FALSE(timed.world.clone().value().timings().advances);
+}
+
+TEST(WrongCalls, AProbeMayLookInsideButNotSwitchTimingOn) {
+  Playground p;
+  p.add({});
+  int calls = 0;
+  p.distort = [&](BodyId, double, State&) {
+    ++calls;
+    expect_error(p.world.set_timing(true), ErrorCode::probe_in_progress, "probe", "set_timing");
+    EXPECT_GT(p.world.memory().total(), 0u);
+    EXPECT_LE(p.world.cells().size(), 8u);
+    EXPECT_TRUE(p.world.certificates().empty());
+  };
+  p.kick({0, 0}, {1, 0, 0});
+  p.advance(1.0);
+  p.kick({0, 0}, {2, 0, 0});
+  p.advance(2.0);
+  EXPECT_GT(calls, 0);
+  EXPECT_EQ(p.world.timings().advances, 0u);
+}
+
+}  // namespace
+}  // namespace kinesphere
