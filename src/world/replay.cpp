@@ -136,17 +136,15 @@ class Replay::Player {
     }
     hash_.add(world_, found);
     if (const auto difference = probe.difference(); !difference.empty()) return diverge(difference);
+    if (found.failed == recorded.failed && bytes_of(found.event) == bytes_of(recorded.event)) {
+      if (hash_.value() == recorded.hash) return;
+      return diverge("expected the hash " + hex(recorded.hash) + ", but found " + hex(hash_.value()) + ": " +
+                     outcome_text(found.event, found.failed) + " took other work");
+    }
     const std::string expected = outcome_text(recorded.event, recorded.failed);
     const std::string came = outcome_text(found.event, found.failed);
-    if (expected != came)
-      return diverge("expected " + expected + ", but found " + came + (refused.empty() ? "" : ": ") +
-                     refused);
-    if (bytes_of(found.event) != bytes_of(recorded.event))
-      return diverge("expected " + expected + ", but found it with other figures");
-    if (hash_.value() != recorded.hash) {
-      diverge("expected the hash " + hex(recorded.hash) + ", but found " + hex(hash_.value()) + ": " + came +
-              " took other work");
-    }
+    diverge("expected " + expected + ", but found " +
+            (came == expected ? "it with other figures" : came + (refused.empty() ? "" : ": ") + refused));
   }
 
   void repeat(const step::End& end) {
