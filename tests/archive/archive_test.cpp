@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <variant>
 
 #include "archive/fields.hpp"
 
@@ -45,6 +46,21 @@ TEST(Archive, GivesBackWhatItTook) {
   EXPECT_TRUE(std::signbit(event_back->time));
   EXPECT_EQ(event_back->kind, EventKind::wall_end);
   EXPECT_EQ(event_back->first, (BodyId{3, 4}));
+}
+
+TEST(Archive, AVariantIsItsIndexAndWhatItHolds) {
+  using Choice = std::variant<bool, std::uint16_t, std::vector<double>>;
+  ByteWriter writer;
+  writer(Choice(std::uint16_t{258}), Choice(std::vector{1.0, 2.0}), std::uint8_t{3});
+  EXPECT_EQ(as_numbers(writer.bytes())[0], 1);
+  Choice number, values, nothing;
+  ByteReader reader(writer.bytes());
+  reader(number, values);
+  EXPECT_FALSE(reader.failed());
+  EXPECT_EQ(number, Choice(std::uint16_t{258}));
+  EXPECT_EQ(values, Choice(std::vector{1.0, 2.0}));
+  reader(nothing);
+  EXPECT_TRUE(reader.failed()) << "there is no fourth";
 }
 
 TEST(Archive, AnImmenseCountTakesNoMemory) {

@@ -1,0 +1,48 @@
+// Envelopes: what was sealed is opened, anything else is refused and says why.
+#include "archive/envelope.hpp"
+
+#include <gtest/gtest.h>
+
+namespace kinesphere {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+constexpr Envelope envelope{
+    {'T', 'e', 's', 't', '.', '.', '\r', '\n'}, 3, "thing", "open", "letter", ErrorCode::bad_recording};
+
+TEST(Envelope, GivesBackWhatWasSealed) {
+  for (const std::size_t size : {0u, 1u, 7u, 8u, 9u, 1000u}) {
+    const Bytes content(size, std::byte{42});
+    const Bytes sealed = envelope.seal(content);
+    EXPECT_EQ(sealed.size(), size + 28);
+    const auto opened = envelope.open(sealed).value();
+    EXPECT_TRUE(std::equal(opened.begin(), opened.end(), content.begin(), content.end()));
+  }
+}
+
+TEST(Envelope, RefusesAllElse) {
+  const auto refused = [](const Bytes& bytes) {
+    const Error error = envelope.open(bytes).error();
+    EXPECT_EQ(error.code, ErrorCode::bad_recording);
+    EXPECT_EQ(error.argument, "letter");
+    return error.message;
+  };
+  const Bytes good = envelope.seal(Bytes(100, std::byte{1}));
+  EXPECT_EQ(refused({}), "open: letter must begin with the mark of a thing, but does not");
+  Envelope other = envelope;
+  other.format_version = 2;
+  EXPECT_EQ(refused(other.seal({})), "open: letter must be of format version 3, but is of version 2");
+  EXPECT_EQ(refused(Bytes(good.begin(), good.end() - 1)),
+            "open: letter must be whole, but its 127 bytes are not as many as it says it has");
+  for (std::size_t k = 0; k < good.size(); ++k) {
+    for (unsigned bit = 0; bit < 8; ++bit) {
+      Bytes bad = good;
+      bad[k] ^= static_cast<std::byte>(1u << bit);
+      EXPECT_FALSE(envelope.open(bad)) << k;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kinesphere
