@@ -55,26 +55,30 @@ using Remove = Plain<&World::remove>;
 using Disable = Plain<&World::disable>;
 using Refilter = Plain<&World::refilter>;
 
-/// A change of one body that takes one argument. `Parameter` is as the call declares it.
-template <class Argument, class Parameter, Result<void> (World::*call)(BodyId, Parameter)>
+/// A change of one body, or of a sensor class, that takes one argument. `Parameter` is as the call declares
+/// it.
+template <class Subject, class Argument, class Parameter, Result<void> (World::*call)(Subject, Parameter)>
 struct With {
-  BodyId body{};
+  Subject subject{};
   Argument argument{};
 
-  Result<void> repeat(World& world) const { return (world.*call)(body, argument); }
+  Result<void> repeat(World& world) const { return (world.*call)(subject, argument); }
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [id, value] = self;
-    archive(id, value);
+    auto& [changed, value] = self;
+    archive(changed, value);
   }
 };
-using Kick = With<Vec3, const Vec3&, &World::kick>;
-using Teleport = With<State, const State&, &World::teleport>;
-using Enable = With<State, const State&, &World::enable>;
-using SetRadius = With<double, double, &World::set_radius>;
-using SetPromise = With<MotionPromise, const MotionPromise&, &World::set_promise>;
-using SetFilter = With<Filter, const Filter&, &World::set_filter>;
-using SetUserData = With<std::uint64_t, std::uint64_t, &World::set_user_data>;
+using Kick = With<BodyId, Vec3, const Vec3&, &World::kick>;
+using Teleport = With<BodyId, State, const State&, &World::teleport>;
+using Enable = With<BodyId, State, const State&, &World::enable>;
+using SetRadius = With<BodyId, double, double, &World::set_radius>;
+using SetPromise = With<BodyId, MotionPromise, const MotionPromise&, &World::set_promise>;
+using SetFilter = With<BodyId, Filter, const Filter&, &World::set_filter>;
+using SetSolid = With<BodyId, bool, bool, &World::set_solid>;
+using SetSensor = With<SensorClass, Sensor, const Sensor&, &World::set_sensor>;
+using SetSensorClass = With<BodyId, SensorClass, SensorClass, &World::set_sensor_class>;
+using SetUserData = With<BodyId, std::uint64_t, std::uint64_t, &World::set_user_data>;
 
 /// The predicate is code, and not recorded: only that there is one from now on, or none.
 struct SetPairFilter {
@@ -131,7 +135,8 @@ struct End {
 /// Their order is part of the format.
 using Step = std::variant<step::Asking, step::Add, step::Remove, step::Kick, step::Teleport, step::SetRadius,
                           step::SetPromise, step::Disable, step::Enable, step::SetFilter, step::SetPairFilter,
-                          step::Refilter, step::SetUserData, step::End>;
+                          step::Refilter, step::SetSolid, step::SetSensor, step::SetSensorClass,
+                          step::SetUserData, step::End>;
 
 /// A hash over the outcomes of all steps so far: events to the last bit, and all work that was done.
 class StepHash {

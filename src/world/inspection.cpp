@@ -36,7 +36,7 @@ Memory World::Engine::memory() const {
   memory.contacts = heap_bytes(book_);
   memory.grid = heap_bytes(grid_);
   memory.schedule = heap_bytes(schedule_);
-  memory.other = sizeof *this + heap_bytes(free_, dirty_, probe_ids_, probe_states_, partners_);
+  memory.other = sizeof *this + heap_bytes(sensors_, free_, dirty_, probe_ids_, probe_states_, partners_);
   return memory;
 }
 

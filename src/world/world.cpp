@@ -228,19 +228,19 @@ Result<void> World::refilter(BodyId body) {
 
 Result<void> World::set_solid(BodyId body, bool solid) {
   auto valid = check_call(body, "set_solid");
-  if (valid) engine_->set_solid(body, solid);
+  if (valid) changing(step::SetSolid{body, solid}).set_solid(body, solid);
   return valid;
 }
 
 Result<void> World::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
   auto valid = first_error(check_idle(engine_->probing(), "set_sensor"), check_sensor(sensor, definition()));
-  if (valid) engine_->set_sensor(sensor_class, sensor);
+  if (valid) changing(step::SetSensor{sensor_class, sensor}).set_sensor(sensor_class, sensor);
   return valid;
 }
 
 Result<void> World::set_sensor_class(BodyId body, SensorClass sensor_class) {
   auto valid = check_call(body, "set_sensor_class");
-  if (valid) engine_->set_sensor_class(body, sensor_class);
+  if (valid) changing(step::SetSensorClass{body, sensor_class}).set_sensor_class(body, sensor_class);
   return valid;
 }
 
