@@ -1,0 +1,173 @@
+// Operations that must not change what happens: restored worlds and clones, questions, and calls that are
+// refused.
+#include <algorithm>
+
+#include "stream/on_world.hpp"
+#include "stream/player.hpp"
+
+namespace kinesphere::stream {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+/// The world goes on as the restored one, or has a twin from now on that must do the same to the last bit.
+void Player::restore(const Operation& operation) {
+  const std::vector<std::byte> bytes = world_.save().value();
+  if (twin_) require(twin_->save().value() == bytes, "a restored world is not what the saved one became");
+  twin_.reset();
+  auto restored = operation.byte(1) % 4 == 0 ? world_.clone() : World::restore(bytes);
+  if (!restored) throw Disagreement("restore: " + restored.error().message);
+  require(restored->save().value() == bytes, "a restored world saves other bytes");
+  if (operation.byte(0) % 2 == 0)
+    world_ = std::move(*restored);
+  else
+    twin_ = std::move(*restored);
+  if (truth_.has_pair_filter) {
+    // It is not saved.
+    give_pair_filter(world_);
+    if (twin_) give_pair_filter(*twin_);
+    for (const BodyId id : truth_.ids()) told_.refiltered(id, {});
+    changed();
+  }
+}
+
+/// With a probe or without: the truth lies within all answers.
+void Player::ask(const Operation& operation) {
+  const auto id = any(operation);
+  const std::vector<BodyId> ids = truth_.ids();
+  if (!id || ids.size() < 2) return;
+  const BodyId other = ids[(operation.body() + 1u + operation.byte(0) % (ids.size() - 1)) % ids.size()];
+  const bool probes = operation.byte(1) % 2 == 0;
+  const double slack = 1e-3 * truth_.definition().contact_tolerance + 1e-12;
+  if (*id != other && truth_.is_present(*id) && truth_.is_present(other)) {
+    const double now = truth_.time();
+    for (World* world : {&world_, twin_ ? &*twin_ : nullptr}) {
+      if (world == nullptr) continue;
+      const auto limits = probes ? world->distance_limits(*id, other, now, probe())
+                                 : std::as_const(*world).distance_limits(*id, other, now);
+      if (!limits) throw Disagreement("distance_limits: " + limits.error().message);
+      const double gap = truth_.gap(id->index < other.index ? Contact{*id, other} : Contact{other, *id});
+      require(limits->lower <= gap + slack && gap <= limits->upper + slack,
+              "distance_limits do not hold the distance");
+    }
+  }
+  const Vec3 centre = operation.position();
+  const double radius = operation.radius();
+  for (World* world : {&world_, twin_ ? &*twin_ : nullptr}) {
+    if (world == nullptr) continue;
+    const auto found = probes ? world->overlapping(centre, radius, probe())
+                              : std::as_const(*world).overlapping(centre, radius);
+    if (!found) throw Disagreement("overlapping: " + found.error().message);
+    for (const BodyId body : ids) {
+      if (!truth_.is_present(body)) continue;
+      const double gap = norm(truth_.state(body).position - centre) - truth_.at(body).definition.radius;
+      const auto entry = std::find_if(found->begin(), found->end(),
+                                      [=](const Found& candidate) { return candidate.body == body; });
+      if (entry == found->end())
+        require(gap >= radius - slack, "overlapping() leaves out a body that overlaps");
+      else if (entry->certainty == Certainty::certainly || probes)
+        require(gap <= radius + slack, "overlapping() names a body that does not overlap");
+    }
+  }
+}
+
+/// Each call is refused, and changes nothing.
+void Player::call_wrongly(const Operation& operation) {
+  const std::vector<std::byte> before = world_.save().value();
+  const auto refused = [&](const auto& result, ErrorCode code) {
+    require(!result, "a wrong call is not refused");
+    require(result.error().code == code, "a wrong call is refused for a wrong reason");
+  };
+  const auto id = any(operation);
+  const State state{operation.position(), operation.velocity()};
+  BodyId wrong{operation.byte(0) + 1000u, 0};
+  ErrorCode code = ErrorCode::unknown_body;
+  if (!removed_.empty() && operation.byte(1) % 2 == 0) {
+    wrong = removed_[operation.byte(0) % removed_.size()];
+    code = ErrorCode::stale_body;
+  }
+  const std::vector<BodyId> wrong_batch = id ? std::vector{*id, wrong} : std::vector{wrong};
+  const std::vector<BodyDefinition> bad_batch{{.radius = 0, .position = state.position}, {.radius = -1}};
+  switch (operation.byte(2) % 16) {
+    case 0:
+      refused(world_.remove(wrong), code);
+      refused(world_.remove_all(wrong_batch), code);
+      break;
+    case 1:
+      refused(world_.kick(wrong, {}), code);
+      refused(world_.teleport(wrong, state), code);
+      break;
+    case 2:
+      refused(world_.disable(wrong), code);
+      refused(world_.enable(wrong, state), code);
+      break;
+    case 3:
+      refused(world_.set_radius(wrong, 1), code);
+      refused(world_.set_promise(wrong, {}), code);
+      break;
+    case 4:
+      refused(world_.set_filter(wrong, {}), code);
+      refused(world_.refilter(wrong), code);
+      break;
+    case 5:
+      refused(world_.set_user_data(wrong, 1), code);
+      refused(world_.user_data(wrong), code);
+      refused(world_.body(wrong), code);
+      break;
+    case 6:
+      refused(world_.add({.radius = nan}), ErrorCode::not_finite);
+      refused(world_.add_all(bad_batch),
+              truth_.definition().allow_overlap ||
+                      has_room(no_body, bound_of(bad_batch[0], {state.position, {}}, truth_.time()), {})
+                  ? ErrorCode::out_of_range
+                  : ErrorCode::overlapping);
+      break;
+    case 7:
+      refused(world_.advance(nan, probe()), ErrorCode::not_finite);
+      refused(world_.advance(world_.time() - 1e-3, probe()), ErrorCode::time_backwards);
+      break;
+    case 8:
+      if (!id) break;
+      refused(world_.set_radius(*id, -0.5), ErrorCode::out_of_range);
+      refused(world_.set_promise(*id, {.acceleration_limit = nan}), ErrorCode::not_finite);
+      break;
+    case 9:
+      if (!id) break;
+      if (truth_.is_present(*id)) {
+        refused(world_.enable(*id, state), ErrorCode::enabled_body);
+        refused(world_.kick(*id, {nan, 0, 0}), ErrorCode::not_finite);
+        refused(world_.teleport(*id, {{0, nan, 0}, {}}), ErrorCode::not_finite);
+      } else {
+        refused(world_.disable(*id), ErrorCode::disabled_body);
+        refused(world_.kick(*id, {}), ErrorCode::disabled_body);
+        refused(world_.teleport(*id, state), ErrorCode::disabled_body);
+        refused(world_.enable(*id, {{0, 0, nan}, {}}), ErrorCode::not_finite);
+      }
+      break;
+    case 10:
+      if (id) refused(world_.remove_all(std::vector{*id, *id}), ErrorCode::stale_body);
+      break;
+    case 11:
+      refused(world_.safe_until(wrong), code);
+      refused(world_.earliest_contact(wrong), code);
+      refused(world_.safe_until(wrong, wrong), code);
+      refused(world_.distance_limits(wrong, wrong, world_.time()), code);
+      break;
+    case 12:
+      refused(world_.overlapping({nan, 0, 0}, 1), ErrorCode::not_finite);
+      refused(world_.nearest({0, nan, 0}, 1), ErrorCode::not_finite);
+      refused(world_.ray_cast({}, {}, 1), ErrorCode::out_of_range);
+      refused(world_.sphere_cast({}, -1, {1, 0, 0}, 1), ErrorCode::out_of_range);
+      break;
+    default: {
+      std::vector<std::byte> damaged = before;
+      damaged[operation.random().bits() % damaged.size()] ^= std::byte{1};
+      refused(World::restore(damaged), ErrorCode::bad_snapshot);
+    }
+  }
+  require(world_.save().value() == before, "a call that was refused has changed the world");
+}
+
+}  // namespace kinesphere::stream

@@ -1,0 +1,37 @@
+// Calls of the world, made on its twin too while there is one.
+#pragma once
+
+#include "stream/player.hpp"
+
+namespace kinesphere::stream {
+
+inline bool same_value(const std::optional<Event>& a, const std::optional<Event>& b) {
+  if (!a || !b) return !a && !b;
+  EventHash first, second;
+  first.add(*a);
+  second.add(*b);
+  return first.value() == second.value();
+}
+template <class T>
+bool same_value(const T& a, const T& b) {
+  return a == b;
+}
+
+template <class T>
+bool same_result(const Result<T>& a, const Result<T>& b) {
+  if (!a || !b) return !a && !b && a.error().message == b.error().message;
+  if constexpr (std::is_void_v<T>)
+    return true;
+  else
+    return same_value(*a, *b);
+}
+
+/// `call(world)` on the world, and on the twin with the same result.
+template <class Call>
+auto Player::on_world(Call call) {
+  auto result = call(world_);
+  if (twin_) require(same_result(result, call(*twin_)), "a restored world does not go on the same");
+  return result;
+}
+
+}  // namespace kinesphere::stream

@@ -1,0 +1,201 @@
+// Playing: time, events, and what is checked after each operation.
+#include "stream/player.hpp"
+
+#include <algorithm>
+#include <type_traits>
+
+#include "stream/on_world.hpp"
+
+namespace kinesphere::stream {
+
+const std::array<Player::Kind, 22> Player::kinds{{
+    {"advance", 70, &Player::advance},
+    {"advance to the next event", 25, &Player::advance_to_next},
+    {"advance with a bad probe", 4, &Player::advance_with_bad_probe},
+    {"add", 16, &Player::add},
+    {"add_all", 3, &Player::add_all},
+    {"remove", 8, &Player::remove},
+    {"remove_all", 2, &Player::remove_all},
+    {"kick", 20, &Player::kick},
+    {"steer", 12, &Player::steer},
+    {"teleport", 8, &Player::teleport},
+    {"nudge", 12, &Player::nudge},
+    {"set_radius", 14, &Player::set_radius},
+    {"set_promise", 8, &Player::set_promise},
+    {"set_filter", 8, &Player::set_filter},
+    {"set_pair_filter", 2, &Player::set_pair_filter},
+    {"refilter", 6, &Player::haunt},
+    {"set_user_data", 2, &Player::set_user_data},
+    {"disable", 6, &Player::turn_off},
+    {"enable", 9, &Player::turn_on},
+    {"restore or clone", 9, &Player::restore},
+    {"ask", 6, &Player::ask},
+    {"call wrongly", 6, &Player::call_wrongly},
+}};
+
+/// The weights sum up to 256.
+const Player::Kind& Player::kind_of(std::uint8_t code) {
+  int rest = code;
+  for (const Kind& kind : kinds) {
+    rest -= kind.weight;
+    if (rest < 0) return kind;
+  }
+  return kinds.back();
+}
+
+const char* Player::name_of(const Operation& operation) { return kind_of(operation.code()).name; }
+
+Player::Player(const WorldKind& kind)
+    : most_bodies_(kind.most_bodies),
+      truth_(kind.definition),
+      told_(kind.definition, truth_),
+      world_(World::create(kind.definition).value()),
+      asked_at_(kind.definition.start_time) {}
+
+void Player::perform(const Operation& operation) {
+  (this->*kind_of(operation.code()).perform)(operation);
+  check_all();
+}
+
+/// The world's own audit, and its account of the bodies.
+void Player::check_all() const {
+  if (const auto finding = world_.audit())
+    throw Disagreement("audit: " + finding->where + ": " + finding->what);
+  const std::vector<BodyId> ids = truth_.ids();
+  require(world_.time() == truth_.time(), "the time is not what it was told to be");
+  require(world_.size() == ids.size() && world_.bodies() == ids, "other bodies than were added");
+  for (const BodyId id : ids) {
+    const BodyView view = world_.body(id).value();
+    const TrueBody& body = truth_.at(id);
+    const BodyDefinition& found = view.definition;
+    const BodyDefinition& expected = body.definition;
+    require(view.enabled == body.enabled, "enabled and disabled are mixed up");
+    require(found.radius == expected.radius && found.filter == expected.filter &&
+                found.user_data == expected.user_data &&
+                found.acceleration_limit == expected.acceleration_limit &&
+                found.planned_acceleration == expected.planned_acceleration,
+            "a body's definition is not what was set");
+    if (!body.enabled) continue;
+    const Vec3 off = truth_.state(id).position - view.bound.centre_at(truth_.time());
+    const double room = view.bound.radius_at(truth_.time()) - expected.radius;
+    require(norm(off) <= room + 1e-3 * truth_.definition().contact_tolerance + 1e-12,
+            "a body is outside its bound");
+  }
+  for (const BodyId id : removed_) require(!world_.contains(id), "a removed body is still there");
+}
+
+std::optional<BodyId> Player::any(const Operation& operation) const {
+  const std::vector<BodyId> ids = truth_.ids();
+  if (ids.empty()) return std::nullopt;
+  return ids[operation.body() % ids.size()];
+}
+
+/// The same operation on another body.
+Operation Player::about(BodyId id, Operation operation) const {
+  const std::vector<BodyId> ids = truth_.ids();
+  const auto place = std::lower_bound(ids.begin(), ids.end(), id);
+  operation.bytes[1] = static_cast<std::uint8_t>(place - ids.begin());
+  return operation;
+}
+
+// Time.
+
+Player::Answers Player::probe() {
+  return [this](std::span<const BodyId> ids, double time, std::span<State> states) {
+    require(time >= asked_at_, "a probe goes back in time");
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      require(truth_.is_present(ids[k]), "a probe of a body that is not there");
+      states[k] = truth_.at(ids[k]).path.front().state_at(time);
+    }
+  };
+}
+
+std::optional<Event> Player::next_event(double until) {
+  auto result = on_world([&](World& world) { return world.advance(until, probe()); });
+  asked_at_ = world_.time();
+  if (!result) throw Disagreement("advance: " + result.error().message);
+  told_.move_on_to(world_.time());
+  if (*result) {
+    hear(**result);
+  } else {
+    told_.settle_ends();
+    require(world_.time() == until, "no event, and yet the time is not what was asked for");
+  }
+  return *result;
+}
+
+void Player::hear(const Event& event) {
+  ++events_;
+  require(event.time == world_.time(), "an event of another time");
+  check_order(event);
+  told_.hear(event);
+}
+
+/// Events of one instant come in order. After changes the ends that they brought about come first, then what was
+/// on its way already, then what the changes caused.
+void Player::check_order(const Event& event) {
+  const bool same_instant = last_event_ && last_event_->time == event.time;
+  if (same_instant && !delivered_before(*last_event_, event))
+    require(--rounds_ >= 0, "events of one instant in the wrong order");
+  last_event_ = event;
+}
+
+void Player::advance(const Operation& operation) {
+  const double length = operation.fraction(0);
+  const double until = world_.time() + (operation.byte(0) % 8 == 0 ? 0.0 : 0.05 * length * length);
+  const int most = operation.byte(1) % 4 == 0 ? 1 : 20;
+  for (int count = 0; count < most; ++count) {
+    const auto event = next_event(until);
+    if (!event) break;
+    answer(*event, operation);
+  }
+  send_back();
+}
+
+/// Stops in the middle of whatever happens then.
+void Player::advance_to_next(const Operation& operation) {
+  (void)next_event(world_.time() + 0.1 * operation.fraction(0));
+}
+
+/// What the caller does at an event.
+void Player::answer(const Event& event, const Operation& operation) {
+  Random random = operation.random();
+  for (std::size_t k = 0; k < events_ % 16; ++k) (void)random.bits();
+  const auto choice = (random.bits() + operation.byte(2)) % 16;
+  const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
+  if (choice < 9 && begins && event.approach_speed > 0.0) {
+    const Vec3 change = event.normal * ((choice < 5 ? 1.0 : 0.6) * event.approach_speed);
+    if (truth_.is_present(event.first))
+      kick(event.first, truth_.state(event.first).velocity - change * (event.second == no_body ? 2.0 : 1.0));
+    if (truth_.is_present(event.second)) kick(event.second, truth_.state(event.second).velocity + change);
+  } else if (choice > 12) {
+    Operation other;
+    for (std::uint8_t& byte : other.bytes) byte = static_cast<std::uint8_t>(random.bits());
+    const BodyId id = choice == 13 || event.second == no_body ? event.first : event.second;
+    if (choice < 15 && truth_.is_alive(id)) other = about(id, other);
+    // All but the first three, which are advances.
+    other.bytes[0] = static_cast<std::uint8_t>(99 + other.bytes[0] % (256 - 99));
+    perform(other);
+  }
+}
+
+void Player::advance_with_bad_probe(const Operation& operation) {
+  const double until = world_.time() + 0.02 * operation.fraction(0);
+  const auto result = on_world([&](World& world) {
+    int left = operation.byte(1) % 8;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const auto bad = [&](std::span<const BodyId> ids, double time, std::span<State> states) {
+      probe()(ids, time, states);
+      if (left-- == 0) states.back().position.y = nan;
+    };
+    return world.advance(until, bad);
+  });
+  asked_at_ = world_.time();
+  told_.move_on_to(world_.time());
+  if (!result)
+    require(result.error().code == ErrorCode::not_finite, "a bad answer is refused for a wrong reason");
+  else if (*result)
+    hear(**result);
+}
+
+}  // namespace kinesphere::stream

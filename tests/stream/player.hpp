@@ -1,0 +1,114 @@
+// Plays a stream of operations on a world, and holds all that it says against the truth.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinesphere/scene.hpp"
+#include "stream/operation.hpp"
+#include "stream/told_contacts.hpp"
+
+namespace kinesphere::stream {
+
+class Player {
+ public:
+  explicit Player(const WorldKind& kind);
+  Player(const Player&) = delete;
+  Player& operator=(const Player&) = delete;
+
+  /// Throws Disagreement.
+  void perform(const Operation& operation);
+  static const char* name_of(const Operation& operation);
+
+  std::size_t events() const { return events_; }
+
+ private:
+  struct Kind {
+    const char* name;
+    int weight;
+    void (Player::*perform)(const Operation&);
+  };
+  static const std::array<Kind, 22> kinds;
+  static const Kind& kind_of(std::uint8_t code);
+
+  // The operations. Those without a body to be done to do nothing.
+  void advance(const Operation& operation);
+  void advance_to_next(const Operation& operation);
+  void advance_with_bad_probe(const Operation& operation);
+  void add(const Operation& operation);
+  void add_all(const Operation& operation);
+  void remove(const Operation& operation);
+  void remove_all(const Operation& operation);
+  void kick(const Operation& operation);
+  void steer(const Operation& operation);
+  void teleport(const Operation& operation);
+  void nudge(const Operation& operation);
+  void set_radius(const Operation& operation);
+  void set_promise(const Operation& operation);
+  void set_filter(const Operation& operation);
+  void set_pair_filter(const Operation& operation);
+  void haunt(const Operation& operation);
+  void set_user_data(const Operation& operation);
+  void turn_off(const Operation& operation);
+  void turn_on(const Operation& operation);
+  void restore(const Operation& operation);
+  void ask(const Operation& operation);
+  void call_wrongly(const Operation& operation);
+
+  // player.cpp
+  template <class Call>
+  auto on_world(Call call);
+  using Answers = std::function<void(std::span<const BodyId>, double, std::span<State>)>;
+  Answers probe();
+  std::optional<Event> next_event(double until);
+  void answer(const Event& event, const Operation& operation);
+  void hear(const Event& event);
+  void check_order(const Event& event);
+  void check_all() const;
+  std::optional<BodyId> any(const Operation& operation) const;
+  Operation about(BodyId id, Operation operation) const;
+
+  // changes.cpp
+  BodyDefinition new_body(const Operation& operation) const;
+  bool has_room(BodyId id, const Bound& bound, const Filter& filter) const;
+  void join(BodyId id, const BodyDefinition& body, const Operation& operation);
+  void leave(BodyId id, const std::vector<Before>& before);
+  State place(const Operation& operation, double radius) const;
+  void kick(BodyId id, const Vec3& velocity);
+  void teleport(BodyId id, const State& state);
+  void send_back();
+  void give_pair_filter(World& world) const;
+  void changed() { rounds_ = 2; }
+
+  std::size_t most_bodies_;
+  Truth truth_;
+  ToldContacts told_;
+  World world_;
+  std::optional<World> twin_;  ///< has to go on as the world does
+  std::vector<BodyId> removed_;
+  std::size_t events_ = 0;
+  std::optional<Event> last_event_;
+  int rounds_ = 0;  ///< of events in order that may begin at this instant
+  double asked_at_;       ///< by the last probe
+};
+
+struct Failure {
+  std::size_t operation;  ///< its number in the stream
+  std::string what;
+};
+struct Played {
+  std::size_t operations = 0;
+  std::size_t events = 0;
+  std::optional<Failure> failure;
+};
+Played play(std::span<const std::uint8_t> bytes);
+
+/// The same failure, or another, by as few operations as leaving them out finds.
+Bytes shrunk(Bytes bytes);
+
+/// What to print of a stream that fails: its operations by name, and its bytes.
+std::string story_of(std::span<const std::uint8_t> bytes);
+
+}  // namespace kinesphere::stream

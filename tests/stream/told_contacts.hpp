@@ -1,0 +1,85 @@
+// What a world has told of its contacts, held against the truth: the promise of docs/guarantee.md, checked
+// with exact polynomials between all stops.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "contact/contact_rule.hpp"
+#include "detector/pair_table.hpp"
+#include "kinesphere/world.hpp"
+#include "stream/truth.hpp"
+
+namespace kinesphere::stream {
+
+/// A contact that is told and that a change of one of its bodies may end, as it is before the change.
+struct Before {
+  Contact contact;
+  Event end;     ///< what the world has to tell if the change ends it
+  bool is_over;  ///< the truth is already at the separation distance, so that an end may be on its way
+};
+
+class ToldContacts {
+ public:
+  ToldContacts(const WorldDefinition& definition, Truth& truth);
+
+  /// No more events come before this time. It moves the truth on.
+  void move_on_to(double time);
+  /// The world tells this, at the time of the truth.
+  void hear(const Event& event);
+  /// There is nothing more to tell now: ends that changes brought about have been told, what was not is no end.
+  void settle_ends();
+
+  // The caller's changes. `before` has to be asked before the change, the others called after it.
+  std::vector<Before> before(const World& world, BodyId id) const;
+  /// The body has gone or is disabled.
+  void gone(const std::vector<Before>& before);
+  /// It was teleported, or has another radius or promise.
+  void replaced(const World& world, BodyId id, const std::vector<Before>& before);
+  void refiltered(BodyId id, const std::vector<Before>& before);
+  void kicked(BodyId id);
+  void teleported(BodyId id) { kicked(id); }
+  void appeared(BodyId id);
+
+ private:
+  struct Told {
+    bool touching = false;  ///< impacts: a begin was told, and the bodies have not certainly parted since
+    // ContactMode::impacts only.
+    bool opened = false;  ///< since the begin the gap may have opened for a while
+    bool due = false;     ///< an approach now has to be told before time moves on
+    double floor = 0.0;   ///< no lower gap may come unreported; 0 stands for minus the tolerance
+  };
+  /// An end that a change brought about, on its way to the caller.
+  struct End {
+    Contact contact;
+    std::vector<Event> candidates;  ///< one for each change that may have been the one
+    bool certain;
+  };
+
+  bool impacts() const { return rule_.impacts_only(); }
+  Told& told(const Contact& contact);
+  const Told& told(const Contact& contact) const;
+  template <class Action>
+  void for_each(BodyId id, Action action) const;
+  void expect_end(const Before& before, bool certain);
+  bool take_end(const Event& event, const Contact& contact);
+  void begin(const Event& event, const Contact& contact);
+  void end(const Event& event, const Contact& contact);
+  bool is_repeated(BodyId id) const;
+  void check_contact(const Contact& contact, double until);
+  void check_impacts(const Contact& contact, Told& state, double until);
+  void check_free(const Contact& contact, Told& state, double from, double until) const;
+  std::optional<double> reaches(const Contact& contact, Crossing crossing, double level, double from,
+                                double until) const;
+  void look_again(const Contact& contact);
+
+  ContactRule rule_;
+  Truth& truth_;
+  double slack_;
+  PairTable<Told> pairs_;
+  std::vector<std::array<Told, wall_count>> walls_;
+  std::vector<End> ends_;
+};
+
+}  // namespace kinesphere::stream
