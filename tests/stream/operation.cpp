@@ -24,10 +24,10 @@ MotionPromise Operation::promise() const {
 
 Filter Operation::filter() const {
   Filter filter;
-  if (byte(9) % 2 == 0) return filter;
-  filter.category = 1 + byte(9) / 2 % 3;
-  filter.mask = 1 + byte(9) / 8 % 3;
-  filter.group = byte(9) / 32 % 4 - 1;
+  if (byte(9) % 4 != 0) return filter;
+  filter.category = 1 + byte(9) / 4 % 3;
+  filter.mask = 1 + byte(9) / 16 % 3;
+  filter.group = byte(9) / 64 - 1;
   return filter;
 }
 
@@ -63,7 +63,7 @@ WorldKind kind_of(std::span<const std::uint8_t> bytes) {
   if (lengths % 4 == 2) world.separation_distance = 0.1;
   if (lengths / 4 % 4 == 1) world.zeno_interval = 0.01;
   world.start_time = lengths / 16 - 3.0;
-  kind.most_bodies = bodies == 255 ? 100 : 3 + bodies % 24;
+  kind.most_bodies = bodies == 255 ? 100 : 3 + bodies % 32;
   return kind;
 }
 

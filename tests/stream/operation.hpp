@@ -20,10 +20,10 @@ namespace kinesphere::stream {
 using Bytes = std::vector<std::uint8_t>;
 
 /// The world is a cube of this size, or, without walls, the bodies keep near it.
-inline constexpr double world_size = 8.0;
+inline constexpr double world_size = 4.0;
 
-/// One operation: what to do, to whom, and numbers for it. Positions lie on a grid of 1/32, velocities of
-/// 1/32 too, so that things often happen at one instant and at exactly equal distances.
+/// One operation: what to do, to whom, and numbers for it. Positions lie on a grid of 1/64, velocities on one
+/// of 1/32, so that things often happen at one instant and at exactly equal distances.
 struct Operation {
   static constexpr std::size_t size = 12;
   std::array<std::uint8_t, size> bytes{};

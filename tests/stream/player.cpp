@@ -131,8 +131,8 @@ void Player::hear(const Event& event) {
   told_.hear(event);
 }
 
-/// Events of one instant come in order. After changes the ends that they brought about come first, then what was
-/// on its way already, then what the changes caused.
+/// Events of one instant come in order. After a change the ends that it brought about come first, though
+/// others may have come before; then what was on its way already; then what the changes caused.
 void Player::check_order(const Event& event) {
   const bool same_instant = last_event_ && last_event_->time == event.time;
   if (same_instant && !delivered_before(*last_event_, event))
@@ -142,7 +142,7 @@ void Player::check_order(const Event& event) {
 
 void Player::advance(const Operation& operation) {
   const double length = operation.fraction(0);
-  const double until = world_.time() + (operation.byte(0) % 8 == 0 ? 0.0 : 0.05 * length * length);
+  const double until = world_.time() + (operation.byte(0) % 8 == 0 ? 0.0 : 0.1 * length * length);
   const int most = operation.byte(1) % 4 == 0 ? 1 : 20;
   for (int count = 0; count < most; ++count) {
     const auto event = next_event(until);

@@ -80,7 +80,7 @@ class Player {
   void teleport(BodyId id, const State& state);
   void send_back();
   void give_pair_filter(World& world) const;
-  void changed() { rounds_ = 2; }
+  void changed() { rounds_ = 3; }
 
   std::size_t most_bodies_;
   Truth truth_;
@@ -90,8 +90,8 @@ class Player {
   std::vector<BodyId> removed_;
   std::size_t events_ = 0;
   std::optional<Event> last_event_;
-  int rounds_ = 0;  ///< of events in order that may begin at this instant
-  double asked_at_;       ///< by the last probe
+  int rounds_ = 0;   ///< of events in order that may begin at this instant
+  double asked_at_;  ///< by the last probe
 };
 
 struct Failure {

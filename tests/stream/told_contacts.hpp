@@ -28,7 +28,8 @@ class ToldContacts {
   void move_on_to(double time);
   /// The world tells this, at the time of the truth.
   void hear(const Event& event);
-  /// There is nothing more to tell now: ends that changes brought about have been told, what was not is no end.
+  /// There is nothing more to tell now: ends that changes brought about have been told, what was not is no
+  /// end.
   void settle_ends();
 
   // The caller's changes. `before` has to be asked before the change, the others called after it.
