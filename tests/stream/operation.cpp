@@ -37,6 +37,12 @@ Random Operation::random() const {
   return Random(seed);
 }
 
+Operation random_operation(Random& random) {
+  Operation operation;
+  for (std::uint8_t& byte : operation.bytes) byte = static_cast<std::uint8_t>(random.bits());
+  return operation;
+}
+
 std::vector<Operation> operations_of(std::span<const std::uint8_t> bytes) {
   std::vector<Operation> operations;
   for (std::size_t at = header_size; at < bytes.size(); at += Operation::size) {
@@ -63,7 +69,8 @@ WorldKind kind_of(std::span<const std::uint8_t> bytes) {
   if (lengths % 4 == 2) world.separation_distance = 0.1;
   if (lengths / 4 % 4 == 1) world.zeno_interval = 0.01;
   world.start_time = lengths / 16 - 3.0;
-  kind.most_bodies = bodies == 255 ? 100 : 3 + bodies % 32;
+  kind.most_bodies = bodies >= 252 ? 100 : 3 + bodies % 32;
+  kind.first_bodies = header(bytes, 3) % kind.most_bodies;
   return kind;
 }
 

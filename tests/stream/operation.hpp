@@ -52,12 +52,15 @@ struct Operation {
   double speed(std::size_t k) const { return (byte(k) - 128) / 32.0; }
 };
 
+Operation random_operation(Random& random);
+
 /// The operations of a stream.
 std::vector<Operation> operations_of(std::span<const std::uint8_t> bytes);
 
 struct WorldKind {
   WorldDefinition definition;
   std::size_t most_bodies;
+  std::size_t first_bodies;  ///< there from the start
 };
 /// What the header of a stream asks for.
 WorldKind kind_of(std::span<const std::uint8_t> bytes);

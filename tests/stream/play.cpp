@@ -27,6 +27,11 @@ Bytes shrunk(Bytes bytes) {
   if (!played.failure) return bytes;
   const std::size_t all = operations_of(bytes).size();
   bytes = without(bytes, played.failure->operation + 1, all);
+  for (int fewer = 0; bytes.size() > 3 && fewer < 2 * bytes[3]; ++fewer) {
+    Bytes rest = bytes;
+    rest[3] = static_cast<std::uint8_t>(fewer);
+    if (play(rest).failure) bytes = rest;
+  }
   // Ever smaller pieces are left out, as long as what is left still fails.
   for (std::size_t length = operations_of(bytes).size() / 2; length > 0; length /= 2) {
     for (bool shorter = true; shorter;) {

@@ -50,7 +50,10 @@ Player::Player(const WorldKind& kind)
       truth_(kind.definition),
       told_(kind.definition, truth_),
       world_(World::create(kind.definition).value()),
-      asked_at_(kind.definition.start_time) {}
+      asked_at_(kind.definition.start_time) {
+  Random random(kind.first_bodies);
+  for (std::size_t k = 0; k < kind.first_bodies; ++k) add(random_operation(random));
+}
 
 void Player::perform(const Operation& operation) {
   (this->*kind_of(operation.code()).perform)(operation);
@@ -169,8 +172,7 @@ void Player::answer(const Event& event, const Operation& operation) {
       kick(event.first, truth_.state(event.first).velocity - change * (event.second == no_body ? 2.0 : 1.0));
     if (truth_.is_present(event.second)) kick(event.second, truth_.state(event.second).velocity + change);
   } else if (choice > 12) {
-    Operation other;
-    for (std::uint8_t& byte : other.bytes) byte = static_cast<std::uint8_t>(random.bits());
+    Operation other = random_operation(random);
     const BodyId id = choice == 13 || event.second == no_body ? event.first : event.second;
     if (choice < 15 && truth_.is_alive(id)) other = about(id, other);
     // All but the first three, which are advances.

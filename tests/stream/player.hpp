@@ -22,6 +22,7 @@ class Player {
   void perform(const Operation& operation);
   static const char* name_of(const Operation& operation);
 
+  const World& world() const { return world_; }
   std::size_t events() const { return events_; }
 
  private:

@@ -7,6 +7,7 @@
 
 #include "kinesphere/response.hpp"
 #include "support/playground.hpp"
+#include "support/sealed_snapshot.hpp"
 
 namespace kinesphere {
 namespace {
@@ -226,31 +227,6 @@ Bytes rich_snapshot(ContactMode mode) {
   return p.world.save().value();
 }
 
-/// As archive/checksum.hpp has it.
-std::uint64_t checksum(std::span<const std::byte> bytes) {
-  std::uint64_t sum = 0xcbf29ce484222325u;
-  for (std::size_t k = 0; k < bytes.size();) {
-    const std::size_t size = k + 8 <= bytes.size() ? 8 : 1;
-    std::uint64_t word = 0;
-    for (std::size_t digit = 0; digit < size; ++digit)
-      word |= std::to_integer<std::uint64_t>(bytes[k + digit]) << (8 * digit);
-    sum = (sum ^ word) * 0x100000001b3u;
-    k += size;
-  }
-  return sum;
-}
-
-void write(Bytes& bytes, std::size_t at, std::uint64_t number) {
-  for (std::size_t k = 0; k < 8; ++k) bytes[at + k] = static_cast<std::byte>(number >> (8 * k));
-}
-
-/// Makes length and checksum right again.
-Bytes sealed(Bytes bytes) {
-  write(bytes, 12, bytes.size() - 28);
-  write(bytes, bytes.size() - 8, checksum(std::span(bytes).first(bytes.size() - 8)));
-  return bytes;
-}
-
 testing::AssertionResult is_refused(const Bytes& bytes, const std::string& why) {
   const auto restored = World::restore(bytes);
   if (restored) return testing::AssertionFailure() << "accepted";
@@ -272,7 +248,7 @@ TEST(BadSnapshot, EveryTruncationIsRefused) {
 
 TEST(BadSnapshot, EveryTruncationIsRefusedThoughItBeSealed) {
   const Bytes bytes = rich_snapshot(ContactMode::begin_and_end);
-  for (std::size_t length = 28; length < bytes.size(); ++length)
+  for (std::size_t length = snapshot_frame_size; length < bytes.size(); ++length)
     ASSERT_TRUE(is_refused(sealed({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length)}), ""))
         << length;
 }
@@ -304,39 +280,8 @@ TEST(BadSnapshot, SaysWhatIsWrong) {
   damaged[bytes.size() / 2] ^= std::byte{1};
   EXPECT_TRUE(is_refused(damaged, "checksum"));
   Bytes impossible = bytes;  // the contact tolerance stands behind the box
-  write(impossible, 20 + 1 + 48, 0);
+  write_number(impossible, snapshot_header_size + 1 + 48, 0);
   EXPECT_TRUE(is_refused(sealed(impossible), "definition"));
-}
-
-/// Uses a world that may be nonsense, with a probe that gives up after a while.
-void use(World world, Random& random) {
-  int left = 300;
-  const auto probe = [&](std::span<const BodyId> ids, double, std::span<State> states) {
-    for (std::size_t k = 0; k < ids.size(); ++k) {
-      // A probe is asked for bodies that are there.
-      EXPECT_TRUE(ids[k].index < 100);
-      if (--left < 0) throw std::runtime_error("enough");
-      states[k] = {5.0 * random.point_in_ball(), random.point_in_ball()};
-    }
-  };
-  EXPECT_TRUE(World::restore(world.save().value())) << "what was restored can be saved";
-  (void)world.audit();
-  try {
-    for (int k = 0; k < 50; ++k) {
-      const auto event = world.advance(world.time() + 1.0, probe);
-      if (!event) break;
-      const auto bodies = world.bodies();
-      if (bodies.empty()) break;
-      const BodyId body = bodies[random.bits() % bodies.size()];
-      (void)world.body(body);
-      if (k % 3 == 0) (void)world.kick(body, random.point_in_ball());
-      if (k % 5 == 0) (void)world.remove(body);
-      if (k % 7 == 0) (void)world.add({.position = 5.0 * random.point_in_ball()});
-    }
-  } catch (const std::runtime_error&) {
-  }
-  (void)world.audit();
-  (void)world.save();
 }
 
 TEST(BadSnapshot, SealedNonsenseIsRefusedOrHarmless) {
@@ -349,7 +294,7 @@ TEST(BadSnapshot, SealedNonsenseIsRefusedOrHarmless) {
       Bytes changed = bytes;
       const std::uint64_t changes = 1 + random.bits() % 3;
       for (std::uint64_t k = 0; k < changes; ++k) {
-        const std::size_t at = 20 + random.bits() % (bytes.size() - 28);
+        const std::size_t at = snapshot_header_size + random.bits() % (bytes.size() - snapshot_frame_size);
         switch (random.bits() % 4) {
           case 0:
             changed[at] = static_cast<std::byte>(random.bits());
@@ -371,7 +316,7 @@ TEST(BadSnapshot, SealedNonsenseIsRefusedOrHarmless) {
         continue;
       }
       ++accepted;
-      use(std::move(*restored), random);
+      ASSERT_NO_THROW(use_for_a_while(std::move(*restored), random));
     }
   }
   EXPECT_GT(accepted, 500) << "the test has nothing to use";

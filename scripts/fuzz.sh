@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# Lets both fuzzers look for failures, each for so many seconds (default 60), starting from their corpora, and adds
+# to those what reaches code that they did not reach. Fails, and keeps the input in build/fuzz/, when one is found.
+# Usage: fuzz.sh [seconds]
+set -euo pipefail
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+seconds=${1:-60}
+cmake --preset fuzz >/dev/null
+cmake --build --preset fuzz --target fuzz_operations fuzz_snapshot
+
+declare -A longest=([operations]=2404 [snapshot]=1024)
+for target in operations snapshot; do
+  found=build/fuzz/found/$target
+  mkdir -p "$found"
+  echo "fuzz_$target: $seconds seconds"
+  build/fuzz/tests/fuzz/fuzz_$target -max_total_time="$seconds" -max_len="${longest[$target]}" -timeout=20 \
+    -artifact_prefix="build/fuzz/$target-" -print_final_stats=1 -verbosity=0 \
+    "$found" "tests/fuzz/corpus/$target"
+  build/fuzz/tests/fuzz/fuzz_$target -merge=1 -verbosity=0 "tests/fuzz/corpus/$target" "$found"
+done

@@ -1,0 +1,50 @@
+// What the fuzzers have found worth keeping, played again.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "stream/any_snapshot.hpp"
+#include "stream/player.hpp"
+
+namespace kinesphere::stream {
+namespace {
+
+/// The files of one corpus, by name.
+std::vector<std::filesystem::path> corpus(const char* name) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(KINESPHERE_CORPUS) / name))
+    files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+Bytes bytes_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(Corpus, OfStreamsAgreesWithTheTruth) {
+  const auto files = corpus("operations");
+  EXPECT_GT(files.size(), 10u);
+  std::size_t events = 0;
+  for (const auto& file : files) {
+    const Bytes bytes = bytes_of(file);
+    const Played played = play(bytes);
+    EXPECT_FALSE(played.failure) << file << "\n" << story_of(bytes);
+    events += played.events;
+  }
+  EXPECT_GT(events, 100u);
+}
+
+TEST(Corpus, OfSnapshotsIsRefusedOrHarmless) {
+  const auto files = corpus("snapshot");
+  EXPECT_GT(files.size(), 10u);
+  for (const auto& file : files) EXPECT_NO_THROW(try_as_snapshot(bytes_of(file))) << file;
+}
+
+}  // namespace
+}  // namespace kinesphere::stream

@@ -1,0 +1,77 @@
+// Bytes made to look like a snapshot, and the use of whatever world comes out of them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "kinesphere/random.hpp"
+#include "kinesphere/world.hpp"
+
+namespace kinesphere {
+
+/// As snapshot.cpp has it.
+inline std::uint64_t snapshot_checksum(std::span<const std::byte> bytes) {
+  std::uint64_t sum = 0xcbf29ce484222325u;
+  for (std::size_t k = 0; k < bytes.size();) {
+    const std::size_t size = k + 8 <= bytes.size() ? 8 : 1;
+    std::uint64_t word = 0;
+    for (std::size_t digit = 0; digit < size; ++digit)
+      word |= std::to_integer<std::uint64_t>(bytes[k + digit]) << (8 * digit);
+    sum = (sum ^ word) * 0x100000001b3u;
+    k += size;
+  }
+  return sum;
+}
+
+inline void write_number(std::vector<std::byte>& bytes, std::size_t at, std::uint64_t number) {
+  for (std::size_t k = 0; k < 8; ++k) bytes[at + k] = static_cast<std::byte>(number >> (8 * k));
+}
+
+inline constexpr std::size_t snapshot_header_size = 20;  ///< mark, version, length
+inline constexpr std::size_t snapshot_frame_size = 28;   ///< and the checksum
+
+/// Makes length and checksum of a snapshot right again.
+inline std::vector<std::byte> sealed(std::vector<std::byte> bytes) {
+  write_number(bytes, 12, bytes.size() - snapshot_frame_size);
+  write_number(bytes, bytes.size() - 8, snapshot_checksum(std::span(bytes).first(bytes.size() - 8)));
+  return bytes;
+}
+
+/// Uses a world that may be nonsense, with a probe that gives up after a while. Throws std::logic_error if it
+/// does what no world may do.
+inline void use_for_a_while(World world, Random& random) {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw std::logic_error(what);
+  };
+  int left = 300;
+  const auto probe = [&](std::span<const BodyId> ids, double, std::span<State> states) {
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      require(world.contains(ids[k]), "a probe asks for a body that is not there");
+      if (--left < 0) throw std::runtime_error("enough");
+      states[k] = {5.0 * random.point_in_ball(), random.point_in_ball()};
+    }
+  };
+  require(static_cast<bool>(World::restore(world.save().value())), "what was restored cannot be saved");
+  (void)world.audit();
+  try {
+    for (int k = 0; k < 50; ++k) {
+      const auto event = world.advance(world.time() + 1.0, probe);
+      if (!event) break;
+      const auto bodies = world.bodies();
+      if (bodies.empty()) break;
+      const BodyId body = bodies[random.bits() % bodies.size()];
+      (void)world.body(body);
+      if (k % 3 == 0) (void)world.kick(body, random.point_in_ball());
+      if (k % 5 == 0) (void)world.remove(body);
+      if (k % 7 == 0) (void)world.add({.position = 5.0 * random.point_in_ball()});
+    }
+  } catch (const std::runtime_error&) {
+  }
+  (void)world.audit();
+  (void)world.save();
+}
+
+}  // namespace kinesphere
