@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Fails unless README.md tells the truth: its C++ example is examples/first_contact.cpp, word for word, and what it says
-# that this example and the main job print is what they print, timings aside.
+# Fails unless the docs tell the truth: the C++ example of README.md is examples/first_contact.cpp, word for word, and what
+# it says that this example and the main job print is what they print, timings aside; the C++ in docs/worlds.md is taken
+# from the examples.
 # Usage: check_docs.sh <example first_contact> <program kinesphere>
 set -euo pipefail
 
@@ -17,3 +18,11 @@ printed=$("$1")
 diff <(block_after '^prints$') - <<<"$printed"
 printed=$("$2" run paper1)
 diff <(block_after '^The first prints' | untimed) <(untimed <<<"$printed")
+
+# Each line of C++ in docs/worlds.md stands in an example.
+awk '/^```/ {on = $0 == "```cpp"; next} on && NF {print}' docs/worlds.md | while IFS= read -r line; do
+  if ! grep -qxF -- "$line" examples/*.cpp; then
+    echo "docs/worlds.md: no example has the line: $line" >&2
+    exit 1
+  fi
+done
