@@ -21,10 +21,12 @@ int main() {
   // The game's own bodies.
   std::vector<Vec3> position, velocity;
   Random random(7);
-  for (int k = 0; k < 200; ++k) {
-    position.push_back({0.5 + k % 6 * 1.8, 0.5 + k / 6 % 6 * 1.8, 1.0 + k / 36 * 1.5});
-    velocity.push_back(60 * random.point_in_ball());  // up to a unit, five radii, a frame
-  }
+  for (int x = 0; x < 6; ++x)
+    for (int y = 0; y < 6; ++y)
+      for (int z = 0; z < 6; ++z) {
+        position.push_back({0.5 + 1.8 * x, 0.5 + 1.8 * y, 1.0 + 1.5 * z});
+        velocity.push_back(60 * random.point_in_ball());  // up to a unit, five radii, a frame
+      }
 
   Frames frames = Frames::create({.start = position,
                                   .velocities = velocity,

@@ -1,5 +1,6 @@
-// Four hundred drones wander about. Each knows how long it is certain to touch nobody, whatever the others
-// do, and asks the world again only when that time runs out; it turns away from whom it may meet too soon.
+// Some four hundred drones wander about. Each knows how long it is certain to touch nobody, whatever the
+// others do, and asks the world again only when that time runs out; it turns away from whom it may meet too
+// soon.
 #include <kinesphere/motion/steered.hpp>
 #include <kinesphere/random.hpp>
 #include <kinesphere/world.hpp>
@@ -16,10 +17,10 @@ int main() {
 
   std::vector<State> start;
   Random random(3);
-  for (int k = 0; k < 400; ++k) {
-    const Vec3 place{20.0 * (k % 8), 20.0 * (k / 8 % 8), 20.0 * (k / 64)};
-    start.push_back({place, 3.0 * random.point_in_ball()});
-  }
+  for (int x = 0; x < 8; ++x)
+    for (int y = 0; y < 8; ++y)
+      for (int z = 0; z < 6; ++z)
+        start.push_back({{20.0 * x, 20.0 * y, 20.0 * z}, 3 * random.point_in_ball()});
   Steered drones =
       Steered::create({.start = start, .acceleration_limits = std::vector(start.size(), agility)}).value();
   World world = World::create({.contact_tolerance = 1e-3}).value();
