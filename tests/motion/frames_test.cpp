@@ -201,5 +201,40 @@ TEST(Frames, NameWhatIsWrongAndStayAsTheyWere) {
   EXPECT_EQ(Frames::create({.start = {{0, 0, nan}}, .acceleration_limits = {1.0}}).error().argument, "start");
 }
 
+/// A game that kicks within its frames, and goes on from where and how fast the kick has left the body.
+TEST(Frames, KeepTheirPromiseAfterKicks) {
+  constexpr double limit = 3.0, interval = 0.1;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    Vec3 position, velocity = 5 * random.point_in_ball();
+    Frames frames = Frames::create({.start = {position},
+                                    .velocities = {velocity},
+                                    .acceleration_limits = {limit},
+                                    .interval = interval})
+                        .value();
+    BodyDefinition promise = frames.promise(0, 0.0);
+    double since = 0.0;
+    const Vec3 push = random.unit_vector();
+    for (int k = 0; k < 200; ++k) {
+      velocity += limit * interval * (k % 7 == 0 ? random.unit_vector() : push);
+      position = frames.latest()[0] + interval * velocity;
+      frames.push({&position, 1}).value();
+      for (int i = 0; i < 3; ++i) {
+        const double now = random.uniform(std::max(since, frames.previous_time()), frames.latest_time());
+        const double s = now - since;
+        const double growth = promise.velocity_error * s + 0.5 * promise.acceleration_limit * s * s;
+        const Vec3 predicted = promise.position + promise.velocity * s;
+        ASSERT_LE(norm(frames.state(0, now).position - predicted), growth + 1e-11);
+        if (random.uniform() > 0.1) continue;
+        velocity = 5 * random.point_in_ball();
+        ASSERT_TRUE(frames.kick(0, now, velocity));
+        promise = frames.promise(0, now);
+        since = now;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kinesphere
