@@ -115,7 +115,7 @@ class ByteWriter {
   template <class... Ts>
   void write(const std::variant<Ts...>& value) {
     write(static_cast<std::uint8_t>(value.index()));
-    std::visit([this](const auto& held) { write(held); }, value);
+    std::visit([this](const auto& held) { this->write(held); }, value);
   }
 
   template <class Values>

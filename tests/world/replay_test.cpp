@@ -7,8 +7,9 @@
 #include <string>
 
 #include "archive/checksum.hpp"
-#include "archive/fields.hpp"
 #include "kinesphere/recording.hpp"
+#include "recording/format.hpp"
+#include "recording/step.hpp"
 #include "support/expect_error.hpp"
 #include "world/crowd.hpp"
 
@@ -281,16 +282,15 @@ Bytes sealed(Bytes bytes) {
   return bytes;
 }
 
-/// The recording with one number for another, the first time that it stands after `from`.
-Bytes with(Bytes bytes, double number, double other, std::size_t from = 0) {
-  ByteWriter old_bytes, new_bytes;
-  old_bytes(number);
-  new_bytes(other);
-  const auto at = std::search(bytes.begin() + static_cast<std::ptrdiff_t>(from), bytes.end(),
-                              old_bytes.bytes().begin(), old_bytes.bytes().end());
-  EXPECT_NE(at, bytes.end());
-  std::copy(new_bytes.bytes().begin(), new_bytes.bytes().end(), at);
-  return sealed(bytes);
+/// The recording with other steps.
+template <class Change>
+Bytes altered(const Bytes& bytes, Change change) {
+  RecordingContent content = read_content(bytes).value();
+  change(content.steps);
+  ByteWriter writer;
+  writer(content.snapshot, content.has_pair_filter);
+  for (const Step& step : content.steps) writer(step);
+  return recording_envelope.seal(writer.bytes());
 }
 
 std::string divergence(const Bytes& bytes) {
@@ -308,33 +308,51 @@ std::string divergence(const Bytes& bytes) {
   return {};
 }
 
+/// The steps of meeting(): two bodies are added, the first advance, and so on.
 TEST(Divergence, IsNamedWithStepAndTime) {
   const Bytes bytes = meeting();
-  const RecordedRun run = read_recording(bytes).value();
-  ASSERT_GE(run.events.size(), 2u);
-  // A body that starts elsewhere: the first probe comes at another time.
-  const std::string other_start = divergence(with(bytes, -3.0, -2.5));
-  EXPECT_TRUE(other_start.starts_with("Replay::advance: recording, step 3 of ")) << other_start;
-  EXPECT_NE(other_start.find(": expected a probe of body "), std::string::npos) << other_start;
-  EXPECT_NE(other_start.find(", but found a probe of body "), std::string::npos) << other_start;
-  // An event at another time.
-  const std::string other_event = divergence(with(bytes, run.events[0].gap, run.events[0].gap / 2));
-  EXPECT_NE(other_event.find("expected contact_begin of body 0 and body 1 at time "), std::string::npos);
-  EXPECT_NE(other_event.find(", but found it with other figures"), std::string::npos) << other_event;
-  // Another end of an advance.
-  const std::string other_until = divergence(with(bytes, 20.0, 1.0));
-  EXPECT_NE(other_until.find("but found the end of the call"), std::string::npos) << other_until;
+  const auto asking = [](std::vector<Step>& steps, std::size_t number = 2) -> step::Asking& {
+    return std::get<step::Asking>(steps.at(number));
+  };
+  const auto expect = [&](const std::string& parts, auto change) {
+    const std::string message = divergence(altered(bytes, change));
+    EXPECT_TRUE(message.starts_with("Replay::advance: recording, step ")) << message;
+    EXPECT_NE(message.find(parts), std::string::npos) << message;
+  };
+  expect("step 3 of ", [](auto& steps) { std::get<step::Add>(steps[0]).body.position.x = -2.5; });
+  expect(", but found a probe of body ",
+         [](auto& steps) { std::get<step::Add>(steps[0]).body.position.x = -2.5; });
+  expect("expected a probe of body 9 at time ",
+         [&](auto& steps) { asking(steps).answers[0].report.body.index = 9; });
+  expect("expected a probe of body ", [&](auto& steps) { asking(steps).answers[0].last ^= true; });
+  expect("expected no further probe, but found a probe of body ",
+         [&](auto& steps) { asking(steps).answers.pop_back(); });
+  expect(", but found the end of the call", [&](auto& steps) { asking(steps).until = 0.5; });
+  expect("but found contact_begin of body 0 and body 1 at time ",
+         [&](auto& steps) { asking(steps).event.reset(); });
+  expect("expected a refused answer of the probe, but found contact_begin", [&](auto& steps) {
+    asking(steps).event.reset();
+    asking(steps).failed = true;
+  });
+  expect("but found it with other figures", [&](auto& steps) { asking(steps).event->gap *= 0.5; });
+  expect("expected the hash ", [&](auto& steps) { asking(steps, 3).hash ^= 1; });
+  expect("step 4 of ", [&](auto& steps) { asking(steps, 3).hash ^= 1; });
+  expect("expected the end to come at time 21, but found it at 20",
+         [](auto& steps) { std::get<step::End>(steps.back()).time = 21.0; });
+  expect("expected to end as the world with the checksum ",
+         [](auto& steps) { std::get<step::End>(steps.back()).checksum ^= 1; });
+  // A change that was never recorded.
+  expect("expected to end as the world with the checksum ", [](auto& steps) {
+    steps.insert(steps.end() - 1, step::SetUserData{{0, 0}, 5});
+  });
 }
 
 TEST(Divergence, ShowsInAChangeThatCannotBeMade) {
-  const Bytes bytes = meeting(true);
-  ByteWriter kick;
-  kick(std::uint8_t{3}, BodyId{1, 0}, Vec3{0, 1, 0});
-  Bytes other = bytes;
-  const auto at = std::search(other.begin(), other.end(), kick.bytes().begin(), kick.bytes().end());
-  ASSERT_NE(at, other.end());
-  at[1] = std::byte{9};
-  const std::string message = divergence(sealed(other));
+  const Bytes bytes = altered(meeting(true), [](auto& steps) {
+    for (Step& step : steps)
+      if (auto* kick = std::get_if<step::Kick>(&step)) kick->body.index = 9;
+  });
+  const std::string message = divergence(bytes);
   EXPECT_NE(
       message.find("expected a change that can be made, but found: kick: body 9 was never in this world"),
       std::string::npos)
