@@ -26,6 +26,9 @@ class World::Refresher {
 };
 
 /// For the questions that may not probe.
-inline Result<bool> without_probe(std::span<const std::uint32_t>) { return false; }
+struct WithoutProbe {
+  Result<bool> operator()(std::span<const std::uint32_t>) const { return false; }
+};
+inline constexpr WithoutProbe without_probe;
 
 }  // namespace kinesphere

@@ -1,6 +1,7 @@
 // World's queries: checks of the calls, and probes where the caller lends one.
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "input/input_check.hpp"
 #include "world/queries.hpp"
@@ -68,6 +69,7 @@ auto answer(const Engine& engine, const Result<void>& valid, Refresh refresh, st
     return callable.error();
   for (;;) {
     auto found = ask(Queries(engine));
+    if constexpr (std::is_same_v<Refresh, WithoutProbe>) return found;
     std::vector<std::uint32_t> open;
     for (const auto& each : found)
       if (leaves_open(each)) open.push_back(each.body.index);

@@ -37,7 +37,8 @@ TEST_F(ProgramTest, SaysItsVersionAndHelps) {
   const ProgramRun version_run = run("--version");
   EXPECT_EQ(version_run.exit_code, 0);
   EXPECT_EQ(version_run.out, std::string(version) + "\n");
-  for (const char* command : {"--help", "run --help", "replay --help", "tracks --help", "verify --help", "scenes --help"}) {
+  for (const char* command :
+       {"--help", "run --help", "replay --help", "tracks --help", "verify --help", "scenes --help"}) {
     const ProgramRun help = run(command);
     EXPECT_EQ(help.exit_code, 0) << command;
     EXPECT_EQ(help.err, "") << command;
