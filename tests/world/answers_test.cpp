@@ -335,5 +335,20 @@ TEST(WrongQuestions, ABadReportIsDropped) {
   EXPECT_TRUE(is_clean(p.world));
 }
 
+TEST(Answers, DoNotProbeDisabledBodies) {
+  Playground p;
+  const BodyId a = p.add({.acceleration_limit = 1, .position = {0, 0, 0}});
+  const BodyId b = p.add({.acceleration_limit = 1, .position = {9, 0, 0}});
+  ASSERT_FALSE(p.advance(0.5));
+  p.world.disable(a).value();
+  ASSERT_FALSE(p.advance(1.0));
+  p.distort = [&](BodyId id, double, State&) { EXPECT_NE(id, a); };
+  EXPECT_TRUE(p.world.distance_limits(a, b, 2.0, p.probe()));
+  EXPECT_TRUE(p.world.safe_until(a, b, p.probe()));
+  EXPECT_TRUE(p.world.safe_until(a, p.probe()));
+  EXPECT_TRUE(p.world.earliest_contact(a, p.probe()));
+  EXPECT_TRUE(p.world.nearest({0, 0, 0}, 2, p.probe()));
+}
+
 }  // namespace
 }  // namespace kinesphere

@@ -184,6 +184,19 @@ TEST(SnapshotOfAWorld, KeepsAKickThatNoReportHasShownYet) {
   EXPECT_FALSE(p.advance(2.0)) << "the kick is taken for a broken promise";
 }
 
+TEST(SnapshotOfAWorld, GoesOnTheSameWithThePairFilterThatItHad) {
+  const auto odd_pairs = [](BodyId a, BodyId b) { return (a.index + b.index) % 2 == 1; };
+  const auto finish = [&](bool restore) {
+    Crowd crowd(ContactMode::begin_and_end, Answer::pass_through, 60);
+    crowd.world().set_pair_filter(odd_pairs).value();
+    crowd.go(1.0, [](const World&) {});
+    if (restore) crowd.world() = World::restore(crowd.world().save().value(), odd_pairs).value();
+    crowd.go(2.0, [](const World&) {});
+    return std::tuple(crowd.hash(), crowd.asked(), crowd.world().save().value());
+  };
+  EXPECT_EQ(finish(true), finish(false));
+}
+
 TEST(SnapshotOfAWorld, AfterABadAnswerGoesOnTheSame) {
   const auto finish = [](bool restore) {
     Crowd crowd(ContactMode::begin_and_end, Answer::pass_through, 40);
