@@ -1,9 +1,11 @@
 // Running a scene under a detector.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <tuple>
 #include <vector>
 
+#include "input/input_check.hpp"
 #include "kinesphere/response.hpp"
 #include "kinesphere/scene.hpp"
 
@@ -133,10 +135,34 @@ class Simulation {
   SimulationResult result_;
 };
 
+/// What neither the detector nor the motion will look at, or only too late.
+Result<void> check(const Scene& scene, const SimulationObserver& observer) {
+  InputCheck check("simulate");
+  const double start = scene.world.start_time;
+  check.finite({"end_time"}, scene.end_time)
+      .require(!(scene.end_time < start), ErrorCode::time_backwards, {"end_time"},
+               "must not lie before start_time,", start, scene.end_time)
+      .require(observer.frame_interval > 0.0, ErrorCode::out_of_range, {"frame_interval"},
+               "must be larger than 0", observer.frame_interval)
+      .require(scene.bodies.size() <= scene.motion->size(), ErrorCode::out_of_range, {"bodies"},
+               "must be no more than the motion has,", std::size_t{scene.motion->size()},
+               scene.bodies.size());
+  for (std::uint32_t number = 0; number < scene.bodies.size(); ++number) {
+    const BodyId id{number, 0};
+    check
+        .require(!std::isnan(scene.bodies[number].appears), ErrorCode::not_finite, {"appears", id},
+                 "must be a time", scene.bodies[number].appears)
+        .require(!std::isnan(scene.bodies[number].vanishes), ErrorCode::not_finite, {"vanishes", id},
+                 "must be a time", scene.bodies[number].vanishes);
+  }
+  return check.result();
+}
+
 }  // namespace
 
 Result<SimulationResult> simulate(const Scene& scene, const DetectorMaker& make,
                                   const SimulationObserver& observer) {
+  if (auto valid = check(scene, observer); !valid) return valid.error();
   const std::unique_ptr<Motion> motion = scene.motion->clone();
   auto detector = make(scene.world, *motion);
   if (!detector) return detector.error();
