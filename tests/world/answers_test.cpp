@@ -329,6 +329,18 @@ TEST(WrongQuestions, ABadReportIsDropped) {
   expect_error(p.world.earliest_contact(b, p.probe()), ErrorCode::not_finite, "position",
                "earliest_contact:", b);
   expect_error(p.world.nearest({0, 0, 0}, 1, p.probe()), ErrorCode::not_finite, "position", "nearest:", a);
+  const auto refused = [](const auto& result, const std::string& call) {
+    ASSERT_FALSE(result) << call;
+    EXPECT_EQ(result.error().code, ErrorCode::not_finite) << result.error().message;
+    EXPECT_EQ(result.error().message.rfind(call + ":", 0), 0u) << result.error().message;
+  };
+  refused(p.world.safe_until(a, p.probe()), "safe_until");
+  refused(p.world.safe_until(p.probe()), "safe_until");
+  refused(p.world.distance_limits(a, b, 1.0, p.probe()), "distance_limits");
+  refused(p.world.overlapping({1, 0, 0}, 0.1, p.probe()), "overlapping");
+  refused(p.world.overlapping(Box{{1, 0, 0}, {2, 1, 1}}, p.probe()), "overlapping");
+  refused(p.world.ray_cast({-3, 0, 0}, {1, 0, 0}, 9.0, p.probe()), "ray_cast");
+  refused(p.world.sphere_cast({-3, 0, 0}, 0.5, {1, 0, 0}, 9.0, p.probe()), "sphere_cast");
   p.distort = {};
   EXPECT_TRUE(p.world.safe_until(a, b, p.probe())->probed);
   p.run(2.0);

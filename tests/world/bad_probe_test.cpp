@@ -199,6 +199,16 @@ TEST(Probe, MayNotCallTheWorldThatAskedIt) {
     refused(p.world.add_all(std::vector<BodyDefinition>(2)), "add_all");
     refused(p.world.remove(a), "remove");
     refused(p.world.kick(a, {}), "kick");
+    refused(p.world.teleport(a, {}), "teleport");
+    refused(p.world.set_radius(a, 1), "set_radius");
+    refused(p.world.set_promise(a, {}), "set_promise");
+    refused(p.world.disable(a), "disable");
+    refused(p.world.enable(a, {}), "enable");
+    refused(p.world.set_filter(a, {}), "set_filter");
+    refused(p.world.set_pair_filter({}), "set_pair_filter");
+    refused(p.world.refilter(a), "refilter");
+    refused(p.world.set_user_data(a, 1), "set_user_data");
+    refused(p.world.remove_all({}), "remove_all");
     refused(p.world.advance(1e9, p.probe()), "advance");
     EXPECT_TRUE(p.world.contains(a));
     EXPECT_EQ(p.world.size(), 2u);

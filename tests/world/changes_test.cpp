@@ -231,18 +231,41 @@ TEST(WrongChange, TwoTeleportsToOnePlaceAtOneStop) {
   EXPECT_TRUE(p.world.teleport(b, {{0, 0, 0}, {}})) << "the place is free again";
 }
 
-TEST(WrongChange, FromInsideAProbe) {
-  Playground p;
-  const BodyId a = p.add({.radius = 1});
-  p.distort = [&](BodyId, double, State&) {
-    expect_error(p.world.teleport(a, {}), ErrorCode::probe_in_progress, "teleport");
-    expect_error(p.world.set_pair_filter({}), ErrorCode::probe_in_progress, "set_pair_filter");
-    expect_error(p.world.remove_all({}), ErrorCode::probe_in_progress, "remove_all");
+TEST(WrongChange, NamesEachNumberThatIsWrong) {
+  Playground p({.box = Box{{0, 0, 0}, {10, 10, 10}}});
+  const BodyId a = p.add({.radius = 1, .position = {5, 5, 5}});
+  const BodyId off = p.add({.radius = 1, .position = {2, 2, 2}});
+  p.world.disable(off).value();
+  const auto refused = [](const auto& result, ErrorCode code, const std::string& argument, BodyId body,
+                          const std::string& call) {
+    expect_error(result, code, call);
+    EXPECT_EQ(result.error().argument, argument);
+    EXPECT_EQ(result.error().body, body);
   };
-  p.run(1.0);
-  p.kick(a, {1, 0, 0});
-  p.run(2.0);
-  EXPECT_GT(p.world.counters().probes, 0u);
+  const double infinity = std::numeric_limits<double>::infinity();
+  const auto check = [&](double bad, ErrorCode code) {
+    const Vec3 v{0, bad, 0};
+    refused(p.world.teleport(a, {v, {}}), code, "position", a, "teleport");
+    refused(p.world.teleport(a, {{5, 5, 5}, v}), code, "velocity", a, "teleport");
+    refused(p.world.enable(off, {v, {}}), code, "position", off, "enable");
+    refused(p.world.enable(off, {{5, 5, 5}, v}), code, "velocity", off, "enable");
+    refused(p.world.set_radius(a, bad), code, "radius", a, "set_radius");
+    refused(p.world.set_promise(a, {.acceleration_limit = bad}), code, "acceleration_limit", a,
+            "set_promise");
+    refused(p.world.set_promise(a, {.planned_acceleration = v}), code, "planned_acceleration", a,
+            "set_promise");
+    refused(p.world.set_promise(a, {.position_error = bad}), code, "position_error", a, "set_promise");
+    refused(p.world.set_promise(a, {.velocity_error = bad}), code, "velocity_error", a, "set_promise");
+  };
+  for (const double bad : {nan, infinity, -infinity}) check(bad, ErrorCode::not_finite);
+  check(1e200, ErrorCode::out_of_range);
+  for (const MotionPromise& bad : {MotionPromise{.acceleration_limit = -1},
+                                   MotionPromise{.position_error = -1}, MotionPromise{.velocity_error = -1}})
+    expect_error(p.world.set_promise(a, bad), ErrorCode::out_of_range, "set_promise");
+  refused(p.world.teleport(a, {{5, 5, 11}, {}}), ErrorCode::outside_domain, "position", a, "teleport");
+  refused(p.world.enable(off, {{5, -1, 5}, {}}), ErrorCode::outside_domain, "position", off, "enable");
+  EXPECT_FALSE(p.world.body(off).value().enabled);
+  EXPECT_TRUE(p.run(1.0).empty());
 }
 
 }  // namespace

@@ -282,6 +282,10 @@ TEST(WrongQueries, AreRefused) {
     expect_error(p.world.ray_cast({}, {1, 0, 0}, bad), code, "length", "ray_cast");
     expect_error(p.world.ray_cast({}, {1, 0, 0}, bad, p.probe()), code, "length", "ray_cast");
     expect_error(p.world.ray_cast({}, v, 1.0), code, "direction", "ray_cast");
+    expect_error(p.world.ray_cast({}, v, 1.0, p.probe()), code, "direction", "ray_cast");
+    expect_error(p.world.sphere_cast(v, 1.0, {1, 0, 0}, 1.0), code, "origin", "sphere_cast");
+    expect_error(p.world.sphere_cast({}, 1.0, v, 1.0), code, "direction", "sphere_cast");
+    expect_error(p.world.sphere_cast({}, 1.0, {1, 0, 0}, bad), code, "length", "sphere_cast");
     expect_error(p.world.sphere_cast({}, bad, {1, 0, 0}, 1.0), code, "radius", "sphere_cast");
     expect_error(p.world.sphere_cast({}, bad, {1, 0, 0}, 1.0, p.probe()), code, "radius", "sphere_cast");
   };
@@ -290,6 +294,10 @@ TEST(WrongQueries, AreRefused) {
   expect_error(p.world.ray_cast({}, {0, 0, 0}, 1.0), ErrorCode::out_of_range, "direction", "ray_cast");
   expect_error(p.world.overlapping(Box{{1, 0, 0}, {0, 1, 1}}), ErrorCode::out_of_range, "box", "overlapping");
   expect_error(p.world.overlapping({}, -1.0), ErrorCode::out_of_range, "radius", "overlapping");
+  expect_error(p.world.ray_cast({}, {1, 0, 0}, -1.0), ErrorCode::out_of_range, "length", "ray_cast");
+  expect_error(p.world.sphere_cast({}, -1.0, {1, 0, 0}, 1.0), ErrorCode::out_of_range, "radius",
+               "sphere_cast");
+  expect_error(p.world.sphere_cast({}, 1.0, {}, 1.0), ErrorCode::out_of_range, "direction", "sphere_cast");
   EXPECT_EQ(p.world.counters().probes, 0u);
 }
 
