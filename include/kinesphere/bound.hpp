@@ -47,6 +47,8 @@ Bound bound_of(const BodyDefinition& body, const State& state, double time);
 struct HalfSpace {
   Vec3 normal{};  ///< of unit length
   double offset = 0.0;
+
+  friend constexpr bool operator==(const HalfSpace&, const HalfSpace&) = default;
 };
 
 /// No pair of points of the two bodies comes closer than `distance` (length; default 0: contact)

@@ -1,0 +1,209 @@
+// Certified earliest times and gaps of a bound and a box or triangle at rest. The method: shape.hpp.
+#include <limits>
+#include <optional>
+
+#include "bound/rounding.hpp"
+#include "bound/triangle.hpp"
+
+namespace kinesphere {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double margin = rounding::margin;
+
+/// As for two bounds: any number of rounds is safe.
+constexpr int max_rounds = 16;
+constexpr double negligible_gain = 0x1p-24;
+
+double size_of(const Box& box) { return std::max(norm_one(box.lower), norm_one(box.upper)); }
+double size_of(const Triangle& t) { return std::max({norm_one(t.a), norm_one(t.b), norm_one(t.c)}); }
+
+/// How far the shape reaches in a direction.
+double reach(const Box& box, const Vec3& direction) {
+  double sum = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+    sum += std::max(direction[axis] * box.lower[axis], direction[axis] * box.upper[axis]);
+  return sum;
+}
+double reach(const Triangle& t, const Vec3& direction) {
+  return std::max({dot(direction, t.a), dot(direction, t.b), dot(direction, t.c)});
+}
+
+/// The shape lies on its far side, whatever the direction: it is raised by what rounding may have lowered it.
+template <class Solid>
+HalfSpace supporting_plane(const Solid& solid, const Vec3& normal) {
+  return {normal, reach(solid, normal) + margin * size_of(solid)};
+}
+
+template <class Solid>
+double meeting(const Bound& bound, const Solid& solid, double from, double horizon, double distance) {
+  double time = from;
+  for (int round = 0; round < max_rounds; ++round) {
+    const HalfSpace plane = supporting_plane(solid, nearest_point(solid, bound.centre_at(time)).normal);
+    const double next = earliest_meeting(bound, plane, time, horizon, distance);
+    if (next == infinity) return infinity;
+    const double gain = next - time;
+    time = next;
+    if (!(gain > (time - from) * negligible_gain)) break;
+  }
+  return time;
+}
+
+/// A point that goes along with the centre of a bound from some time on, as far as the shape lets it.
+struct Companion {
+  Bound path{};             ///< of radius 0
+  double stays = infinity;  ///< it is in the shape for this long
+  double wrong = 0.0;       ///< and to within this
+};
+
+Companion companion(const Box& box, const Bound& bound, double now) {
+  const Vec3 centre = bound.centre_at(now);
+  const Vec3 velocity = bound.velocity_at(now);
+  const Vec3& plan = bound.planned_acceleration;
+  Companion at{.path = {.time = now}};
+  for (int axis = 0; axis < 3; ++axis) {
+    at.path.position[axis] = std::clamp(centre[axis], box.lower[axis], box.upper[axis]);
+    const double above = (centre[axis] - box.lower[axis]) * (1.0 - margin);
+    const double below = (box.upper[axis] - centre[axis]) * (1.0 - margin);
+    const double stays = std::min(rounding::first_crossing(above, velocity[axis], plan[axis]),
+                                  rounding::first_crossing(below, -velocity[axis], -plan[axis]));
+    // At an end of the box it stands still on this axis.
+    if (stays == 0.0) continue;
+    at.path.velocity[axis] = velocity[axis];
+    at.path.planned_acceleration[axis] = plan[axis];
+    at.stays = std::min(at.stays, stays);
+  }
+  return at;
+}
+
+/// How long position + speed d + 1/2 acceleration d^2 certainly lies in [0, 1].
+double stay_between_ends(double position, double speed, double acceleration) {
+  const double rest = (1.0 - position) - margin;
+  return std::min(rounding::first_crossing(position, speed, acceleration),
+                  rounding::first_crossing(rest, -speed, -acceleration));
+}
+
+std::optional<Companion> companion_on_face(const Triangle& triangle, const Bound& bound, double now) {
+  const TriangleFrame frame(triangle);
+  const SideCoordinates at = frame.coordinates(bound.centre_at(now) - frame.origin);
+  if (!lies_inside(at)) return std::nullopt;
+  const SideCoordinates velocity = frame.coordinates(bound.velocity_at(now));
+  const SideCoordinates plan = frame.coordinates(bound.planned_acceleration);
+  const auto sum = [](const SideCoordinates& c) { return c.along_b + c.along_c; };
+  const auto error = [](const SideCoordinates& c) {
+    return margin * (std::abs(c.along_b) + std::abs(c.along_c));
+  };
+  const double stays =
+      std::min({rounding::first_crossing(at.along_b, velocity.along_b, plan.along_b),
+                rounding::first_crossing(at.along_c, velocity.along_c, plan.along_c),
+                rounding::first_crossing((1.0 - sum(at)) - margin, -sum(velocity) - error(velocity),
+                                         -sum(plan) - error(plan))});
+  if (stays == 0.0) return std::nullopt;
+  return Companion{.path = {.time = now,
+                            .position = frame.origin + frame.vector(at),
+                            .velocity = frame.vector(velocity),
+                            .planned_acceleration = frame.vector(plan)},
+                   .stays = stays};
+}
+
+Companion companion_on_side(const Triangle& triangle, const Bound& bound, double now) {
+  const SidePoint at = nearest_on_sides(triangle, bound.centre_at(now));
+  Companion found{.path = {.time = now, .position = at.place()}};
+  const double square = norm_squared(at.side);
+  const double speed = dot(bound.velocity_at(now), at.side) / square;
+  const double plan = dot(bound.planned_acceleration, at.side) / square;
+  const double stays = stay_between_ends(at.part, speed, plan);
+  if (stays == 0.0) return found;
+  found.path.velocity = at.side * speed;
+  found.path.planned_acceleration = at.side * plan;
+  found.stays = stays;
+  return found;
+}
+
+Companion companion(const Triangle& triangle, const Bound& bound, double now) {
+  const auto on_face = companion_on_face(triangle, bound, now);
+  Companion found = on_face ? *on_face : companion_on_side(triangle, bound, now);
+  // As long as it stays, each term of its path is at most about eight sides long.
+  found.wrong = 4.0 * margin * size_of(triangle);
+  return found;
+}
+
+template <class Solid>
+double separation(const Bound& bound, const Solid& solid, double from, double horizon, double distance) {
+  double time = from;
+  for (int round = 0; round < max_rounds; ++round) {
+    const Companion at = companion(solid, bound, time);
+    const double parted = earliest_separation(bound, at.path, time, horizon, distance - at.wrong);
+    const double leaves = rounding::sum_down(time, at.stays);
+    if (parted <= leaves) return parted;
+    if (leaves > horizon) return infinity;
+    const double gain = leaves - time;
+    time = std::max(time, leaves);
+    if (!(gain > (time - from) * negligible_gain)) break;
+  }
+  return time;
+}
+
+/// Sizes of what goes into the gap at time t.
+struct Reported {
+  Reported(const Bound& bound, double t) : centre(bound.centre_at(t)) {
+    const double s = t - bound.time;
+    growth = (bound.growth_speed + 0.5 * bound.growth_acceleration * s) * s;
+    size = norm_one(bound.position) + norm_one(bound.velocity) * s +
+           norm_one(bound.planned_acceleration) * (s * s) + bound.radius + growth;
+  }
+  Vec3 centre;
+  double growth, size;
+};
+
+}  // namespace
+
+double earliest_meeting(const Bound& bound, const Box& shape, double from, double horizon, double distance) {
+  return meeting(bound, shape, from, horizon, distance);
+}
+
+double earliest_meeting(const Bound& bound, const Triangle& shape, double from, double horizon,
+                        double distance) {
+  // A triangle has no inside: a gap is never less than minus the radius.
+  const double least =
+      bound.radius + distance < 0.0 ? earliest_meeting(bound, HalfSpace{}, from, horizon, distance) : from;
+  return least == infinity ? infinity : meeting(bound, shape, least, horizon, distance);
+}
+
+double earliest_separation(const Bound& bound, const Box& shape, double from, double horizon,
+                           double distance) {
+  const double depth = -(bound.radius + distance);
+  if (!(depth >= 0.0)) return separation(bound, shape, from, horizon, distance);
+  // As long as the centre is so deep inside.
+  Bound inside = bound;
+  inside.radius = depth + margin * (bound.radius + std::abs(distance));
+  return earliest_exit(inside, shape, from, horizon);
+}
+
+double earliest_separation(const Bound& bound, const Triangle& shape, double from, double horizon,
+                           double distance) {
+  return separation(bound, shape, from, horizon, distance);
+}
+
+GapLimits gap_limits(const Bound& bound, const Box& shape, double t) {
+  const Reported reported(bound, t);
+  const double gap = nearest_point(shape, reported.centre).distance - bound.radius;
+  const double wrong = margin * (reported.size + size_of(shape));
+  return {.lower = gap - reported.growth - wrong, .upper = gap + reported.growth + wrong};
+}
+
+GapLimits gap_limits(const Bound& bound, const Triangle& shape, double t) {
+  const Reported reported(bound, t);
+  const SurfacePoint nearest = nearest_point(shape, reported.centre);
+  // The nearest point is one of the shape, but on a thin one perhaps not quite the nearest; the supporting
+  // plane tells how far it is at least, but not well from very near. Each is certain.
+  const HalfSpace plane = supporting_plane(shape, nearest.normal);
+  const double thin = thickness(shape);
+  const double wrong = margin * (reported.size + size_of(shape));
+  const double least = std::max({0.0, dot(plane.normal, reported.centre) - plane.offset,
+                                 nearest.distance - 4.0 * wrong / (thin * thin)});
+  return {.lower = least - bound.radius - reported.growth - wrong,
+          .upper = nearest.distance - bound.radius + reported.growth + wrong};
+}
+
+}  // namespace kinesphere

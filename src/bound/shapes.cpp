@@ -1,0 +1,129 @@
+// Shapes at rest: their nearest points, their boxes, and meshes of triangles.
+#include <limits>
+#include <string>
+
+#include "bound/rounding.hpp"
+#include "bound/triangle.hpp"
+#include "input/input_check.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// Where the square of its length underflows, a vector has no direction.
+constexpr double least_length = 0x1p-500;
+
+Box box_of(const Ball& ball, double) {
+  Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double room = ball.radius + rounding::margin * (std::abs(ball.centre[axis]) + ball.radius);
+    box.lower[axis] = ball.centre[axis] - room;
+    box.upper[axis] = ball.centre[axis] + room;
+  }
+  return box;
+}
+
+Box box_of(const HalfSpace& solid, double limit) {
+  // Of n.x <= offset there remains n_i x_i <= offset - (the least that the other axes can add).
+  Box box{{-limit, -limit, -limit}, {limit, limit, limit}};
+  const double size = std::abs(solid.offset) + limit * norm_one(solid.normal);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double along = solid.normal[axis];
+    if (along == 0.0) continue;
+    const double others = limit * (norm_one(solid.normal) - std::abs(along));
+    const double farthest = (solid.offset + others + rounding::margin * size) / std::abs(along);
+    if (!(farthest < limit)) continue;
+    const double end = std::max(farthest, -limit);
+    (along > 0.0 ? box.upper[axis] : box.lower[axis]) = along > 0.0 ? end : -end;
+  }
+  return box;
+}
+
+Box box_of(const Box& box, double) { return box; }
+
+Box box_of(const Triangle& t, double) {
+  Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lower[axis] = std::min({t.a[axis], t.b[axis], t.c[axis]});
+    box.upper[axis] = std::max({t.a[axis], t.b[axis], t.c[axis]});
+  }
+  return box;
+}
+
+/// Of a place inside: the nearest face.
+SurfacePoint nearest_face(const Box& box, const Vec3& from) {
+  SurfacePoint nearest{.distance = -std::numeric_limits<double>::infinity()};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const bool upper : {false, true}) {
+      const double end = upper ? box.upper[axis] : box.lower[axis];
+      const double distance = upper ? from[axis] - end : end - from[axis];
+      if (!(distance > nearest.distance)) continue;
+      nearest = {from, {}, distance};
+      nearest.point[axis] = end;
+      nearest.normal[axis] = upper ? 1.0 : -1.0;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
+
+SurfacePoint nearest_point(const HalfSpace& shape, const Vec3& from) {
+  const double distance = dot(shape.normal, from) - shape.offset;
+  return {from - shape.normal * distance, shape.normal, distance};
+}
+
+SurfacePoint nearest_point(const Box& shape, const Vec3& from) {
+  Vec3 point;
+  for (int axis = 0; axis < 3; ++axis)
+    point[axis] = std::clamp(from[axis], shape.lower[axis], shape.upper[axis]);
+  const Vec3 away = from - point;
+  const double distance = norm(away);
+  if (distance > least_length) return {point, away / distance, distance};
+  return nearest_face(shape, from);
+}
+
+SurfacePoint nearest_point(const Triangle& shape, const Vec3& from) {
+  const TriangleFrame frame(shape);
+  const Vec3 offset = from - frame.origin;
+  const Vec3 plane_normal = frame.across / norm(frame.across);
+  const Vec3 normal = dot(offset, frame.across) < 0.0 ? -plane_normal : plane_normal;
+  if (const SideCoordinates at = frame.coordinates(offset); lies_inside(at)) {
+    const Vec3 point = frame.origin + frame.vector(at);
+    return {point, normal, norm(from - point)};
+  }
+  const Vec3 point = nearest_on_sides(shape, from).place();
+  const Vec3 away = from - point;
+  const double distance = norm(away);
+  return {point, distance > least_length ? away / distance : normal, distance};
+}
+
+Box bounding_box(const Shape& shape, double limit) {
+  return std::visit([=](const auto& solid) { return box_of(solid, limit); }, shape);
+}
+
+Result<std::vector<FixedDefinition>> mesh(std::span<const Vec3> vertices,
+                                          std::span<const std::array<std::uint32_t, 3>> corners,
+                                          const Filter& filter) {
+  std::vector<FixedDefinition> triangles;
+  triangles.reserve(corners.size());
+  for (const auto& [a, b, c] : corners) {
+    const std::string call = "mesh: triangle " + std::to_string(triangles.size());
+    InputCheck check(call);
+    for (const std::size_t corner : {a, b, c}) {
+      check.require(corner < vertices.size(), ErrorCode::out_of_range, {"corners"},
+                    "must be less than the number of vertices", vertices.size(), corner);
+      if (check.error()) return *check.error();
+      check.finite({"vertices"}, vertices[corner]);
+    }
+    const Triangle triangle{vertices[a], vertices[b], vertices[c]};
+    const double flat = thickness(triangle);
+    check.require(flat >= least_thickness, ErrorCode::out_of_range, {"vertices"},
+                  "must span a triangle, its least height relative to its longest side at least",
+                  least_thickness, flat);
+    if (check.error()) return *check.error();
+    triangles.push_back({.shape = triangle, .filter = filter, .user_data = triangles.size()});
+  }
+  return triangles;
+}
+
+}  // namespace kinesphere
