@@ -56,6 +56,13 @@ struct Companion {
   double wrong = 0.0;       ///< and to within this
 };
 
+/// How long a companion stays on one side of an end that is `room` away; 0 where it had better stand still,
+/// because it is as good as there. Lengths are relative to `size`.
+double stay(double room, double speed, double acceleration, double size) {
+  const double near = 0x1p-40 * size;
+  return room > 2.0 * near ? rounding::first_crossing(room - near, speed, acceleration) : 0.0;
+}
+
 Companion companion(const Box& box, const Bound& bound, double now) {
   const Vec3 centre = bound.centre_at(now);
   const Vec3 velocity = bound.velocity_at(now);
@@ -63,10 +70,9 @@ Companion companion(const Box& box, const Bound& bound, double now) {
   Companion at{.path = {.time = now}};
   for (int axis = 0; axis < 3; ++axis) {
     at.path.position[axis] = std::clamp(centre[axis], box.lower[axis], box.upper[axis]);
-    const double above = (centre[axis] - box.lower[axis]) * (1.0 - margin);
-    const double below = (box.upper[axis] - centre[axis]) * (1.0 - margin);
-    const double stays = std::min(rounding::first_crossing(above, velocity[axis], plan[axis]),
-                                  rounding::first_crossing(below, -velocity[axis], -plan[axis]));
+    const double size = std::abs(centre[axis]) + std::abs(box.lower[axis]) + std::abs(box.upper[axis]);
+    const double stays = std::min(stay(centre[axis] - box.lower[axis], velocity[axis], plan[axis], size),
+                                  stay(box.upper[axis] - centre[axis], -velocity[axis], -plan[axis], size));
     // At an end of the box it stands still on this axis.
     if (stays == 0.0) continue;
     at.path.velocity[axis] = velocity[axis];
@@ -74,13 +80,6 @@ Companion companion(const Box& box, const Bound& bound, double now) {
     at.stays = std::min(at.stays, stays);
   }
   return at;
-}
-
-/// How long position + speed d + 1/2 acceleration d^2 certainly lies in [0, 1].
-double stay_between_ends(double position, double speed, double acceleration) {
-  const double rest = (1.0 - position) - margin;
-  return std::min(rounding::first_crossing(position, speed, acceleration),
-                  rounding::first_crossing(rest, -speed, -acceleration));
 }
 
 std::optional<Companion> companion_on_face(const Triangle& triangle, const Bound& bound, double now) {
@@ -94,10 +93,9 @@ std::optional<Companion> companion_on_face(const Triangle& triangle, const Bound
     return margin * (std::abs(c.along_b) + std::abs(c.along_c));
   };
   const double stays =
-      std::min({rounding::first_crossing(at.along_b, velocity.along_b, plan.along_b),
-                rounding::first_crossing(at.along_c, velocity.along_c, plan.along_c),
-                rounding::first_crossing((1.0 - sum(at)) - margin, -sum(velocity) - error(velocity),
-                                         -sum(plan) - error(plan))});
+      std::min({stay(at.along_b, velocity.along_b, plan.along_b, 1.0),
+                stay(at.along_c, velocity.along_c, plan.along_c, 1.0),
+                stay(1.0 - sum(at), -sum(velocity) - error(velocity), -sum(plan) - error(plan), 1.0)});
   if (stays == 0.0) return std::nullopt;
   return Companion{.path = {.time = now,
                             .position = frame.origin + frame.vector(at),
@@ -112,7 +110,7 @@ Companion companion_on_side(const Triangle& triangle, const Bound& bound, double
   const double square = norm_squared(at.side);
   const double speed = dot(bound.velocity_at(now), at.side) / square;
   const double plan = dot(bound.planned_acceleration, at.side) / square;
-  const double stays = stay_between_ends(at.part, speed, plan);
+  const double stays = std::min(stay(at.part, speed, plan, 1.0), stay(1.0 - at.part, -speed, -plan, 1.0));
   if (stays == 0.0) return found;
   found.path.velocity = at.side * speed;
   found.path.planned_acceleration = at.side * plan;
