@@ -25,6 +25,7 @@ enum class ErrorCode {
   stale_body,         ///< an id of a body that has been removed
   disabled_body,      ///< the call needs a body that is enabled
   enabled_body,       ///< the call needs a body that is disabled
+  fixed_body,         ///< the call needs a body that can move
   outside_domain,     ///< a body does not lie inside the box of its world
   overlapping,        ///< two bodies overlap where the world does not allow it
   probe_in_progress,  ///< the world was called from inside its own probe

@@ -20,6 +20,7 @@
 #include "kinesphere/bound.hpp"
 #include "kinesphere/filter.hpp"
 #include "kinesphere/result.hpp"
+#include "kinesphere/sensor.hpp"
 
 namespace kinesphere {
 
@@ -46,8 +47,11 @@ using Shape = std::variant<Ball, HalfSpace, Box, Triangle>;
 /// A body that never moves: World::add_fixed.
 struct FixedDefinition {
   Shape shape{};
-  /// Which other bodies it may touch. Two fixed bodies never touch each other.
+  /// Which other bodies it may touch, sense and be sensed by. Two fixed bodies never meet.
   Filter filter{};
+  /// As in BodyDefinition: one that is not solid is a zone that senses only.
+  bool solid = true;
+  SensorClass sensor_class = 0;
   /// For the caller: the world only keeps it.
   std::uint64_t user_data = 0;
 };

@@ -47,6 +47,7 @@
 #include "kinesphere/queries.hpp"
 #include "kinesphere/result.hpp"
 #include "kinesphere/sensor.hpp"
+#include "kinesphere/shape.hpp"
 #include "kinesphere/world_definition.hpp"
 
 namespace kinesphere {
@@ -58,6 +59,9 @@ struct BodyView {
   Box box{};                    ///< which holds the body until box_end
   double box_end;
   bool enabled;  ///< a disabled body has no bound and no box: they are what they were
+  /// It never moves: shape_of() tells its shape. Its state is that of one point of it, and box_end is
+  /// infinite.
+  bool fixed;
 };
 
 /// The first thing that audit() found wrong.
@@ -85,6 +89,20 @@ class World {
   /// Adds all of them or, on an error (as above, naming the one), none.
   Result<std::vector<BodyId>> add_all(std::span<const BodyDefinition> bodies);
 
+  /// Adds a body that never moves. It has an id, a filter and contacts like any other, and is the `first` or
+  /// `second` of their events; it is never probed, and fixed bodies do not concern each other. It may reach
+  /// out of the box of the world. Errors: not_finite; out_of_range (a coordinate, offset or radius beyond
+  /// 2^41 contact tolerances, a negative radius, a box without lower <= upper, a triangle thinner than 2^-20
+  /// of its longest side, a normal whose length differs from 1 by more than 10^-6: the world makes it 1);
+  /// overlapping. Cost: O(1) here (a grid search where overlaps are not allowed), a grid search at the next
+  /// advance.
+  Result<BodyId> add_fixed(const FixedDefinition& body);
+  /// Adds all of them or, on an error (as above, naming the one), none.
+  Result<std::vector<BodyId>> add_fixed_all(std::span<const FixedDefinition> bodies);
+  /// The shape of a fixed body as the world keeps it; of any other a ball at its last report.
+  /// Errors: unknown_body, stale_body.
+  Result<Shape> shape_of(BodyId body) const;
+
   /// Removes a body. Its contacts end: the end events come at the next advance, with its state as its last
   /// report predicts it (ContactMode::impacts has no ends).
   /// Errors: unknown_body, stale_body. Cost: O(log n + contacts).
@@ -96,7 +114,8 @@ class World {
   /// Tells the world that the velocity of this body is `velocity` from the current time on; the probe
   /// must answer accordingly, or a bound_violation says by how much it does not. Everything certified about
   /// the body so far is void. If it has not been probed at this very time (both bodies of a contact have) the
-  /// next advance does so first. Errors: unknown_body, stale_body, disabled_body, not_finite, out_of_range.
+  /// next advance does so first. Errors: unknown_body, stale_body, disabled_body, fixed_body, not_finite,
+  /// out_of_range.
   /// Cost: O(1) here, a grid search at the next advance.
   Result<void> kick(BodyId body, const Vec3& velocity);
 
@@ -108,16 +127,18 @@ class World {
   // Errors of all: unknown_body, stale_body, probe_in_progress, and as add() for what they set.
 
   /// The body is in another state from the current time on. ContactMode::impacts: its next approach to
-  /// anything is a new contact, as after a kick. Errors: disabled_body.
+  /// anything is a new contact, as after a kick. Errors: disabled_body, fixed_body.
   Result<void> teleport(BodyId body, const State& state);
+  /// Errors: fixed_body.
   Result<void> set_radius(BodyId body, double radius);
-  /// From the current time on the body promises this.
+  /// From the current time on the body promises this. Errors: fixed_body.
   Result<void> set_promise(BodyId body, const MotionPromise& promise);
 
   /// A disabled body touches nobody and is never probed. It keeps its id, and all but its state may be set.
   /// Its contacts end as in remove(). Errors: disabled_body.
   Result<void> disable(BodyId body);
-  /// It is back, in this state at the current time. Errors: enabled_body.
+  /// It is back, in this state at the current time; a fixed body is back where it was, and its state is not
+  /// looked at. Errors: enabled_body.
   Result<void> enable(BodyId body, const State& state);
 
   /// Contacts that the filter does not let pass end; overlaps that it newly lets pass begin at once, also
@@ -277,6 +298,11 @@ class World {
   Result<void> check_moved(BodyId id, const State& state, std::string_view call) const;
   Result<void> check_growth(const BodyDefinition& changed, BodyId id, std::string_view argument,
                             std::string_view call) const;
+  Result<void> check_moving(BodyId body, std::string_view call) const;
+  Result<void> check_fixed_room(const FixedDefinition& fixed, BodyId id, std::string_view call) const;
+  /// The definition as the world keeps it.
+  Result<FixedDefinition> check_new_fixed(const FixedDefinition& fixed, BodyId id,
+                                          std::string_view call) const;
   Result<void> check_pair(BodyId first, BodyId second, std::string_view call) const;
 
   // The only ways to change the engine. A recording learns of each.

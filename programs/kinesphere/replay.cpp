@@ -43,7 +43,8 @@ int replay(const ReplayOptions& options) {
               fmt::format("{} body-seconds, {} bytes each", number(result->body_time),
                           number(static_cast<double>(bytes.size()) / result->body_time)));
   summary.space();
-  add_events(summary, *result, result->counters.count(EventKind::contact_end) > 0);
+  add_events(summary, *result,
+             {.ends = result->counters.count(EventKind::contact_end) > 0, .zeno_guard = true});
   summary.row("probes", grouped(result->counters.probes), "answered from the recording");
   summary.space();
   summary.row("verdict", "the same to the last bit");

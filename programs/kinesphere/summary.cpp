@@ -59,14 +59,13 @@ void add_scene(Summary& summary, const SceneParameters& parameters) {
   summary.row("seed", std::to_string(parameters.seed));
 }
 
-void add_events(Summary& summary, const SimulationResult& result, const Scene& scene) {
+void add_events(Summary& summary, const SimulationResult& result, const EventRows& rows) {
   const Counters& counters = result.counters;
   const auto row = [&](std::string label, EventKind begin, EventKind end) {
     const std::uint64_t begun = counters.count(begin);
     std::string note =
         fmt::format("{} per body-second", number(static_cast<double>(begun) / result.body_time));
-    if (scene.response == Response::pass_through)
-      note += fmt::format(", {} ended", grouped(counters.count(end)));
+    if (rows.ends) note += fmt::format(", {} ended", grouped(counters.count(end)));
     summary.row(std::move(label), grouped(begun), std::move(note));
   };
   row("contacts", EventKind::contact_begin, EventKind::contact_end);
@@ -75,7 +74,7 @@ void add_events(Summary& summary, const SimulationResult& result, const Scene& s
     summary.row("repeated", grouped(counters.repeated_contacts), "contacts within the Zeno interval");
   }
   const std::uint64_t guards = counters.count(EventKind::zeno_guard);
-  if (guards + counters.zeno_steps > 0 || scene.resting_speed > 0.0) {
+  if (guards + counters.zeno_steps > 0 || rows.zeno_guard) {
     summary.row("zeno guard", grouped(guards),
                 fmt::format("contacts left to overlap; {} looks put off within the tolerance",
                             grouped(counters.zeno_steps)));

@@ -34,8 +34,13 @@ std::string number(double value);
 
 /// What the scene is: name, motion, bodies, seed, response.
 void add_scene(Summary& summary, const SceneParameters& parameters);
-/// Contacts, walls and what went wrong; how often the Zeno guard acted, if it did or the scene settles.
-void add_events(Summary& summary, const SimulationResult& result, const Scene& scene);
+/// Which rows a summary has even where there was nothing to count.
+struct EventRows {
+  bool ends = false;        ///< of contacts
+  bool zeno_guard = false;  ///< how often it acted
+};
+/// Contacts, walls and what went wrong.
+void add_events(Summary& summary, const SimulationResult& result, const EventRows& rows);
 /// Real time spent, per simulated second too, and the real-time factor: simulated over real time.
 void add_speed(Summary& summary, double simulated_seconds, double real_seconds);
 

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <concepts>
+#include <cstdint>
+#include <limits>
 #include <type_traits>
 
 #include "kinesphere/body.hpp"
 #include "kinesphere/bound.hpp"
 #include "kinesphere/counters.hpp"
 #include "kinesphere/event.hpp"
+#include "kinesphere/shape.hpp"
 #include "kinesphere/world_definition.hpp"
 
 namespace kinesphere {
@@ -71,6 +74,30 @@ template <Some<Bound> Self, class Archive>
 void transfer(Self& self, Archive& archive) {
   auto& [time, position, velocity, planned_acceleration, radius, growth_speed, growth_acceleration] = self;
   archive(time, position, velocity, planned_acceleration, radius, growth_speed, growth_acceleration);
+}
+
+template <Some<HalfSpace> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [normal, offset] = self;
+  archive(normal, offset);
+}
+
+template <Some<Ball> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [centre, radius] = self;
+  archive(centre, radius);
+}
+
+template <Some<Triangle> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [a, b, c] = self;
+  archive(a, b, c);
+}
+
+template <Some<FixedDefinition> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [shape, filter, solid, sensor_class, user_data] = self;
+  archive(shape, filter, solid, sensor_class, user_data);
 }
 
 template <Some<Event> Self, class Archive>

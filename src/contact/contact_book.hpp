@@ -46,6 +46,9 @@ class ContactBook {
     entries_[body].zeno_interval = rule_.zeno_interval(largest_acceleration);
   }
 
+  /// A fixed body has no contacts of its own: whether one is a repeated one, its partner decides.
+  void set_fixed(std::uint32_t body) { entries_[body].zeno_interval = 0.0; }
+
   // Who touches whom.
   bool touch(std::uint32_t a, std::uint32_t b) const;
   bool touches_wall(std::uint32_t body, Wall wall) const { return (walls_of(body) & wall_bit(wall)) != 0; }

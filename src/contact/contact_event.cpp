@@ -4,18 +4,51 @@
 
 namespace kinesphere {
 
+namespace {
+
+SurfacePoint nearest_of(const Shape& shape, const Vec3& from) {
+  return std::visit(
+      [&]<class Solid>(const Solid& solid) {
+        if constexpr (std::is_same_v<Solid, Ball>) {
+          return SurfacePoint{};  // a ball counts as a sphere
+        } else {
+          return nearest_point(solid, from);
+        }
+      },
+      shape);
+}
+
+/// Normal, gap and point of two spheres.
+void describe_spheres(Event& event, const Sphere& first, const Sphere& second) {
+  const Vec3 difference = second.state.position - first.state.position;
+  const double distance = norm(difference);
+  event.normal = distance > 0.0 ? difference / distance : Vec3{1.0, 0.0, 0.0};
+  event.gap = distance - (first.radius + second.radius);
+  event.point = first.state.position + event.normal * (first.radius + 0.5 * event.gap);
+}
+
+/// The same of a sphere and a body with a shape, of which either may be the first.
+void describe_surface(Event& event, const Sphere& sphere, const Sphere& surface) {
+  const SurfacePoint nearest = nearest_of(*surface.shape, sphere.state.position);
+  event.normal = event.first == sphere.id ? -nearest.normal : nearest.normal;
+  event.gap = nearest.distance - sphere.radius;
+  event.point = sphere.state.position - nearest.normal * (sphere.radius + 0.5 * event.gap);
+}
+
+}  // namespace
+
 Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& b) {
   const Sphere& first = a.id < b.id ? a : b;
   const Sphere& second = a.id < b.id ? b : a;
   Event event{.kind = kind, .time = time, .first = first.id, .second = second.id};
   event.first_state = first.state;
   event.second_state = second.state;
-  const Vec3 difference = second.state.position - first.state.position;
-  const double distance = norm(difference);
-  event.normal = distance > 0.0 ? difference / distance : Vec3{1.0, 0.0, 0.0};
-  event.gap = distance - (first.radius + second.radius);
+  if (first.shape || second.shape) {
+    describe_surface(event, first.shape ? second : first, first.shape ? first : second);
+  } else {
+    describe_spheres(event, first, second);
+  }
   event.approach_speed = dot(event.normal, first.state.velocity - second.state.velocity);
-  event.point = first.state.position + event.normal * (first.radius + 0.5 * event.gap);
   return event;
 }
 

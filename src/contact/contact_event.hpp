@@ -4,13 +4,16 @@
 #include "bound/broken_promise.hpp"
 #include "kinesphere/bound.hpp"
 #include "kinesphere/event.hpp"
+#include "kinesphere/shape.hpp"
 
 namespace kinesphere {
 
+/// A body at an instant.
 struct Sphere {
   BodyId id;
   double radius;
   State state;
+  const Shape* shape = nullptr;  ///< of a fixed body that is no ball: then that counts, not the radius
 };
 
 /// Event::first is the one with the smaller id, whichever comes first here.

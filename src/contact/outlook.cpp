@@ -67,6 +67,8 @@ double Outlook<Partner>::resolution() const {
 
 template class Outlook<Bound>;
 template class Outlook<HalfSpace>;
+template class Outlook<Box>;
+template class Outlook<Triangle>;
 
 double until_reports_of_walls(const ContactRule& rule, const Bound& bound, const Box& box, double now,
                               double horizon) {

@@ -6,6 +6,7 @@
 #include "contact/contact_rule.hpp"
 #include "kinesphere/bound.hpp"
 #include "kinesphere/event.hpp"
+#include "kinesphere/shape.hpp"
 
 namespace kinesphere {
 
@@ -46,7 +47,8 @@ struct Threshold {
 /// body or with `wall`.
 EventKind kind_of(ContactRule::Change change, bool sensed, Wall wall);
 
-/// A body and its partner, another body's Bound or the HalfSpace inside a wall, seen from now on.
+/// A body and its partner, another body's Bound, the HalfSpace inside a wall or a shape at rest, seen from
+/// now on.
 template <class Partner>
 class Outlook {
  public:
@@ -87,6 +89,8 @@ class Outlook {
 
 extern template class Outlook<Bound>;
 extern template class Outlook<HalfSpace>;
+extern template class Outlook<Box>;
+extern template class Outlook<Triangle>;
 
 /// Outlook::until_reports for a body that touches none of the walls of the box, all walls at once.
 double until_reports_of_walls(const ContactRule& rule, const Bound& bound, const Box& box, double now,

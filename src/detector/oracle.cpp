@@ -81,8 +81,9 @@ class Oracle final : public Detector {
   double time() const override { return time_; }
   Counters counters() const override { return counters_; }
   Result<Bound> bound(std::uint32_t number) const override {
-    const auto [id, radius, state] = sphere(number);
-    return Bound{.time = time_, .position = state.position, .velocity = state.velocity, .radius = radius};
+    const Sphere now = sphere(number);
+    return Bound{
+        .time = time_, .position = now.state.position, .velocity = now.state.velocity, .radius = now.radius};
   }
 
  private:

@@ -39,6 +39,20 @@ struct Add {
   }
 };
 
+struct AddFixed {
+  FixedDefinition body{};
+
+  Result<void> repeat(World& world) const {
+    const auto added = world.add_fixed(body);
+    return added ? Result<void>() : Result<void>(added.error());
+  }
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [definition] = self;
+    archive(definition);
+  }
+};
+
 /// A change of one body that takes no argument, by its call.
 template <Result<void> (World::*call)(BodyId)>
 struct Plain {
@@ -133,10 +147,10 @@ struct End {
 }  // namespace step
 
 /// Their order is part of the format.
-using Step = std::variant<step::Asking, step::Add, step::Remove, step::Kick, step::Teleport, step::SetRadius,
-                          step::SetPromise, step::Disable, step::Enable, step::SetFilter, step::SetPairFilter,
-                          step::Refilter, step::SetSolid, step::SetSensor, step::SetSensorClass,
-                          step::SetUserData, step::End>;
+using Step = std::variant<step::Asking, step::Add, step::AddFixed, step::Remove, step::Kick, step::Teleport,
+                          step::SetRadius, step::SetPromise, step::Disable, step::Enable, step::SetFilter,
+                          step::SetPairFilter, step::Refilter, step::SetSolid, step::SetSensor,
+                          step::SetSensorClass, step::SetUserData, step::End>;
 
 /// A hash over the outcomes of all steps so far: events to the last bit, and all work that was done.
 class StepHash {

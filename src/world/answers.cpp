@@ -71,7 +71,7 @@ void World::Engine::Answers::consider_touching(std::uint32_t number, Onset& firs
 }
 
 void World::Engine::Answers::consider_walls(std::uint32_t number, Onset& first) const {
-  if (!engine_.definition_.box || !body(number).present()) return;
+  if (!engine_.definition_.box || !body(number).present() || body(number).is_fixed()) return;
   const double known = recorded_of_walls(number);
   if (known >= first.time) return;
   const Bound bound = guarded(number);
@@ -86,7 +86,13 @@ void World::Engine::Answers::consider(std::uint32_t a, std::uint32_t b, Onset& f
   if (!body(a).present() || !body(b).present() || !engine_.may_touch(a, b)) return;
   const double known = recorded(a, b);
   if (known >= first.time) return;
-  const double time = std::max(known, earliest_meeting(guarded(a), guarded(b), now_, infinity));
+  const Bound bound_of_a = guarded(a);
+  const Bound bound_of_b = guarded(b);
+  const double meeting = visit_pair(engine_.extent(a, bound_of_a), engine_.extent(b, bound_of_b),
+                                    [this](const Bound& bound, const auto& partner) {
+                                      return earliest_meeting(bound, partner, now_, infinity);
+                                    });
+  const double time = std::max(known, meeting);
   if (time < first.time) first = {time, a, b, Wall::none, false};
 }
 
@@ -137,7 +143,9 @@ void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t
   std::vector<std::uint32_t> beyond_grid;
   for (auto at = numbers.begin(); at != numbers.end(); ++at) {
     const std::uint32_t number = *at;
-    const Box box = horizon < infinity ? swept_box(guarded(number), now_, horizon) : everywhere;
+    const Box box = body(number).is_fixed() ? body(number).box
+                    : horizon < infinity    ? swept_box(guarded(number), now_, horizon)
+                                            : everywhere;
     if (fits_grid(box)) {
       grid.for_each_overlap(box, [&](std::uint32_t other) { consider(number, other, first); });
       for (const std::uint32_t other : beyond_grid) consider(number, other, first);
@@ -152,7 +160,12 @@ void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t
 DistanceLimits World::Engine::Answers::distance(std::uint32_t a, std::uint32_t b, double time) const {
   const Bound first = present_bound(body(a), now_);
   const Bound second = present_bound(body(b), now_);
-  const GapLimits gap = gap_limits(first, second, time);
+  const Extent extent_of_a = engine_.extent(a, first);
+  const Extent extent_of_b = engine_.extent(b, second);
+  if (extent_of_a.shape && extent_of_b.shape) return {-infinity, infinity, false};
+  const GapLimits gap = visit_pair(extent_of_a, extent_of_b, [time](const Bound& bound, const auto& partner) {
+    return gap_limits(bound, partner, time);
+  });
   // The upper limit of bounds is about the reported bodies: the true ones may be off by what the radii hold
   // beyond their own.
   const double excess =

@@ -73,12 +73,20 @@ class World::Engine::Audit {
     const Body& b = body(number);
     if (const auto wrong = engine_.grid_.check(number, b.box))
       find("registration", name(number) + " " + *wrong);
+    if (b.is_fixed()) return check_fixed(number);
     if (b.dirty || !exact(b)) return;
     const Vec3 room = Vec3{1.0, 1.0, 1.0} * (0.25 * engine_.definition_.contact_tolerance);
     const double exit =
         earliest_exit(engine_.reach(b), {b.box.lower - room, b.box.upper + room}, now_, b.box_end);
     if (too_late(b.box_end, exit, now_))
       find("registration", name(number) + " leaves its box" + times(b.box_end, exit));
+  }
+
+  void check_fixed(std::uint32_t number) {
+    const Body& b = body(number);
+    if (!(b.box == engine_.box_of(engine_.shape(number))) || b.box_end != infinity)
+      find("registration", name(number) + " is fixed but not registered where its shape is");
+    if (!b.watches.empty()) find("certificate", name(number) + " is fixed but watches another");
   }
 
   void check_schedule(std::uint32_t number) {
@@ -102,8 +110,8 @@ class World::Engine::Audit {
 
   void check_walls(std::uint32_t number) {
     const Body& b = body(number);
-    if (!engine_.definition_.box || !settled(number, number) || engine_.book_.walls_of(number) != 0 ||
-        !exact(b))
+    if (!engine_.definition_.box || b.is_fixed() || !settled(number, number) ||
+        engine_.book_.walls_of(number) != 0 || !exact(b))
       return;
     // As for pairs: within the tolerance bouncing bodies follow the contact rule.
     if (impacts() && until_reports_of_walls(engine_.book_.rule(), b.bound, *engine_.definition_.box, now_,
@@ -163,18 +171,22 @@ class World::Engine::Audit {
 
   double earliest_change(std::uint32_t a, std::uint32_t b, const Threshold& threshold) const {
     const ContactRule& rule = engine_.book_.rule_of(threshold);
-    if (threshold.within)
-      return earliest_separation(body(a).bound, body(b).bound, now_, infinity,
-                                 rule.release_gap() + threshold.distance);
     const double inside = rule.impacts_only() ? rule.tolerance() : 0.0;
-    return earliest_meeting(body(a).bound, body(b).bound, now_, infinity, threshold.distance - inside);
+    return visit_pair(engine_.extent(a), engine_.extent(b), [&](const Bound& bound, const auto& partner) {
+      return threshold.within ? earliest_separation(bound, partner, now_, infinity,
+                                                    rule.release_gap() + threshold.distance)
+                              : earliest_meeting(bound, partner, now_, infinity, threshold.distance - inside);
+    });
   }
 
   /// Bouncing bodies within the tolerance follow the contact rule, not the bare distance.
   bool checkable(std::uint32_t a, std::uint32_t b, const Threshold& threshold) const {
     if (!exact(body(a)) || !exact(body(b))) return false;
     const ContactRule& rule = engine_.book_.rule_of(threshold);
-    return !rule.impacts_only() || gap_limits(body(a).bound, body(b).bound, now_).lower > rule.tolerance();
+    if (!rule.impacts_only()) return true;
+    return visit_pair(engine_.extent(a), engine_.extent(b), [&](const Bound& bound, const auto& partner) {
+      return gap_limits(bound, partner, now_).lower > rule.tolerance();
+    });
   }
 
   /// True when the engine owes a fact about the pair (a body and itself: its walls) now.

@@ -24,13 +24,15 @@ std::optional<Wall> World::Engine::certain_overlap_of_wall(const Bound& bound) c
 /// before.
 void World::Engine::replace(std::uint32_t number, const Bound& bound) {
   const double apart = book_.rule().separation_distance();
+  const auto lower_gap = [this](const Bound& moving, const auto& other) {
+    return gap_limits(moving, other, time_).lower;
+  };
   const auto ends = [&](const Event& end) {
     if (book_.pending().contains(end)) return true;
     const std::uint32_t partner = end.first.index == number ? end.second.index : end.first.index;
-    const GapLimits gap = end.wall == Wall::none
-                              ? gap_limits(bound, bodies_[partner].bound, time_)
-                              : gap_limits(bound, half_space(*definition_.box, end.wall), time_);
-    return gap.lower >= end.distance + apart;
+    const double gap = end.wall == Wall::none ? visit_pair(extent(number, bound), extent(partner), lower_gap)
+                                              : lower_gap(bound, half_space(*definition_.box, end.wall));
+    return gap >= end.distance + apart;
   };
   book_.end_contacts(
       number, time_, [this](std::uint32_t other) { return sphere(other); }, definition_.box, ends);
@@ -75,6 +77,7 @@ void World::Engine::disable(BodyId id) {
 void World::Engine::enable(BodyId id, const State& state) {
   Body& body = bodies_[id.index];
   body.enabled = true;
+  if (body.is_fixed()) return appear_fixed(id.index);
   body.definition.position = state.position;
   body.definition.velocity = state.velocity;
   appear(id.index, bound_now(body.definition));

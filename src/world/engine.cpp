@@ -9,7 +9,8 @@ namespace kinesphere {
 World::Engine::Engine(const WorldDefinition& definition)
     : definition_(definition), book_(definition), time_(definition.start_time) {}
 
-BodyId World::Engine::add(const BodyDefinition& definition) {
+/// A body that lives and has nothing else yet.
+std::uint32_t World::Engine::take_number() {
   std::uint32_t number;
   if (free_.empty()) {
     number = static_cast<std::uint32_t>(bodies_.size());
@@ -18,12 +19,17 @@ BodyId World::Engine::add(const BodyDefinition& definition) {
     number = free_.back();
     free_.pop_back();
   }
+  bodies_[number].alive = true;
+  ++size_;
+  return number;
+}
+
+BodyId World::Engine::add(const BodyDefinition& definition) {
+  const std::uint32_t number = take_number();
   Body& body = bodies_[number];
   body.definition = definition;
-  body.alive = true;
   learn_filter(definition);
   book_.add(number, body.largest_acceleration());
-  ++size_;
   appear(number, bound_now(definition));
   return id_of(number);
 }
@@ -56,6 +62,7 @@ void World::Engine::remove(BodyId id) {
   const std::uint32_t number = id.index;
   Body& body = bodies_[number];
   withdraw(number);
+  if (body.is_fixed()) free_shapes_.push_back(body.shape_number);
   const std::uint32_t generation = body.generation + 1;
   const std::uint32_t epoch = body.epoch + 1;
   body = Body{};
@@ -69,16 +76,20 @@ Bound World::Engine::bound_now(const BodyDefinition& body) const {
   return bound_of(body, {body.position, body.velocity}, time_);
 }
 
-bool World::Engine::certainly_overlap(const Bound& a, const Bound& b) const {
-  return gap_limits(a, b, time_).upper < -definition_.contact_tolerance;
+bool World::Engine::certainly_overlap(const Extent& a, const Extent& b) const {
+  return visit_pair(a, b, [this](const Bound& bound, const auto& partner) {
+    return gap_limits(bound, partner, time_).upper < -definition_.contact_tolerance;
+  });
 }
 
-std::optional<BodyId> World::Engine::certain_overlap(BodyId id, const Bound& bound,
+std::optional<BodyId> World::Engine::certain_overlap(BodyId id, const Extent& extent,
                                                      const BodyDefinition& definition) const {
   std::optional<BodyId> found;
-  grid_.for_each_overlap(box_now(bound), [&](std::uint32_t other) {
+  const Box box = extent.shape ? box_of(*extent.shape) : box_now(extent.bound);
+  grid_.for_each_overlap(box, [&](std::uint32_t other) {
     const Body& body = bodies_[other];
-    const bool certain = other != id.index && certainly_overlap(bound, body.bound) &&
+    const bool certain = other != id.index && !(extent.fixed && body.is_fixed()) &&
+                         certainly_overlap(extent, this->extent(other)) &&
                          may_touch(id, definition, id_of(other), body.definition);
     if (certain && (!found || other < found->index)) found = id_of(other);
   });

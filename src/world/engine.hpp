@@ -13,7 +13,8 @@
 // others keep of it, and makes the body dirty. A dirty body gets a new box and looks for its neighbours again
 // before time moves on (a disabled one is out of the grid and the schedule instead); so does a body whose box
 // has run out, which renews the first and the last kind of fact. Each body is scheduled at the earliest of
-// its box end, its wall time and its watches.
+// its box end, its wall time and its watches. A fixed body has a shape in a table of its own and a box for
+// ever. It is never probed and watches nobody: its partners, which move, watch it.
 #pragma once
 
 #include <algorithm>
@@ -29,9 +30,11 @@
 #include "contact/contact_book.hpp"
 #include "contact/outlook.hpp"
 #include "contact/sensor_table.hpp"
+#include "kinesphere/shape.hpp"
 #include "kinesphere/world.hpp"
 #include "schedule/schedule.hpp"
 #include "space/hash_grid.hpp"
+#include "world/extent.hpp"
 #include "world/horizon.hpp"
 
 namespace kinesphere {
@@ -50,6 +53,9 @@ struct Watch {
   }
 };
 
+/// Of a body that moves.
+inline constexpr std::uint32_t no_shape = std::numeric_limits<std::uint32_t>::max();
+
 struct Body {
   BodyDefinition definition;  ///< with the state of the last report
   Bound bound;                ///< since the last report
@@ -60,6 +66,7 @@ struct Body {
   std::vector<Watch> watches;
   std::uint32_t generation = 0;
   std::uint32_t epoch = 0;
+  std::uint32_t shape_number = no_shape;  ///< in the table of the shapes of fixed bodies
   bool alive = false;
   bool enabled = true;
   bool dirty = false;     ///< in the list of those to settle before time moves on
@@ -67,16 +74,18 @@ struct Body {
   bool kicked_since_report = false;
 
   bool present() const { return alive && enabled; }
+  bool is_fixed() const { return shape_number != no_shape; }
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
     auto& [promised, since_report, place, place_end, walls_until, ahead, watched, own_generation, own_epoch,
-           lives, takes_part, unsettled, has_searched, kicked] = self;
+           own_shape, lives, takes_part, unsettled, has_searched, kicked] = self;
     archive(promised, since_report, place, place_end, walls_until, ahead, watched, own_generation, own_epoch,
-            lives, takes_part, unsettled, has_searched, kicked);
+            own_shape, lives, takes_part, unsettled, has_searched, kicked);
   }
 
-  bool fresh(double time) const { return bound.time == time; }
+  /// The world knows its present state.
+  bool fresh(double time) const { return bound.time == time || is_fixed(); }
   double box_extent() const {
     const Vec3 size = box.upper - box.lower;
     return std::max({size.x, size.y, size.z});
@@ -92,6 +101,7 @@ class World::Engine {
 
   // Changes. Their input has been checked.
   BodyId add(const BodyDefinition& definition);
+  BodyId add_fixed(const FixedDefinition& definition);
   void remove(BodyId id);
   void kick(BodyId id, const Vec3& velocity);
   Result<std::optional<Event>> advance(double until, const Probe& probe);
@@ -123,11 +133,27 @@ class World::Engine {
   /// The body's bound, if its radius and errors were those of `changed`.
   Bound bound_with(BodyId id, const BodyDefinition& changed) const;
   Box box_now(const Bound& bound) const { return swept_box(bound, time_, time_); }
+  Box box_of(const Shape& shape) const;
+  /// What the body takes up, or would with another bound.
+  Extent extent(std::uint32_t number) const { return extent(number, bodies_[number].bound); }
+  Extent extent(std::uint32_t number, const Bound& bound) const {
+    if (!bodies_[number].is_fixed()) return {bound};
+    return extent_of(bound, shapes_[bodies_[number].shape_number]);
+  }
+  static Extent extent_of(const Bound& bound, const Shape& shape) {
+    return {bound, true, std::holds_alternative<Ball>(shape) ? nullptr : &shape};
+  }
+  FixedDefinition fixed_definition(BodyId id) const {
+    const BodyDefinition& body = bodies_[id.index].definition;
+    return {shape(id.index), body.filter, body.solid, body.sensor_class, body.user_data};
+  }
+  const Shape& shape(std::uint32_t number) const { return shapes_[bodies_[number].shape_number]; }
   /// Whether the two overlap by more than the tolerance now, whatever the bodies do within them.
-  bool certainly_overlap(const Bound& a, const Bound& b) const;
+  bool certainly_overlap(const Extent& a, const Extent& b) const;
   std::optional<Wall> certain_overlap_of_wall(const Bound& bound) const;
-  /// The first other body that certainly overlaps body `id` with this bound and definition, and may touch it.
-  std::optional<BodyId> certain_overlap(BodyId id, const Bound& bound,
+  /// The first other body that certainly overlaps body `id` with this extent and definition, and may touch
+  /// it.
+  std::optional<BodyId> certain_overlap(BodyId id, const Extent& extent,
                                         const BodyDefinition& definition) const;
   /// Whether the filters, and the predicate, let two bodies touch or sense each other.
   bool may_meet(BodyId a, const BodyDefinition& body_a, BodyId b, const BodyDefinition& body_b) const {
@@ -162,17 +188,21 @@ class World::Engine {
   Result<void> gather();
   Result<void> wake(std::uint32_t number);
   void reschedule(std::uint32_t number);
+  std::uint32_t take_number();
   void appear(std::uint32_t number, const Bound& bound);
+  void appear_fixed(std::uint32_t number);
+  void register_shape(std::uint32_t number);
   void withdraw(std::uint32_t number);
 
   // changes.cpp
   void replace(std::uint32_t number, const Bound& bound);
   void learn_filter(const BodyDefinition& definition);
   bool may_meet(std::uint32_t a, std::uint32_t b) const {
-    return !filtering_ || may_meet(id_of(a), bodies_[a].definition, id_of(b), bodies_[b].definition);
+    return !filtering_ || (!(bodies_[a].is_fixed() && bodies_[b].is_fixed()) &&
+                           may_meet(id_of(a), bodies_[a].definition, id_of(b), bodies_[b].definition));
   }
   bool may_touch(std::uint32_t a, std::uint32_t b) const {
-    return !filtering_ || may_touch(id_of(a), bodies_[a].definition, id_of(b), bodies_[b].definition);
+    return bodies_[a].definition.solid && bodies_[b].definition.solid && may_meet(a, b);
   }
   bool may_hold(const Event& event) const;
 
@@ -212,7 +242,9 @@ class World::Engine {
   static void transfer(Self& self, Archive& archive);
   const char* contradiction() const;
   bool bodies_are_sound() const;
+  bool shapes_are_sound() const;
   bool is_sound(const Body& body) const;
+  bool is_sound_fixed(const Body& body) const;
   bool was_given_out(BodyId id) const;
 
   WorldDefinition definition_;
@@ -221,13 +253,15 @@ class World::Engine {
   std::size_t size_ = 0;
   std::vector<Body> bodies_;
   std::vector<std::uint32_t> free_;
+  std::vector<Shape> shapes_;  ///< of fixed bodies
+  std::vector<std::uint32_t> free_shapes_;
   HashGrid grid_;
   HeapSchedule schedule_;
   std::vector<std::uint32_t> dirty_;
   Counters counters_;
   SensorTable sensors_;
   PairFilter pair_filter_;
-  bool filtering_ = false;  ///< not all bodies may touch: filters, a predicate, bodies that are not solid
+  bool filtering_ = false;  ///< not all may touch: filters, a predicate, bodies that are not solid or fixed
   bool gathering_ = false;  ///< not all of them have been found: a probe gave a bad answer
   const Probe* probe_ = nullptr;   ///< during a call that may probe
   std::string_view probing_call_;  ///< its name, for messages

@@ -22,7 +22,7 @@ class Horizon {
       : way_(std::max(first_way, shortest_way)), shortest_way_(shortest_way), longest_way_(longest_way) {}
 
   static Horizon of_new_body(double first_way, double contact_tolerance) {
-    return {first_way, 0x1p10 * contact_tolerance, 0x1p40 * contact_tolerance};
+    return {first_way, 0x1p6 * contact_tolerance, 0x1p40 * contact_tolerance};
   }
 
   /// Whether a box counts as `larger` beside one of the other extent.

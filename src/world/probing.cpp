@@ -59,7 +59,9 @@ Result<bool> World::Engine::probe_stale(std::span<const std::uint32_t> numbers, 
 
 /// Probes the body whose report is older; the second one, if they are of the same age.
 Result<void> World::Engine::probe_staler(std::uint32_t a, std::uint32_t b) {
-  const std::uint32_t staler = bodies_[a].bound.time < bodies_[b].bound.time ? a : b;
+  const bool a_is_staler = bodies_[a].bound.time < bodies_[b].bound.time;
+  const bool a_moves = !bodies_[a].is_fixed();
+  const std::uint32_t staler = a_moves && (a_is_staler || bodies_[b].is_fixed()) ? a : b;
   return probe(std::span(&staler, 1));
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "world/shape_queries.hpp"
 #include "world/validation.hpp"
 
 namespace kinesphere {
@@ -21,6 +22,35 @@ double distance_to_box(const Vec3& point, const Box& box) {
   for (int axis = 0; axis < 3; ++axis)
     away[axis] = std::max({box.lower[axis] - point[axis], point[axis] - box.upper[axis], 0.0});
   return norm(away);
+}
+
+Bound resting(const Vec3& centre, double radius) { return {.position = centre, .radius = radius}; }
+
+/// The gap between a sphere or a box and a shape.
+GapLimits limits_of(const Bound& region, const Shape& shape) {
+  return visit_pair({region}, {region, true, &shape},
+                    [](const Bound& bound, const auto& solid) { return gap_limits(bound, solid, 0.0); });
+}
+GapLimits limits_of(const Box& region, const Shape& shape) {
+  const Bound nothing{};
+  return visit_pair({nothing}, {nothing, true, &shape}, [&](const Bound&, const auto& solid) -> GapLimits {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(solid)>, Bound>) {
+      return {-infinity, infinity};  // a ball has no shape here
+    } else {
+      return gap_limits(region, solid);
+    }
+  });
+}
+
+WayLimits touch_of(const Way& way, const Shape& shape) {
+  const Bound sphere{.position = way.origin, .velocity = way.direction, .radius = way.radius};
+  return visit_pair({sphere}, {sphere, true, &shape}, [&](const Bound&, const auto& solid) -> WayLimits {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(solid)>, Bound>) {
+      return {0.0, infinity};
+    } else {
+      return first_touch(sphere, solid, way.length);
+    }
+  });
 }
 
 Box box_around(const Vec3& a, const Vec3& b, double radius) {
@@ -69,11 +99,18 @@ std::vector<std::uint32_t> World::Engine::Queries::candidates(const Box& box) co
   return numbers;
 }
 
-template <class Distance>
-std::vector<Found> World::Engine::Queries::overlapping(const Box& box, Distance distance_to) const {
+template <class Distance, class ShapeGap>
+std::vector<Found> World::Engine::Queries::overlapping(const Box& box, Distance distance_to,
+                                                       ShapeGap gap_to) const {
   std::vector<Found> found;
   const double size = norm_one(box.lower) + norm_one(box.upper);
   for (const std::uint32_t number : candidates(box)) {
+    if (const Shape* shape = engine_.extent(number).shape) {
+      const GapLimits gap = gap_to(*shape);
+      if (gap.lower > 0.0) continue;
+      found.push_back({engine_.id_of(number), gap.upper <= 0.0 ? Certainty::certainly : Certainty::possibly});
+      continue;
+    }
     const Place at = place(number);
     const double distance = distance_to(at.centre);
     const double wrong = margin * (size + norm_one(at.centre) + at.outer);
@@ -85,18 +122,26 @@ std::vector<Found> World::Engine::Queries::overlapping(const Box& box, Distance 
 }
 
 std::vector<Found> World::Engine::Queries::overlapping(const Vec3& centre, double radius) const {
-  return overlapping(box_around(centre, centre, radius),
-                     [&](const Vec3& point) { return norm(point - centre) - radius; });
+  return overlapping(
+      box_around(centre, centre, radius), [&](const Vec3& point) { return norm(point - centre) - radius; },
+      [&](const Shape& shape) { return limits_of(resting(centre, radius), shape); });
 }
 
 std::vector<Found> World::Engine::Queries::overlapping(const Box& box) const {
-  return overlapping(box, [&](const Vec3& point) { return distance_to_box(point, box); });
+  return overlapping(
+      box, [&](const Vec3& point) { return distance_to_box(point, box); },
+      [&](const Shape& shape) { return limits_of(box, shape); });
 }
 
 std::vector<Near> World::Engine::Queries::distances(const std::vector<std::uint32_t>& numbers,
                                                     const Vec3& point) const {
   std::vector<Near> all;
   for (const std::uint32_t number : numbers) {
+    if (const Shape* shape = engine_.extent(number).shape) {
+      const GapLimits gap = limits_of(resting(point, 0.0), *shape);
+      all.push_back({engine_.id_of(number), Certainty::possibly, gap.lower, gap.upper});
+      continue;
+    }
     const Place at = place(number);
     const double distance = norm(at.centre - point);
     const double wrong = margin * (norm_one(point) + norm_one(at.centre) + at.outer);
@@ -162,6 +207,13 @@ std::vector<Hit> World::Engine::Queries::cast(const Way& way) const {
     const std::vector<std::uint32_t> here = candidates(box);
     std::set_difference(here.begin(), here.end(), seen.begin(), seen.end(), std::back_inserter(fresh));
     for (const std::uint32_t number : fresh) {
+      if (const Shape* shape = engine_.extent(number).shape) {
+        const WayLimits touch = touch_of(way, *shape);
+        if (touch.lower == infinity) continue;
+        hits.push_back({engine_.id_of(number), Certainty::possibly, touch.lower, touch.upper});
+        sure = std::min(sure, touch.upper);
+        continue;
+      }
       const Place at = place(number);
       const double wrong = margin * (norm_one(way.origin) + norm_one(at.centre) + at.outer + way.radius);
       const auto may = passage(way, at.centre, at.outer + way.radius + wrong, wrong);

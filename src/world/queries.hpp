@@ -28,9 +28,10 @@ class World::Engine::Queries {
  private:
   Place place(std::uint32_t number) const { return place_of(engine_.bodies_[number], now_); }
   std::vector<std::uint32_t> candidates(const Box& box) const;
-  /// Those whose distance from the region, `distance_to(place centre)`, may be or is below their radius.
-  template <class Distance>
-  std::vector<Found> overlapping(const Box& box, Distance distance_to) const;
+  /// Those whose distance from the region, `distance_to(place centre)`, may be or is below their radius, and
+  /// fixed bodies whose shape may have or has no gap to it, `gap_to(shape)`.
+  template <class Distance, class ShapeGap>
+  std::vector<Found> overlapping(const Box& box, Distance distance_to, ShapeGap gap_to) const;
   std::vector<std::uint32_t> around(const Vec3& point, std::size_t count) const;
   std::vector<Near> distances(const std::vector<std::uint32_t>& numbers, const Vec3& point) const;
 

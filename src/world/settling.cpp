@@ -103,7 +103,7 @@ void World::Engine::choose_first_horizons(const std::vector<std::uint32_t>& roun
   Vec3 upper = -lower;
   int count = 0;
   for (const std::uint32_t number : round) {
-    if (bodies_[number].horizon) continue;
+    if (bodies_[number].horizon || bodies_[number].is_fixed()) continue;
     ++count;
     for (int axis = 0; axis < 3; ++axis) {
       lower[axis] = std::min(lower[axis], bodies_[number].box.lower[axis]);
@@ -115,7 +115,7 @@ void World::Engine::choose_first_horizons(const std::vector<std::uint32_t>& roun
   const double spacing = std::ldexp(std::max({size.x, size.y, size.z}), -std::ilogb(count) / 3);
   const double way = spacing > 0.0 ? 0.25 * spacing : definition_.contact_tolerance;
   for (const std::uint32_t number : round)
-    if (!bodies_[number].horizon)
+    if (!bodies_[number].horizon && !bodies_[number].is_fixed())
       bodies_[number].horizon = Horizon::of_new_body(way, definition_.contact_tolerance);
 }
 
@@ -128,6 +128,7 @@ Bound World::Engine::reach(const Body& body) const {
 
 void World::Engine::register_box(std::uint32_t number) {
   Body& body = bodies_[number];
+  if (body.is_fixed()) return register_shape(number);
   const double speed = norm(body.bound.velocity) + body.definition.velocity_error;
   body.box_end = just_after(time_ + body.horizon->length(speed, body.largest_acceleration()));
   body.box = swept_box(reach(body), time_, body.box_end);
@@ -160,6 +161,7 @@ Result<void> World::Engine::search(std::uint32_t number) {
     if (bodies_[number].dirty) return {};
   }
   Body& body = bodies_[number];
+  if (body.is_fixed()) return {};
   body.horizon->learn(candidates, larger, extent, 2.0 * reach(body).radius);
   return settle_walls(number);
 }
@@ -177,14 +179,17 @@ Result<void> World::Engine::settle_pair(std::uint32_t number, std::uint32_t part
     const Promise sum{a.definition.velocity_error + b.definition.velocity_error,
                       a.largest_acceleration() + b.largest_acceleration()};
     std::optional<double> next_look = infinity;
-    for_each_threshold(number, partner, [&](const Threshold& threshold) {
-      ++counters_.certificates;
-      const Outlook<Bound> outlook(book_.rule_of(threshold), threshold, a.bound, b.bound, time_, horizons);
-      const auto known = fresh
-                             ? judge(outlook, threshold, contact(EventKind::zeno_guard, number, partner), sum)
-                             : outlook.until_reports();
-      next_look = next_look && known ? std::optional(std::min(*next_look, *known)) : std::nullopt;
-    });
+    const auto look = [&]<class Partner>(const Bound& bound, const Partner& other) {
+      for_each_threshold(number, partner, [&](const Threshold& threshold) {
+        ++counters_.certificates;
+        const Outlook<Partner> outlook(book_.rule_of(threshold), threshold, bound, other, time_, horizons);
+        const auto known =
+            fresh ? judge(outlook, threshold, contact(EventKind::zeno_guard, number, partner), sum)
+                  : outlook.until_reports();
+        next_look = next_look && known ? std::optional(std::min(*next_look, *known)) : std::nullopt;
+      });
+    };
+    visit_pair(extent(number), extent(partner), look);
     if (!fresh && *next_look <= time_) {
       if (auto probed = probe_staler(number, partner); !probed) return probed;
       continue;
@@ -256,13 +261,19 @@ bool World::Engine::has_watch(std::uint32_t number, std::uint32_t partner) const
   });
 }
 
-/// Records a watch in place of an earlier one; at +infinity there is nothing to watch.
+/// Records a watch in place of an earlier one; at +infinity there is nothing to watch. A fixed body, which
+/// may meet all the others, leaves it to its partner.
 void World::Engine::watch(std::uint32_t number, std::uint32_t partner, double time) {
+  if (bodies_[number].is_fixed()) {
+    watch(partner, number, time);
+    return reschedule(partner);
+  }
   unwatch(number, partner);
   if (time < infinity) bodies_[number].watches.push_back({time, partner, bodies_[partner].epoch});
 }
 
 void World::Engine::unwatch(std::uint32_t number, std::uint32_t partner) {
+  if (bodies_[number].is_fixed()) std::swap(number, partner);
   std::erase_if(bodies_[number].watches, [=](const Watch& w) { return w.partner == partner; });
 }
 

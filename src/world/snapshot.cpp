@@ -13,6 +13,7 @@
 #include "archive/fields.hpp"
 #include "input/input_check.hpp"
 #include "world/engine.hpp"
+#include "world/fixed.hpp"
 #include "world/validation.hpp"
 
 namespace kinesphere {
@@ -26,6 +27,7 @@ constexpr Envelope envelope{{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'},
                             "World::restore",
                             "snapshot",
                             ErrorCode::bad_snapshot};
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Error refusal(const std::string& what) { return envelope.refusal(what); }
 
@@ -40,6 +42,15 @@ bool is_sound(const Bound& bound, double now, const WorldDefinition& world) {
   return std::isfinite(bound.time) && bound.time <= now && check_body(as_body, world, "restore");
 }
 
+/// To the bit.
+template <class T>
+bool same(const T& a, const T& b) {
+  ByteWriter bytes_of_a, bytes_of_b;
+  bytes_of_a(a);
+  bytes_of_b(b);
+  return bytes_of_a.bytes() == bytes_of_b.bytes();
+}
+
 bool is_sound(const Box& box) {
   if (!is_finite(box.lower) || !is_finite(box.upper)) return false;
   return box.lower.x <= box.upper.x && box.lower.y <= box.upper.y && box.lower.z <= box.upper.z;
@@ -50,9 +61,11 @@ bool is_sound(const Box& box) {
 template <class Self, class Archive>
 void World::Engine::transfer(Self& self, Archive& archive) {
   // The definition comes first, as an engine is made from it; the rest matters only during advance().
-  auto& [definition, book, time, size, bodies, free, grid, schedule, dirty, counters, sensors, pair_filter,
-         filtering, gathering, probe, probing_call, probing, probe_ids, probe_states, partners] = self;
-  archive(book, time, size, bodies, free, grid, schedule, dirty, counters, sensors, filtering, gathering);
+  auto& [definition, book, time, size, bodies, free, shapes, free_shapes, grid, schedule, dirty, counters,
+         sensors, pair_filter, filtering, gathering, probe, probing_call, probing, probe_ids, probe_states,
+         partners] = self;
+  archive(book, time, size, bodies, free, shapes, free_shapes, grid, schedule, dirty, counters, sensors,
+          filtering, gathering);
 }
 
 std::vector<std::byte> World::Engine::save() const {
@@ -88,6 +101,7 @@ Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const st
 /// than the one that was saved, but is one in which every call is safe.
 const char* World::Engine::contradiction() const {
   if (!std::isfinite(time_)) return "time";
+  if (!shapes_are_sound()) return "shapes";
   if (!bodies_are_sound()) return "bodies";
   for (int number = 0; number <= std::numeric_limits<SensorClass>::max(); ++number)
     if (!check_sensor(sensors_.of(static_cast<SensorClass>(number)), definition_)) return "sensors";
@@ -107,6 +121,34 @@ const char* World::Engine::contradiction() const {
       return "contacts";
   }
   return nullptr;
+}
+
+/// Each shape belongs to one body or is free.
+bool World::Engine::shapes_are_sound() const {
+  std::vector<bool> is_taken(shapes_.size(), false);
+  const auto take = [&is_taken](std::uint32_t number) {
+    if (number >= is_taken.size() || is_taken[number]) return false;
+    is_taken[number] = true;
+    return true;
+  };
+  for (const std::uint32_t number : free_shapes_)
+    if (!take(number)) return false;
+  for (const Body& body : bodies_)
+    if (body.is_fixed() && !(body.alive && filtering_ && take(body.shape_number))) return false;
+  return std::find(is_taken.begin(), is_taken.end(), false) == is_taken.end();
+}
+
+/// It must be as it was made.
+bool World::Engine::is_sound_fixed(const Body& body) const {
+  const Shape& shape = shapes_[body.shape_number];
+  if (!check_shape(shape, definition_, "restore")) return false;
+  const BodyDefinition made = body_of({shape, body.definition.filter, body.definition.solid,
+                                       body.definition.sensor_class, body.definition.user_data});
+  return same(body.definition, made) &&
+         same(body.bound, bound_of(made, {made.position, {}}, body.bound.time)) && body.bound.time <= time_ &&
+         std::isfinite(body.bound.time) && same(body.box, box_of(shape)) && body.box_end == infinity &&
+         body.wall_time == infinity && body.watches.empty() && !body.horizon && !body.searched &&
+         !body.kicked_since_report && !(body.dirty && !body.enabled);
 }
 
 bool World::Engine::bodies_are_sound() const {
@@ -131,6 +173,7 @@ bool World::Engine::bodies_are_sound() const {
 }
 
 bool World::Engine::is_sound(const Body& body) const {
+  if (body.is_fixed()) return is_sound_fixed(body);
   if (body.searched) return false;
   // An index that is free is as its next body will find it.
   if (!body.alive) return !body.dirty && !body.kicked_since_report && !body.horizon && body.watches.empty();

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "bound/triangle.hpp"
 #include "input/input_check.hpp"
 
 namespace kinesphere {
@@ -47,6 +48,39 @@ void require_state(InputCheck& check, const State& state, const BodyDefinition& 
   }
 }
 
+void require_shape(InputCheck& check, const Ball& ball, const WorldDefinition& world) {
+  check.within({"shape", no_body, "centre"}, ball.centre, coordinate_limit(world));
+  require_radius(check, ball.radius, no_body, world);
+}
+
+void require_shape(InputCheck& check, const HalfSpace& solid, const WorldDefinition& world) {
+  const double limit = coordinate_limit(world);
+  check.within({"shape", no_body, "normal"}, solid.normal, 2.0)
+      .require(std::abs(norm(solid.normal) - 1.0) <= 1e-6, ErrorCode::out_of_range,
+               {"shape", no_body, "normal"}, "must have length 1", solid.normal)
+      .finite({"shape", no_body, "offset"}, solid.offset)
+      .require(std::abs(solid.offset) <= limit, ErrorCode::out_of_range, {"shape", no_body, "offset"},
+               "must be at most", limit, solid.offset);
+}
+
+void require_shape(InputCheck& check, const Box& box, const WorldDefinition& world) {
+  check.within({"shape", no_body, "lower"}, box.lower, coordinate_limit(world))
+      .within({"shape", no_body, "upper"}, box.upper, coordinate_limit(world));
+  for (int axis = 0; axis < 3; ++axis)
+    check.require(box.lower[axis] <= box.upper[axis], ErrorCode::out_of_range, {"shape"},
+                  "must have lower <= upper on each axis", box);
+}
+
+void require_shape(InputCheck& check, const Triangle& triangle, const WorldDefinition& world) {
+  for (const Vec3& corner : {triangle.a, triangle.b, triangle.c})
+    check.within({"shape", no_body, "corner"}, corner, coordinate_limit(world));
+  if (check.error()) return;
+  const double thick = thickness(triangle);
+  check.require(thick >= least_thickness, ErrorCode::out_of_range, {"shape"},
+                "must be a triangle whose least height, relative to its longest side, is at least",
+                least_thickness, thick);
+}
+
 }  // namespace
 
 double coordinate_limit(const WorldDefinition& world) { return 0x1p41 * world.contact_tolerance; }
@@ -78,6 +112,17 @@ Result<void> check_body(const BodyDefinition& body, const WorldDefinition& world
   require_promise(check, promise_of(body), no_body, world);
   require_state(check, {body.position, body.velocity}, body, no_body, world);
   return check.result();
+}
+
+Result<void> check_shape(const Shape& shape, const WorldDefinition& world, std::string_view call) {
+  InputCheck check(call);
+  std::visit([&](const auto& solid) { require_shape(check, solid, world); }, shape);
+  return check.result();
+}
+
+Shape unit_normal(Shape shape) {
+  if (HalfSpace* solid = std::get_if<HalfSpace>(&shape)) solid->normal = solid->normal / norm(solid->normal);
+  return shape;
 }
 
 Result<void> check_radius(double radius, BodyId body, const WorldDefinition& world, std::string_view call) {
@@ -133,6 +178,13 @@ Result<void> check_time(double until, double now) {
       .require(until >= now, ErrorCode::time_backwards, {"until"}, "must not lie before the current time",
                now, until)
       .result();
+}
+
+Error overlap_error(std::string_view call, BodyId other, const std::string& name_of_other,
+                    std::string_view argument) {
+  return {ErrorCode::overlapping, std::string(argument), other,
+          std::string(call) + ": " + std::string(argument) +
+              " must not overlap another body, but the body would overlap " + name_of_other};
 }
 
 Result<void> check_idle(bool probing, std::string_view call) {

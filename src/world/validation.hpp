@@ -1,6 +1,7 @@
 // Is this input fit for the promise? The one place that says no.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "kinesphere/world.hpp"
@@ -10,6 +11,9 @@ namespace kinesphere {
 Result<void> check_world(const WorldDefinition& definition);
 /// `call` is the function that the caller used, for the message.
 Result<void> check_body(const BodyDefinition& body, const WorldDefinition& world, std::string_view call);
+Result<void> check_shape(const Shape& shape, const WorldDefinition& world, std::string_view call);
+/// The shape that passed, with the normal of a half-space made exactly as long as doubles allow.
+Shape unit_normal(Shape shape);
 /// Of a body that is in the world already.
 Result<void> check_radius(double radius, BodyId body, const WorldDefinition& world, std::string_view call);
 Result<void> check_promise(const MotionPromise& promise, BodyId body, const WorldDefinition& world,
@@ -26,6 +30,10 @@ Result<void> check_idle(bool probing, std::string_view call);
 
 /// Lengths reach this many contact tolerances: then the rounding of a certificate stays well within one.
 double coordinate_limit(const WorldDefinition& world);
+
+/// Another body is where one is to be, as `argument` has it.
+Error overlap_error(std::string_view call, BodyId other, const std::string& name_of_other,
+                    std::string_view argument = "position");
 
 /// A first answer that is an error ends a chain of checks.
 template <class... Checks>

@@ -7,21 +7,11 @@
 
 #include "input/input_check.hpp"
 #include "recording/recorder.hpp"
+#include "world/changing.hpp"
 #include "world/engine.hpp"
 #include "world/validation.hpp"
 
 namespace kinesphere {
-namespace {
-
-Error overlap_error(std::string_view call, BodyId other, const std::string& name_of_other,
-                    std::string_view argument = "position") {
-  return {ErrorCode::overlapping, std::string(argument), other,
-          std::string(call) + ": " + std::string(argument) +
-              " must not overlap another body, but the body would overlap " + name_of_other};
-}
-
-}  // namespace
-
 World::World(std::unique_ptr<Engine> engine) : engine_(std::move(engine)) {}
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
@@ -29,12 +19,6 @@ World::~World() = default;
 
 // The engine is const to all else, so that no change can forget to be recorded.
 World::Engine& World::changeable() { return const_cast<Engine&>(*engine_); }
-
-template <class Change>
-World::Engine& World::changing(const Change& change) {
-  if (recorder_) recorder_->note(change);
-  return changeable();
-}
 
 Result<World> World::create(const WorldDefinition& definition) {
   if (auto valid = check_world(definition); !valid) return valid.error();
@@ -74,7 +58,8 @@ Result<void> World::check_enabled(BodyId body, bool enabled, std::string_view ca
 /// Whether there is room for body `id` with this definition, where overlaps are not allowed.
 Result<void> World::check_room(const BodyDefinition& body, BodyId id, std::string_view call) const {
   if (definition().allow_overlap) return {};
-  const auto other = engine_->certain_overlap(id, engine_->bound_now(body), body);
+  const Bound bound = engine_->bound_now(body);
+  const auto other = engine_->certain_overlap(id, {bound}, body);
   return other ? Result<void>(overlap_error(call, *other, text_of(*other))) : Result<void>();
 }
 
@@ -99,7 +84,7 @@ Result<void> World::check_growth(const BodyDefinition& changed, BodyId id, std::
                      " must keep the whole sphere in the box, but it would overlap the wall " +
                      std::string(name_of(*wall))};
   }
-  if (const auto other = engine_->certain_overlap(id, bound, body.definition))
+  if (const auto other = engine_->certain_overlap(id, {bound}, body.definition))
     return overlap_error(call, *other, text_of(*other), argument);
   return {};
 }
@@ -125,7 +110,8 @@ Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodie
     const Box box = engine_->box_now(bound);
     std::optional<std::uint32_t> other;
     earlier.for_each_overlap(box, [&](std::uint32_t candidate) {
-      const bool overlap = engine_->certainly_overlap(bound, engine_->bound_now(bodies[candidate])) &&
+      const Bound placed = engine_->bound_now(bodies[candidate]);
+      const bool overlap = engine_->certainly_overlap({bound}, {placed}) &&
                            engine_->may_touch(engine_->next_id(number), bodies[number],
                                               engine_->next_id(candidate), bodies[candidate]);
       if (overlap && (!other || candidate < *other)) other = candidate;
@@ -161,13 +147,14 @@ Result<void> World::remove_all(std::span<const BodyId> bodies) {
 }
 
 Result<void> World::kick(BodyId body, const Vec3& velocity) {
-  auto valid = first_error(check_enabled(body, true, "kick"), check_velocity(velocity, body, "kick"));
+  auto valid = first_error(check_moving(body, "kick"), check_enabled(body, true, "kick"),
+                           check_velocity(velocity, body, "kick"));
   if (valid) changing(step::Kick{body, velocity}).kick(body, velocity);
   return valid;
 }
 
 Result<void> World::teleport(BodyId body, const State& state) {
-  auto valid = check_enabled(body, true, "teleport");
+  auto valid = first_error(check_moving(body, "teleport"), check_enabled(body, true, "teleport"));
   if (valid) valid = check_moved(body, state, "teleport");
   if (valid) changing(step::Teleport{body, state}).teleport(body, state);
   return valid;
@@ -175,7 +162,11 @@ Result<void> World::teleport(BodyId body, const State& state) {
 
 Result<void> World::enable(BodyId body, const State& state) {
   auto valid = check_enabled(body, false, "enable");
-  if (valid) valid = check_moved(body, state, "enable");
+  if (valid) {
+    valid = engine_->table()[body.index].is_fixed()
+                ? check_fixed_room(engine_->fixed_definition(body), body, "enable")
+                : check_moved(body, state, "enable");
+  }
   if (valid) changing(step::Enable{body, state}).enable(body, state);
   return valid;
 }
@@ -188,7 +179,7 @@ Result<void> World::disable(BodyId body) {
 
 Result<void> World::set_radius(BodyId body, double radius) {
   auto valid =
-      first_error(check_call(body, "set_radius"), check_radius(radius, body, definition(), "set_radius"));
+      first_error(check_moving(body, "set_radius"), check_radius(radius, body, definition(), "set_radius"));
   if (!valid) return valid;
   BodyDefinition changed = engine_->table()[body.index].definition;
   changed.radius = radius;
@@ -198,8 +189,8 @@ Result<void> World::set_radius(BodyId body, double radius) {
 }
 
 Result<void> World::set_promise(BodyId body, const MotionPromise& promise) {
-  auto valid =
-      first_error(check_call(body, "set_promise"), check_promise(promise, body, definition(), "set_promise"));
+  auto valid = first_error(check_moving(body, "set_promise"),
+                           check_promise(promise, body, definition(), "set_promise"));
   if (!valid) return valid;
   const BodyDefinition changed = with_promise(engine_->table()[body.index].definition, promise);
   valid = check_growth(changed, body, "position_error", "set_promise");
@@ -324,7 +315,7 @@ Result<std::vector<std::byte>> World::stop_recording() {
 Result<BodyView> World::body(BodyId id) const {
   if (auto valid = check_alive(id, "body"); !valid) return valid.error();
   const Body& body = engine_->table()[id.index];
-  return BodyView{body.definition, body.bound, body.box, body.box_end, body.enabled};
+  return BodyView{body.definition, body.bound, body.box, body.box_end, body.enabled, body.is_fixed()};
 }
 
 Result<std::vector<BodyId>> World::touching(BodyId body) const {

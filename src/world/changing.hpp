@@ -1,0 +1,15 @@
+// The way of every change from the public calls into the engine: past the recorder.
+#pragma once
+
+#include "recording/recorder.hpp"
+#include "world/engine.hpp"
+
+namespace kinesphere {
+
+template <class Change>
+World::Engine& World::changing(const Change& change) {
+  if (recorder_) recorder_->note(change);
+  return changeable();
+}
+
+}  // namespace kinesphere

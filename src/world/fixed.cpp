@@ -1,0 +1,72 @@
+// Bodies that never move: how they come, and where they are.
+#include "world/fixed.hpp"
+
+#include "world/engine.hpp"
+#include "world/validation.hpp"
+
+namespace kinesphere {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A place for events and views to tell; a point of the shape.
+Vec3 place_of(const Ball& ball) { return ball.centre; }
+Vec3 place_of(const HalfSpace& solid) { return solid.normal * solid.offset; }
+Vec3 place_of(const Box& box) { return 0.5 * box.lower + 0.5 * box.upper; }
+Vec3 place_of(const Triangle& t) { return (t.a + t.b + t.c) / 3.0; }
+
+}  // namespace
+
+BodyDefinition body_of(const FixedDefinition& fixed) {
+  const Ball* ball = std::get_if<Ball>(&fixed.shape);
+  return {.radius = ball ? ball->radius : 0.0,
+          .position = std::visit([](const auto& solid) { return place_of(solid); }, fixed.shape),
+          .filter = fixed.filter,
+          .solid = fixed.solid,
+          .sensor_class = fixed.sensor_class,
+          .user_data = fixed.user_data};
+}
+
+/// Bodies, their bounds and boxes reach less far than eight times the limit of their coordinates.
+Box World::Engine::box_of(const Shape& shape) const {
+  return bounding_box(shape, 8.0 * coordinate_limit(definition_));
+}
+
+BodyId World::Engine::add_fixed(const FixedDefinition& definition) {
+  const std::uint32_t number = take_number();
+  Body& body = bodies_[number];
+  body.definition = body_of(definition);
+  if (free_shapes_.empty()) {
+    body.shape_number = static_cast<std::uint32_t>(shapes_.size());
+    shapes_.push_back(definition.shape);
+  } else {
+    body.shape_number = free_shapes_.back();
+    free_shapes_.pop_back();
+    shapes_[body.shape_number] = definition.shape;
+  }
+  filtering_ = true;
+  book_.add(number, 0.0);
+  book_.set_fixed(number);
+  body.bound = bound_now(body.definition);
+  appear_fixed(number);
+  return id_of(number);
+}
+
+/// It is where it always was, for everyone to find, and looks itself once for those that are there.
+void World::Engine::appear_fixed(std::uint32_t number) {
+  bodies_[number].box_end = infinity;
+  bodies_[number].wall_time = infinity;
+  register_shape(number);
+  mark_dirty(number);
+}
+
+/// With room for all that it senses around it.
+void World::Engine::register_shape(std::uint32_t number) {
+  Body& body = bodies_[number];
+  const Vec3 room = Vec3{1.0, 1.0, 1.0} * sensors_.reach(body.definition.sensor_class);
+  const Box box = box_of(shape(number));
+  body.box = {box.lower - room, box.upper + room};
+  grid_.set(number, body.box);
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,126 @@
+#include "world/shape_queries.hpp"
+
+#include <array>
+#include <limits>
+
+#include "bound/rounding.hpp"
+#include "bound/triangle.hpp"
+
+namespace kinesphere {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double margin = rounding::margin;
+
+double size_of(const Box& box) { return norm_one(box.lower) + norm_one(box.upper); }
+
+GapLimits around(double gap, double wrong) { return {gap - wrong, gap + wrong}; }
+
+/// The least of normal . p in the box.
+double least_along(const Box& box, const Vec3& normal) {
+  double sum = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+    sum += std::min(normal[axis] * box.lower[axis], normal[axis] * box.upper[axis]);
+  return sum;
+}
+
+double least_along(const Triangle& t, const Vec3& normal) {
+  return std::min({dot(normal, t.a), dot(normal, t.b), dot(normal, t.c)});
+}
+
+/// The gap between both, seen along a direction.
+template <class A, class B>
+double gap_along(const A& a, const B& b, const Vec3& direction) {
+  const double greatest_of_a = -least_along(a, -direction);
+  const double greatest_of_b = -least_along(b, -direction);
+  return std::max(least_along(a, direction) - greatest_of_b, least_along(b, direction) - greatest_of_a);
+}
+
+/// True when the way from one place to the other certainly goes through the triangle: they lie on both sides
+/// of its plane, and both over its inside.
+bool certainly_crosses(const Triangle& triangle, const Vec3& from, const Vec3& to) {
+  const TriangleFrame frame(triangle);
+  const double thick = thickness(triangle);
+  const double size =
+      norm_one(triangle.a) + norm_one(triangle.b) + norm_one(triangle.c) + norm_one(from) + norm_one(to);
+  const double wrong = 16.0 * margin * size / (thick * thick);
+  const double wrong_part = wrong / std::sqrt(norm_squared(frame.across) / longest_side_squared(triangle));
+  const auto well_inside = [&](const Vec3& place) {
+    const SideCoordinates at = frame.coordinates(place - frame.origin);
+    return at.along_b > wrong_part && at.along_c > wrong_part && at.along_b + at.along_c < 1.0 - wrong_part;
+  };
+  const auto height = [&](const Vec3& place) {
+    return dot(place - frame.origin, frame.across) / norm(frame.across);
+  };
+  const double above = std::max(height(from), height(to));
+  const double below = std::min(height(from), height(to));
+  return above > wrong && below < -wrong && well_inside(from) && well_inside(to);
+}
+
+template <class Solid>
+bool certainly_meets(const Solid&, const Bound&, double, double) {
+  return false;
+}
+bool certainly_meets(const Triangle& shape, const Bound& sphere, double from, double to) {
+  return certainly_crosses(shape, sphere.centre_at(from), sphere.centre_at(to));
+}
+
+template <class Solid>
+WayLimits touch(const Bound& sphere, const Solid& shape, double length) {
+  const double first = earliest_meeting(sphere, shape, 0.0, length);
+  if (first == infinity) return {infinity, infinity};
+  // It is met soon after, or perhaps not at all: look farther and farther.
+  double step = 0x1p-50 * (norm_one(sphere.position) + sphere.radius + length);
+  for (double at = first;; at += step, step *= 2.0) {
+    const double end = std::min(at, length);
+    if (gap_limits(sphere, shape, end).upper <= 0.0) return {first, end};
+    if (certainly_meets(shape, sphere, std::max(0.0, first - step), end)) return {first, end};
+    if (!(at < length) || !(step > 0.0)) return {first, infinity};
+  }
+}
+
+}  // namespace
+
+GapLimits gap_limits(const Box& region, const HalfSpace& shape) {
+  return around(least_along(region, shape.normal) - shape.offset,
+                margin * (size_of(region) + std::abs(shape.offset)));
+}
+
+GapLimits gap_limits(const Box& region, const Box& shape) {
+  double gap = -infinity;
+  for (int axis = 0; axis < 3; ++axis)
+    gap = std::max({gap, region.lower[axis] - shape.upper[axis], shape.lower[axis] - region.upper[axis]});
+  return {gap, gap};  // the sign of a difference is exact
+}
+
+/// By separating axes: the normals of both, and what is normal to a side of each.
+GapLimits gap_limits(const Box& region, const Triangle& shape) {
+  const std::array<Vec3, 3> sides{shape.b - shape.a, shape.c - shape.b, shape.a - shape.c};
+  double gap = -infinity;
+  const auto look_along = [&](const Vec3& direction) {
+    const double length = norm(direction);
+    if (length > 0x1p-500) gap = std::max(gap, gap_along(region, shape, direction / length));
+  };
+  look_along(cross(sides[0], sides[1]));
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 unit;
+    unit[axis] = 1.0;
+    look_along(unit);
+    for (const Vec3& side : sides) look_along(cross(unit, side));
+  }
+  const double thick = thickness(shape);
+  const double wrong = margin * (size_of(region) + norm_one(shape.a) + norm_one(shape.b) + norm_one(shape.c));
+  return {gap - wrong, gap + 16.0 * wrong / thick};
+}
+
+WayLimits first_touch(const Bound& sphere, const HalfSpace& shape, double length) {
+  return touch(sphere, shape, length);
+}
+WayLimits first_touch(const Bound& sphere, const Box& shape, double length) {
+  return touch(sphere, shape, length);
+}
+WayLimits first_touch(const Bound& sphere, const Triangle& shape, double length) {
+  return touch(sphere, shape, length);
+}
+
+}  // namespace kinesphere
