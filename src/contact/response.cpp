@@ -11,8 +11,12 @@ Bounce rebound(const Event& contact, double first_mass, double second_mass, doub
   const Vec3 change = contact.normal * ((1.0 + kept) * contact.approach_speed);
   if (contact.second == no_body) return {contact.first_state.velocity - change, {}};
   const double mass = first_mass + second_mass;
-  return {contact.first_state.velocity - change * (second_mass / mass),
-          contact.second_state.velocity + change * (first_mass / mass)};
+  // The lighter of a finite and an infinite mass takes all of the change.
+  const auto share_of = [mass](double other) {
+    return std::isinf(mass) ? (std::isinf(other) ? 1.0 : 0.0) : other / mass;
+  };
+  return {contact.first_state.velocity - change * share_of(second_mass),
+          contact.second_state.velocity + change * share_of(first_mass)};
 }
 
 }  // namespace

@@ -1,12 +1,10 @@
 // Bodies that never move: what touches them, when, and what the world says about it.
 #include <gtest/gtest.h>
 
-#include <map>
 #include <set>
 
-#include "support/exact_shapes.hpp"
 #include "support/expect_error.hpp"
-#include "support/playground.hpp"
+#include "world/surroundings.hpp"
 
 namespace kinesphere {
 namespace {
@@ -16,64 +14,6 @@ constexpr double eps = 1e-6;
 const HalfSpace ground{{0, 0, 1}, 0.0};
 const Triangle flat{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
 const Box unit_box{{-1, -1, -1}, {1, 1, 1}};
-
-/// The distance from any shape, by the slow twin.
-double distance(const Shape& shape, const Vec3& from) {
-  return std::visit(
-      [&]<class Solid>(const Solid& solid) {
-        if constexpr (std::is_same_v<Solid, Ball>)
-          return norm(from - solid.centre) - solid.radius;
-        else
-          return static_cast<double>(exact::distance(solid, exact::wide(from)));
-      },
-      shape);
-}
-
-/// A playground whose probe fails the test when it is asked about a fixed body.
-class Surroundings : public Playground {
- public:
-  explicit Surroundings(const WorldDefinition& definition = {}) : Playground(definition) {
-    distort = [this](BodyId id, double, State&) {
-      EXPECT_FALSE(fixed.contains(id)) << "the probe was asked about fixed " << id;
-    };
-  }
-
-  BodyId place(const Shape& shape, const Filter& filter = {}) {
-    const BodyId id = world.add_fixed({.shape = shape, .filter = filter}).value();
-    // A place for its index, as Playground::state wants one.
-    if (!fixed.contains(id)) fixed.emplace(id, shape);
-    return id;
-  }
-
-  std::vector<BodyId> place_all(const std::vector<FixedDefinition>& bodies) {
-    const auto ids = world.add_fixed_all(bodies).value();
-    for (std::size_t k = 0; k < ids.size(); ++k) fixed.emplace(ids[k], bodies[k].shape);
-    return ids;
-  }
-
-  /// A lower limit where they are far from each other, which is cheaper.
-  double gap_to(BodyId ball, BodyId shape) const {
-    if (const auto* triangle = std::get_if<Triangle>(&fixed.at(shape))) {
-      const double size = std::max(norm(triangle->b - triangle->a), norm(triangle->c - triangle->a));
-      const double least = norm(state(ball).position - triangle->a) - size - radius(ball);
-      if (least > 0.1) return least;
-    }
-    return distance(fixed.at(shape), state(ball).position) - radius(ball);
-  }
-
-  /// The ball of a contact with a fixed body, thrown back without loss.
-  void bounce(const Event& event) {
-    if (event.kind != EventKind::contact_begin && event.kind != EventKind::wall_begin) return;
-    const Vec3 change = event.normal * event.approach_speed;
-    const bool first_moves = !fixed.contains(event.first);
-    const bool second_moves = event.second != no_body && !fixed.contains(event.second);
-    const double part = first_moves && second_moves ? 1.0 : 2.0;
-    if (first_moves) kick(event.first, state(event.first).velocity - part * change);
-    if (second_moves) kick(event.second, state(event.second).velocity + part * change);
-  }
-
-  std::map<BodyId, Shape> fixed;
-};
 
 struct Flight {
   const char* name;

@@ -1,0 +1,178 @@
+// Balls that are steered and kicked at random among fixed bodies that come and go at random, held against
+// brute force.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "world/surroundings.hpp"
+
+namespace kinesphere {
+namespace {
+
+constexpr double eps = 1e-5;
+constexpr double size = 8.0;
+
+struct Kind {
+  ContactMode mode;
+  std::uint64_t seed;
+};
+
+std::ostream& operator<<(std::ostream& out, const Kind& kind) {
+  return out << (kind.mode == ContactMode::impacts ? "impacts" : "begin_and_end") << ", seed " << kind.seed;
+}
+
+class RandomSurroundings : public testing::TestWithParam<Kind> {
+ protected:
+  RandomSurroundings() : p({.contact_tolerance = eps, .contacts = GetParam().mode}), random(GetParam().seed) {
+    for (int k = 0; k < 12; ++k) come();
+    for (int k = 0; k < 8; ++k) join();
+  }
+
+  Vec3 any_point() { return {size * random.uniform(), size * random.uniform(), size * random.uniform()}; }
+
+  Shape any_shape() {
+    const Vec3 at = any_point();
+    switch (random.bits() % 4) {
+      case 0:
+        return Ball{at, random.uniform()};
+      case 1: {
+        const Vec3 normal = random.unit_vector();
+        return HalfSpace{normal, dot(normal, at) - 5.0};
+      }
+      case 2:
+        return Box{at, at + Vec3{random.uniform(), 2 * random.uniform(), random.uniform()}};
+      default: {
+        const Vec3 side = 3.0 * random.unit_vector();
+        const Vec3 other = 3.0 * random.unit_vector();
+        return Triangle{at, at + side, at + other};
+      }
+    }
+  }
+
+  void come() { shapes.push_back(p.place(any_shape())); }
+
+  void join() {
+    const Vec3 plan = random.uniform() < 0.5 ? Vec3{0, 0, -0.3} : Vec3{};
+    const BodyDefinition body{.radius = 0.05 + 0.5 * random.uniform(),
+                              .acceleration_limit = 2,
+                              .planned_acceleration = plan,
+                              .position = any_point(),
+                              .velocity = 3.0 * random.point_in_ball()};
+    balls.push_back(p.add(body, plan));
+  }
+
+  BodyId any(const std::vector<BodyId>& ids) { return ids[random.bits() % ids.size()]; }
+
+  void change() {
+    const BodyId ball = any(balls);
+    const std::size_t k = random.bits() % shapes.size();
+    const BodyId shape = shapes[k];
+    const bool enabled = p.world.body(shape)->enabled;
+    switch (random.bits() % 8) {
+      case 0:
+        p.world.remove(shape).value();
+        gone(shape);
+        shapes.erase(shapes.begin() + static_cast<std::ptrdiff_t>(k));
+        return come();
+      case 1:
+        if (enabled) p.world.disable(shape).value();
+        if (!enabled) p.world.enable(shape, {}).value();
+        return;
+      case 2: {
+        const Filter shut{.category = 2, .mask = 0};
+        const bool open = p.world.body(shape)->definition.filter == Filter{};
+        return p.world.set_filter(shape, open ? shut : Filter{}).value();
+      }
+      case 3: {
+        const Vec3 back = (Vec3{4, 4, 4} - p.state(ball).position) * 0.5;
+        return p.kick(ball, back + random.point_in_ball());
+      }
+      default:
+        return steer(ball);
+    }
+  }
+
+  /// Back to the middle, more or less.
+  void steer(BodyId ball) {
+    const Vec3 away = p.state(ball).position - Vec3{4, 4, 4};
+    const Vec3 plan = p.world.body(ball)->definition.planned_acceleration;
+    p.steer(ball, plan - away / (norm(away) + 0.1) + 0.99 * random.point_in_ball());
+  }
+
+  void gone(BodyId shape) {
+    std::erase_if(touching, [=](const auto& pair) { return pair.first == shape || pair.second == shape; });
+  }
+
+  void note(const Event& event) {
+    if (GetParam().mode == ContactMode::impacts) return;
+    const auto pair = std::pair(event.first, event.second);
+    if (event.kind == EventKind::contact_begin) {
+      EXPECT_TRUE(touching.insert(pair).second) << event;
+    } else if (event.kind == EventKind::contact_end) {
+      // The end of one that is gone comes after it.
+      const bool known = p.world.contains(event.first) && p.world.contains(event.second);
+      EXPECT_TRUE(touching.erase(pair) == 1 || !known) << event;
+    }
+  }
+
+  bool may_touch(BodyId shape) const {
+    const BodyView view = p.world.body(shape).value();
+    return view.enabled && view.definition.filter == Filter{};
+  }
+
+  void check_gaps() {
+    for (const BodyId ball : balls)
+      for (const BodyId shape : shapes) {
+        if (!may_touch(shape)) continue;
+        const bool touch = touching.contains(std::minmax(ball, shape));
+        const double gap = distance(p.fixed.at(shape), p.state(ball).position) - p.radius(ball);
+        const auto limits = p.world.distance_limits(ball, shape, p.world.time()).value();
+        ASSERT_LE(limits.lower, gap + 1e-12);
+        ASSERT_GE(limits.upper, gap - 1e-12);
+        if (GetParam().mode == ContactMode::impacts) continue;
+        ASSERT_TRUE(gap >= -eps || touch) << ball << " is unreported in " << shape << " by " << gap;
+        ASSERT_TRUE(gap <= 5 * eps + 1e-12 || !touch)
+            << ball << " and " << shape << " are apart, gap " << gap;
+      }
+  }
+
+  Surroundings p;
+  Random random;
+  std::vector<BodyId> shapes, balls;
+  std::set<std::pair<BodyId, BodyId>> touching;
+};
+
+TEST_P(RandomSurroundings, NothingIsMissed) {
+  std::size_t begins = 0;
+  for (int stop = 1; stop <= 1500 && !HasFatalFailure(); ++stop) {
+    change();
+    for (const BodyId ball : balls) steer(ball);
+    const double quiet = p.world.safe_until()->time;
+    const double quiet_of_one = p.world.safe_until(balls[0])->time;
+    p.run(p.world.time() + 0.2 * random.uniform(), [&](const Event& event) {
+      note(event);
+      if (event.kind == EventKind::contact_begin) {
+        ++begins;
+        const bool of_one = event.first == balls[0] || event.second == balls[0];
+        if (GetParam().mode == ContactMode::begin_and_end) {
+          EXPECT_GE(event.time, quiet);
+          EXPECT_TRUE(!of_one || event.time >= quiet_of_one);
+        }
+        if (GetParam().mode == ContactMode::impacts) p.bounce(event);
+      }
+    });
+    ASSERT_TRUE(is_clean(p.world));
+    check_gaps();
+  }
+  EXPECT_GT(begins, 100u);
+}
+
+INSTANTIATE_TEST_SUITE_P(, RandomSurroundings,
+                         testing::Values(Kind{ContactMode::begin_and_end, 1},
+                                         Kind{ContactMode::begin_and_end, 2},
+                                         Kind{ContactMode::begin_and_end, 3},
+                                         Kind{ContactMode::begin_and_end, 4}, Kind{ContactMode::impacts, 5},
+                                         Kind{ContactMode::impacts, 6}));
+
+}  // namespace
+}  // namespace kinesphere
