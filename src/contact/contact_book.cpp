@@ -13,8 +13,6 @@ void ContactBook::add(std::uint32_t body, double largest_acceleration) {
 }
 
 bool ContactBook::touch(std::uint32_t a, std::uint32_t b) const {
-  // A floor may touch thousands.
-  if (entries_[b].partners.size() < entries_[a].partners.size()) std::swap(a, b);
   const auto& partners = entries_[a].partners;
   return std::find(partners.begin(), partners.end(), b) != partners.end();
 }

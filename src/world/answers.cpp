@@ -88,10 +88,10 @@ void World::Engine::Answers::consider(std::uint32_t a, std::uint32_t b, Onset& f
   if (known >= first.time) return;
   const Bound bound_of_a = guarded(a);
   const Bound bound_of_b = guarded(b);
-  const double meeting = visit_pair(engine_.extent(a, bound_of_a), engine_.extent(b, bound_of_b),
-                                    [this](const Bound& bound, const auto& partner) {
-                                      return earliest_meeting(bound, partner, now_, infinity);
-                                    });
+  const double meeting = visit_extents(engine_.extent(a, bound_of_a), engine_.extent(b, bound_of_b),
+                                       [this](const Bound& bound, const auto& partner) {
+                                         return earliest_meeting(bound, partner, now_, infinity);
+                                       });
   const double time = std::max(known, meeting);
   if (time < first.time) first = {time, a, b, Wall::none, false};
 }
@@ -163,9 +163,9 @@ DistanceLimits World::Engine::Answers::distance(std::uint32_t a, std::uint32_t b
   const Extent extent_of_a = engine_.extent(a, first);
   const Extent extent_of_b = engine_.extent(b, second);
   if (extent_of_a.shape && extent_of_b.shape) return {-infinity, infinity, false};
-  const GapLimits gap = visit_pair(extent_of_a, extent_of_b, [time](const Bound& bound, const auto& partner) {
-    return gap_limits(bound, partner, time);
-  });
+  const GapLimits gap = visit_extents(
+      extent_of_a, extent_of_b,
+      [time](const Bound& bound, const auto& partner) { return gap_limits(bound, partner, time); });
   // The upper limit of bounds is about the reported bodies: the true ones may be off by what the radii hold
   // beyond their own.
   const double excess =

@@ -172,7 +172,7 @@ class World::Engine::Audit {
   double earliest_change(std::uint32_t a, std::uint32_t b, const Threshold& threshold) const {
     const ContactRule& rule = engine_.book_.rule_of(threshold);
     const double inside = rule.impacts_only() ? rule.tolerance() : 0.0;
-    return visit_pair(engine_.extent(a), engine_.extent(b), [&](const Bound& bound, const auto& partner) {
+    return engine_.visit_pair(a, b, [&](const Bound& bound, const auto& partner) {
       return threshold.within ? earliest_separation(bound, partner, now_, infinity,
                                                     rule.release_gap() + threshold.distance)
                               : earliest_meeting(bound, partner, now_, infinity, threshold.distance - inside);
@@ -184,7 +184,7 @@ class World::Engine::Audit {
     if (!exact(body(a)) || !exact(body(b))) return false;
     const ContactRule& rule = engine_.book_.rule_of(threshold);
     if (!rule.impacts_only()) return true;
-    return visit_pair(engine_.extent(a), engine_.extent(b), [&](const Bound& bound, const auto& partner) {
+    return engine_.visit_pair(a, b, [&](const Bound& bound, const auto& partner) {
       return gap_limits(bound, partner, now_).lower > rule.tolerance();
     });
   }

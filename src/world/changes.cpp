@@ -30,8 +30,9 @@ void World::Engine::replace(std::uint32_t number, const Bound& bound) {
   const auto ends = [&](const Event& end) {
     if (book_.pending().contains(end)) return true;
     const std::uint32_t partner = end.first.index == number ? end.second.index : end.first.index;
-    const double gap = end.wall == Wall::none ? visit_pair(extent(number, bound), extent(partner), lower_gap)
-                                              : lower_gap(bound, half_space(*definition_.box, end.wall));
+    const double gap = end.wall == Wall::none
+                           ? visit_extents(extent(number, bound), extent(partner), lower_gap)
+                           : lower_gap(bound, half_space(*definition_.box, end.wall));
     return gap >= end.distance + apart;
   };
   book_.end_contacts(

@@ -5,8 +5,10 @@ namespace kinesphere {
 
 Sphere World::Engine::sphere(std::uint32_t number) const {
   const Bound& bound = bodies_[number].bound;
-  return {
-      id_of(number), bound.radius, {bound.centre_at(time_), bound.velocity_at(time_)}, extent(number).shape};
+  return {id_of(number),
+          bound.radius,
+          {bound.centre_at(time_), bound.velocity_at(time_)},
+          shapes_.empty() ? nullptr : extent(number).shape};
 }
 
 Event World::Engine::contact(EventKind kind, std::uint32_t a, std::uint32_t b) const {

@@ -77,7 +77,7 @@ Bound World::Engine::bound_now(const BodyDefinition& body) const {
 }
 
 bool World::Engine::certainly_overlap(const Extent& a, const Extent& b) const {
-  return visit_pair(a, b, [this](const Bound& bound, const auto& partner) {
+  return visit_extents(a, b, [this](const Bound& bound, const auto& partner) {
     return gap_limits(bound, partner, time_).upper < -definition_.contact_tolerance;
   });
 }

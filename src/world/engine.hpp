@@ -140,6 +140,12 @@ class World::Engine {
     if (!bodies_[number].is_fixed()) return {bound};
     return extent_of(bound, shapes_[bodies_[number].shape_number]);
   }
+  /// visit_extents() of two bodies as they are; in most worlds nothing is fixed.
+  template <class Visit>
+  auto visit_pair(std::uint32_t a, std::uint32_t b, Visit visit) const {
+    if (shapes_.empty()) return visit(bodies_[a].bound, bodies_[b].bound);
+    return visit_extents(extent(a), extent(b), visit);
+  }
   static Extent extent_of(const Bound& bound, const Shape& shape) {
     return {bound, true, std::holds_alternative<Ball>(shape) ? nullptr : &shape};
   }
@@ -216,6 +222,8 @@ class World::Engine {
   void register_box(std::uint32_t number);
   Result<void> search(std::uint32_t number);
   Result<void> settle_pair(std::uint32_t number, std::uint32_t partner);
+  template <class Partner>
+  bool look_at_pair(std::uint32_t number, std::uint32_t partner, const Bound& bound, const Partner& other);
   Result<void> settle_walls(std::uint32_t number);
   bool has_watch(std::uint32_t number, std::uint32_t partner) const;
   void watch(std::uint32_t number, std::uint32_t partner, double time);

@@ -18,7 +18,7 @@ struct Extent {
 /// Calls visit(bound, partner), where the partner is another bound or a HalfSpace, Box or Triangle. Not both
 /// may have a shape.
 template <class Visit>
-auto visit_pair(const Extent& a, const Extent& b, Visit visit) {
+auto visit_extents(const Extent& a, const Extent& b, Visit visit) {
   if (!a.shape && !b.shape) return visit(a.bound, b.bound);
   const Bound& moving = a.shape ? b.bound : a.bound;
   const Bound& ball = a.shape ? a.bound : b.bound;

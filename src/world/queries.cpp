@@ -28,12 +28,12 @@ Bound resting(const Vec3& centre, double radius) { return {.position = centre, .
 
 /// The gap between a sphere or a box and a shape.
 GapLimits limits_of(const Bound& region, const Shape& shape) {
-  return visit_pair({region}, {region, true, &shape},
-                    [](const Bound& bound, const auto& solid) { return gap_limits(bound, solid, 0.0); });
+  return visit_extents({region}, {region, true, &shape},
+                       [](const Bound& bound, const auto& solid) { return gap_limits(bound, solid, 0.0); });
 }
 GapLimits limits_of(const Box& region, const Shape& shape) {
   const Bound nothing{};
-  return visit_pair({nothing}, {nothing, true, &shape}, [&](const Bound&, const auto& solid) -> GapLimits {
+  return visit_extents({nothing}, {nothing, true, &shape}, [&](const Bound&, const auto& solid) -> GapLimits {
     if constexpr (std::is_same_v<std::remove_cvref_t<decltype(solid)>, Bound>) {
       return {-infinity, infinity};  // a ball has no shape here
     } else {
@@ -44,7 +44,7 @@ GapLimits limits_of(const Box& region, const Shape& shape) {
 
 WayLimits touch_of(const Way& way, const Shape& shape) {
   const Bound sphere{.position = way.origin, .velocity = way.direction, .radius = way.radius};
-  return visit_pair({sphere}, {sphere, true, &shape}, [&](const Bound&, const auto& solid) -> WayLimits {
+  return visit_extents({sphere}, {sphere, true, &shape}, [&](const Bound&, const auto& solid) -> WayLimits {
     if constexpr (std::is_same_v<std::remove_cvref_t<decltype(solid)>, Bound>) {
       return {0.0, infinity};
     } else {

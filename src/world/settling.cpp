@@ -168,36 +168,47 @@ Result<void> World::Engine::search(std::uint32_t number) {
 
 /// Records a fact about two bodies, probing them as far as that needs.
 Result<void> World::Engine::settle_pair(std::uint32_t number, std::uint32_t partner) {
-  for (;;) {
-    const Body& a = bodies_[number];
-    const Body& b = bodies_[partner];
-    if (a.dirty || b.dirty) return {};  // a broken promise came up: its body searches again
-    // When a box ends the pair is settled again, unless there is a watch: it must hold for all thresholds.
-    const double settled_again = std::min(a.box_end, b.box_end);
-    const Horizons horizons{settled_again, sensors_.any() ? settled_again : infinity};
-    const bool fresh = a.fresh(time_) && b.fresh(time_);
-    const Promise sum{a.definition.velocity_error + b.definition.velocity_error,
-                      a.largest_acceleration() + b.largest_acceleration()};
-    std::optional<double> next_look = infinity;
-    const auto look = [&]<class Partner>(const Bound& bound, const Partner& other) {
-      for_each_threshold(number, partner, [&](const Threshold& threshold) {
-        ++counters_.certificates;
-        const Outlook<Partner> outlook(book_.rule_of(threshold), threshold, bound, other, time_, horizons);
-        const auto known =
-            fresh ? judge(outlook, threshold, contact(EventKind::zeno_guard, number, partner), sum)
-                  : outlook.until_reports();
-        next_look = next_look && known ? std::optional(std::min(*next_look, *known)) : std::nullopt;
-      });
-    };
-    visit_pair(extent(number), extent(partner), look);
-    if (!fresh && *next_look <= time_) {
-      if (auto probed = probe_staler(number, partner); !probed) return probed;
-      continue;
-    }
-    unwatch(number, partner);
-    if (next_look) watch(number, partner, *next_look);
-    return {};
+  if (bodies_[number].is_fixed()) {
+    // It may meet all the others, and leaves them to watch it.
+    auto settled = settle_pair(partner, number);
+    if (!bodies_[partner].dirty) reschedule(partner);
+    return settled;
   }
+  for (;;) {
+    if (bodies_[number].dirty || bodies_[partner].dirty)
+      return {};  // a broken promise came up: its body searches again
+    const bool known = visit_pair(number, partner, [=, this](const Bound& bound, const auto& other) {
+      return look_at_pair(number, partner, bound, other);
+    });
+    if (known) return {};
+    if (auto probed = probe_staler(number, partner); !probed) return probed;
+  }
+}
+
+/// Records a fact from the reports that there are. False when they are too old for that.
+template <class Partner>
+bool World::Engine::look_at_pair(std::uint32_t number, std::uint32_t partner, const Bound& bound,
+                                 const Partner& other) {
+  const Body& a = bodies_[number];
+  const Body& b = bodies_[partner];
+  // When a box ends the pair is settled again, unless there is a watch: it must hold for all thresholds.
+  const double settled_again = std::min(a.box_end, b.box_end);
+  const Horizons horizons{settled_again, sensors_.any() ? settled_again : infinity};
+  const bool fresh = a.fresh(time_) && b.fresh(time_);
+  const Promise sum{a.definition.velocity_error + b.definition.velocity_error,
+                    a.largest_acceleration() + b.largest_acceleration()};
+  std::optional<double> next_look = infinity;
+  for_each_threshold(number, partner, [&](const Threshold& threshold) {
+    ++counters_.certificates;
+    const Outlook<Partner> outlook(book_.rule_of(threshold), threshold, bound, other, time_, horizons);
+    const auto known = fresh ? judge(outlook, threshold, contact(EventKind::zeno_guard, number, partner), sum)
+                             : outlook.until_reports();
+    next_look = next_look && known ? std::optional(std::min(*next_look, *known)) : std::nullopt;
+  });
+  if (!fresh && *next_look <= time_) return false;
+  unwatch(number, partner);
+  if (next_look) watch(number, partner, *next_look);
+  return true;
 }
 
 /// Holds fresh reports against the contact rule. Announces what is news; unless that is a begin or an end,
@@ -264,16 +275,11 @@ bool World::Engine::has_watch(std::uint32_t number, std::uint32_t partner) const
 /// Records a watch in place of an earlier one; at +infinity there is nothing to watch. A fixed body, which
 /// may meet all the others, leaves it to its partner.
 void World::Engine::watch(std::uint32_t number, std::uint32_t partner, double time) {
-  if (bodies_[number].is_fixed()) {
-    watch(partner, number, time);
-    return reschedule(partner);
-  }
   unwatch(number, partner);
   if (time < infinity) bodies_[number].watches.push_back({time, partner, bodies_[partner].epoch});
 }
 
 void World::Engine::unwatch(std::uint32_t number, std::uint32_t partner) {
-  if (bodies_[number].is_fixed()) std::swap(number, partner);
   std::erase_if(bodies_[number].watches, [=](const Watch& w) { return w.partner == partner; });
 }
 
