@@ -52,10 +52,12 @@ struct Event {
   /// True when one of the two bodies touched something less than its Zeno interval ago
   /// (WorldDefinition::zeno_interval): a response that loses energy should lose none here.
   bool repeated = false;
-  /// States at `time`. Those of a wall or of no_body are zero.
+  /// States at `time`. Those of a wall or of no_body are zero; that of a fixed body is one point of its
+  /// shape, at rest.
   State first_state{};
   State second_state{};
-  /// The middle of the gap between the two surfaces (for a wall: the point of it that is nearest).
+  /// The middle of the gap between the two surfaces (for a wall: the point of it that is nearest). Of a fixed
+  /// body the nearest point counts and, inside a box, the nearest face.
   Vec3 point{};
   /// Unit vector from `first` towards `second`, or towards the wall.
   Vec3 normal{};

@@ -11,7 +11,7 @@ namespace kinesphere {
 
 /// Two bodies of the same non-zero group touch if it is positive and do not if it is negative. Any others
 /// touch if the category of each has a bit in the mask of the other. By default everything touches
-/// everything. Walls are not filtered.
+/// everything. Walls are not filtered. Two fixed bodies never touch.
 struct Filter {
   std::uint64_t category = 1;
   std::uint64_t mask = std::numeric_limits<std::uint64_t>::max();

@@ -7,6 +7,9 @@
 // body that is left out is certainly not concerned, the others are so possibly or certainly. The calls that
 // take a Probe ask for the states that leave something open. Then `possibly` remains only where position
 // errors, or rounding (relative 2^-45), decide. Those states are reports like any other (answers.hpp).
+//
+// Of a fixed body the whole shape counts. A ray through an edge of a triangle is as undecided as one that
+// grazes a sphere.
 #pragma once
 
 #include "kinesphere/body.hpp"

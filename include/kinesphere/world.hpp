@@ -232,7 +232,8 @@ class World {
   Result<EarliestContact> earliest_contact(BodyId body) const;
   Result<EarliestContact> earliest_contact(BodyId body, Probe probe);
   /// How far the two are apart at `time` >= now, at least and at most. Errors: as safe_until(first, second);
-  /// not_finite or time_backwards for `time`. Cost: O(1); with a probe at most two states.
+  /// not_finite or time_backwards for `time`. Of two fixed bodies that are not both balls nothing is known.
+  /// Cost: O(1); with a probe at most two states.
   Result<DistanceLimits> distance_limits(BodyId first, BodyId second, double time) const;
   Result<DistanceLimits> distance_limits(BodyId first, BodyId second, double time, Probe probe);
 
