@@ -454,6 +454,9 @@ TEST(Surroundings, QueriesKnowTheirShapes) {
   EXPECT_EQ(ids(p.world.overlapping(Box{{1.9, 1.9, -1}, {3, 3, 1}}).value()), Ids{triangle});
   EXPECT_EQ(ids(p.world.overlapping(Box{{11.5, 0, 0}, {20, 1, 1}}).value()), Ids{box});
   EXPECT_EQ(ids(p.world.overlapping(Box{{0, 0, -30}, {1, 1, -25}}).value()), Ids{floor});
+  const auto grazed = p.world.overlapping(Vec3{1, 1, 1}, 1.0).value();
+  ASSERT_EQ(grazed.size(), 1u);
+  EXPECT_EQ(grazed[0].certainty, Certainty::possibly) << "rounding decides";
   const auto near = p.world.nearest({1, 1, 3}, 2).value();
   ASSERT_EQ(near.size(), 2u);
   EXPECT_EQ(near[0].body, triangle);
@@ -527,6 +530,16 @@ TEST(Surroundings, WrongCalls) {
   };
   (void)w.advance(1.0, inside).value();
   EXPECT_TRUE(is_clean(w));
+}
+
+TEST(Surroundings, OneBallOnTheFloorDoesNotRepeatAnother) {
+  Surroundings p({.contact_tolerance = eps, .contacts = ContactMode::impacts, .zeno_interval = 0.5});
+  p.place(ground);
+  for (int k = 0; k < 3; ++k)
+    p.add({.radius = 1, .position = {5.0 * k, 0, 2.0 + 0.1 * k}, .velocity = {0, 0, -1}});
+  const auto events = p.run(2.0, [&](const Event& event) { p.bounce(event); });
+  ASSERT_EQ(events.size(), 3u);
+  for (const Event& event : events) EXPECT_FALSE(event.repeated) << event;
 }
 
 TEST(Surroundings, ManyBallsOnOneFloorCostNoMoreEach) {
