@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
 
 #include "archive/checksum.hpp"
@@ -11,150 +10,12 @@
 #include "recording/format.hpp"
 #include "recording/step.hpp"
 #include "support/expect_error.hpp"
-#include "world/crowd.hpp"
+#include "world/bustle.hpp"
 
 namespace kinesphere {
 namespace {
 
 using Bytes = std::vector<std::byte>;
-
-/// Filters by what the bodies carry, so that it can be given again for another world.
-PairFilter filter_of(const World& world) {
-  return [&world](BodyId a, BodyId b) {
-    const auto data = [&](BodyId id) { return world.contains(id) ? world.user_data(id).value() : 0; };
-    return (a.index + b.index) % 2 == 1 || (data(a) == 0 && data(b) == 0);
-  };
-}
-
-/// A crowd to which everything is done that one may do to a world.
-class Bustle : public Crowd {
- public:
-  explicit Bustle(const CrowdKind& kind) : Crowd(kind) {
-    distort = [this, noise = distort](BodyId id, double time, State& state) {
-      noise(id, time, state);
-      if (mischief_ == 0 || --mischief_ > 0) return;
-      if (throws_) throw std::runtime_error("no answer");
-      state.velocity.x = std::numeric_limits<double>::infinity();
-    };
-  }
-
-  void go(double duration) {
-    const double start = world.time();
-    for (int stop = 1; stop <= 20; ++stop) {
-      const double until = start + duration * stop / 20;
-      for (int k = 0; k < 3; ++k) do_anything();
-      while (const auto event = advance_somehow(until)) {
-        if (world.contains(event->first) && is_enabled(event->first)) bounce_if_both(*event);
-        if (random.uniform() < 0.2) do_anything();
-      }
-    }
-  }
-
-  const std::vector<Event>& events() const { return events_; }
-
- private:
-  bool is_enabled(BodyId id) const { return world.body(id).value().enabled; }
-
-  void bounce_if_both(const Event& event) {
-    if (event.second == no_body || (world.contains(event.second) && is_enabled(event.second))) bounce(event);
-  }
-
-  /// The probe fails now and then, in both ways; the call is then repeated.
-  std::optional<Event> advance_somehow(double until) {
-    for (;;) {
-      mischief_ = random.uniform() < 0.2 ? 1 + static_cast<int>(random.bits() % 5) : 0;
-      throws_ = random.uniform() < 0.5;
-      try {
-        auto event = world.advance(until, probe());
-        if (!event) continue;
-        if (*event) events_.push_back(**event);
-        mischief_ = 0;
-        return *event;
-      } catch (const std::runtime_error&) {
-      }
-    }
-  }
-
-  void place(BodyId id, const State& state) {
-    set_position(id, state.position);
-    set_velocity(id, state.velocity);
-  }
-
-  void do_anything() {
-    const BodyId id = any();
-    const State state{any_point(), 2.0 * random.point_in_ball()};
-    switch (random.bits() % 14) {
-      case 0:
-        if (!is_enabled(id)) {
-          world.enable(id, state).value();
-          return place(id, state);
-        }
-        return world.disable(id).value();
-      case 1:
-        if (!is_enabled(id)) return;
-        world.teleport(id, state).value();
-        return place(id, state);
-      case 2:
-        return world.set_radius(id, 0.5 * random.uniform()).value();
-      case 3: {
-        const BodyDefinition now = world.body(id).value().definition;
-        const Vec3 plan = random.point_in_ball();
-        world.set_promise(id, {2.0, plan, now.position_error, now.velocity_error}).value();
-        return Playground::steer(id, plan + 1.9 * random.point_in_ball());
-      }
-      case 4:
-        return world.set_filter(id, {1 + random.bits() % 3, 1 + random.bits() % 3, 0}).value();
-      case 5:
-        if (random.uniform() < 0.3)
-          return world.set_pair_filter(random.uniform() < 0.5 ? filter_of(world) : PairFilter()).value();
-        world.set_user_data(id, random.bits() % 2).value();
-        return world.refilter(id).value();
-      case 6:
-        return ask();
-      case 7: {
-        const BodyDefinition pair[2] = {{.radius = 0.2, .position = any_point()},
-                                        {.radius = 0.1, .position = any_point()}};
-        for (const BodyId added : world.add_all(pair).value())
-          start_course(added, world.body(added).value().definition);
-        return;
-      }
-      case 8: {
-        const BodyId ids[] = {id};
-        if (world.size() > 5) world.remove_all(ids).value();
-        return;
-      }
-      case 9:
-        // What is refused leaves no trace.
-        EXPECT_FALSE(world.set_radius(id, -1.0));
-        EXPECT_FALSE(world.advance(world.time() - 1.0, probe()));
-        return;
-      case 10:
-        if (world.size() > 5) world.remove(id).value();
-        return;
-      case 11:
-        return join();
-      default:
-        if (is_enabled(id)) kick(id, 2.0 * random.point_in_ball());
-    }
-  }
-
-  void ask() {
-    (void)world.safe_until(any(), probe());
-    (void)world.safe_until(probe());
-    (void)world.earliest_contact(any(), probe());
-    (void)world.distance_limits(any(), any(), world.time() + 1.0, probe());
-    (void)world.nearest(any_point(), 3, probe());
-    mischief_ = random.uniform() < 0.5 ? 2 : 0;
-    throws_ = false;
-    (void)world.overlapping(any_point(), 3.0, probe());
-    mischief_ = 0;
-    (void)world.ray_cast(any_point(), {1, 0, 0}, 5.0, probe());
-  }
-
-  std::vector<Event> events_;
-  int mischief_ = 0;  ///< how many states from now the probe fails; 0: it does not
-  bool throws_ = false;
-};
 
 std::vector<Event> events_of(Replay& replay) {
   std::vector<Event> events;
