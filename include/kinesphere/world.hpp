@@ -278,7 +278,7 @@ class World {
   Result<World> clone() const;
 
   /// From now on all that goes into this world and comes out of it is recorded (recording.hpp), in memory,
-  /// about 70 bytes a report, 30 to 70 a change and 260 an event. A world that is moved takes its recording
+  /// about 70 bytes a report, 10 to 140 a change and 230 an event. A world that is moved takes its recording
   /// along; one that is assigned to loses it. Errors: probe_in_progress; recording when it is already. Cost:
   /// as save(); later little more than copying what is recorded.
   Result<void> start_recording();
