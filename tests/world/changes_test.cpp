@@ -79,6 +79,44 @@ TEST(Change, TeleportAwayAtAnotherEventOfTheInstantTakesItsBeginBack) {
   EXPECT_TRUE(p.run(1.0).empty());
 }
 
+/// Two pairs that part at one instant; the end of the first has been told, that of the second is on its way.
+struct Parting : Playground {
+  BodyId c, d;
+  Parting() {
+    for (const double y : {-64.0, 64.0}) {
+      c = add({.radius = 1, .position = {0, y, 0}});
+      d = add({.radius = 1, .position = {1.5, y, 0}, .velocity = {1, 0, 0}});
+    }
+    EXPECT_EQ(run(0.25).size(), 2u);
+    const auto end = advance(1.0);
+    EXPECT_TRUE(end && end->kind == EventKind::contact_end && end->first == (BodyId{0, 0}));
+  }
+  /// The end as it was before a change that makes the two overlap, and a new begin.
+  void expect_end_and_begin(double gap) {
+    const auto events = run(world.time());
+    ASSERT_EQ(events.size(), 2u) << events;
+    EXPECT_EQ(events[0].kind, EventKind::contact_end);
+    EXPECT_EQ(events[0].first, c);
+    EXPECT_GE(events[0].gap, 4e-6);
+    EXPECT_LE(events[0].gap, 5e-6);
+    EXPECT_EQ(events[1].kind, EventKind::contact_begin);
+    EXPECT_NEAR(events[1].gap, gap, 1e-5);
+    EXPECT_TRUE(is_clean(world));
+  }
+};
+
+TEST(Change, OfABodyDoesNotTakeBackAnEndThatWasOnItsWay) {
+  Parting p;
+  p.world.set_radius(p.d, 1.5).value();
+  p.expect_end_and_begin(-0.5);
+}
+
+TEST(Change, TeleportDoesNotTakeBackAnEndThatWasOnItsWay) {
+  Parting p;
+  teleport(p, p.d, {{1.25, 64, 0}, {1, 0, 0}});
+  p.expect_end_and_begin(-0.75);
+}
+
 TEST(Change, SmallerRadiusEndsAndLargerBegins) {
   Touching p;
   p.world.set_radius(p.b, 0.25).value();
