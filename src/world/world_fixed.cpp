@@ -46,7 +46,7 @@ Result<std::vector<BodyId>> World::add_fixed_all(std::span<const FixedDefinition
     const std::string call = "add_fixed_all: bodies[" + std::to_string(number) + "]";
     auto valid = check_new_fixed(bodies[number], engine_->next_id(number), call);
     if (!valid) return valid.error();
-    kept.push_back(std::move(*valid));
+    kept.push_back(*valid);
   }
   std::vector<BodyId> ids;
   ids.reserve(kept.size());
@@ -54,11 +54,11 @@ Result<std::vector<BodyId>> World::add_fixed_all(std::span<const FixedDefinition
   return ids;
 }
 
-Result<Shape> World::shape_of(BodyId id) const {
-  if (auto valid = check_alive(id, "shape_of"); !valid) return valid.error();
-  if (engine_->table()[id.index].is_fixed()) return engine_->shape(id.index);
-  const BodyDefinition& body = engine_->table()[id.index].definition;
-  return Shape(Ball{body.position, body.radius});
+Result<Shape> World::shape_of(BodyId body) const {
+  if (auto valid = check_alive(body, "shape_of"); !valid) return valid.error();
+  if (engine_->table()[body.index].is_fixed()) return engine_->shape(body.index);
+  const BodyDefinition& moving = engine_->table()[body.index].definition;
+  return Shape(Ball{moving.position, moving.radius});
 }
 
 }  // namespace kinesphere
