@@ -8,6 +8,9 @@
 // bound of the truth. The calls that take a Probe ask for the states that limit the answer first: it is then
 // as late as fresh reports allow. Those states are reports like any other. They are checked, a broken promise
 // comes as a bound_violation event of the next advance(), and later events may move within their tolerances.
+//
+// Where space repeats, all images count, and the distance of two bodies is that of their nearest images. Two
+// that move relative to each other are then certified at most until they may have come two boxes nearer.
 #pragma once
 
 #include "kinesphere/event.hpp"

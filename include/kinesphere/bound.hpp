@@ -81,7 +81,9 @@ double earliest_separation(const Bound& bound, const HalfSpace& wall, double fro
                            double distance);
 
 /// The bound lies inside the box before the returned time (in [from, horizon], or +infinity when it
-/// does up to `horizon`). Returns `from` when it already reaches out. The least of six quadratics.
+/// does up to `horizon`). Returns `from` when it already reaches out. The least of six quadratics. Nothing is
+/// asked on an axis where the box reaches from -infinity to +infinity; an infinite side has an infinite one
+/// opposite.
 double earliest_exit(const Bound& bound, const Box& box, double from, double horizon);
 
 /// A box that contains the bound during all of [from, to], rounded outward. Needs a finite `to`.

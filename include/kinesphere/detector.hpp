@@ -55,6 +55,7 @@ using DetectorMaker =
     std::function<Result<std::unique_ptr<Detector>>(const WorldDefinition& definition, const Motion& motion)>;
 
 // Detectors read `motion` through state() alone, the oracle through trajectory() too; it must outlive them.
+// Only the world knows of space that repeats and of two dimensions: the others answer unsupported.
 
 /// The default engine: a World.
 Result<std::unique_ptr<Detector>> make_world_detector(const WorldDefinition& definition,

@@ -53,7 +53,9 @@ struct Event {
   /// (WorldDefinition::zeno_interval): a response that loses energy should lose none here.
   bool repeated = false;
   /// States at `time`. Those of a wall or of no_body are zero; that of a fixed body is one point of its
-  /// shape, at rest.
+  /// shape, at rest. Where space repeats, the first is in the box, and the second in the image that is
+  /// nearest to it, inside the box or not: the vector from one to the other is the one that a virial needs.
+  /// BodyView::image tells how far each has come.
   State first_state{};
   State second_state{};
   /// The middle of the gap between the two surfaces (for a wall: the point of it that is nearest). Of a fixed

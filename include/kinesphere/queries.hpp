@@ -10,6 +10,8 @@
 //
 // Of a fixed body the whole shape counts. A ray through an edge of a triangle is as undecided as one that
 // grazes a sphere.
+// Where space repeats, regions, distances and ways reach across the border. A body counts once, in its
+// nearest image or in the first that is hit.
 #pragma once
 
 #include "kinesphere/body.hpp"

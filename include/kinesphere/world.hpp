@@ -27,6 +27,7 @@
 // docs/guarantee.md has the proof.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -58,6 +59,10 @@ struct BodyView {
   Bound bound{};                ///< since the last report
   Box box{};                    ///< which holds the body until box_end
   double box_end;
+  /// Where space repeats: how many boxes the body has gone beyond the first one. definition.position, which
+  /// is in the first, plus the size of the box times this is on the path from where the caller last placed
+  /// the body (add, teleport, enable) to here.
+  std::array<std::int64_t, 3> image{};
   bool enabled;  ///< a disabled body has no bound and no box: they are what they were
   /// It never moves: shape_of() tells its shape. Its state is that of one point of it, and box_end is
   /// infinite.
@@ -159,7 +164,8 @@ class World {
   /// From now on all bodies of this class have this sensor; without it they sense nothing. Sensor distances
   /// that no longer count are left, and those that newly do are entered, in events at the next advance.
   /// Errors: probe_in_progress; not_finite or out_of_range for a distance that is negative or beyond 2^41
-  /// contact tolerances. Cost: O(n) here, and each body of the class searches again at the next advance.
+  /// contact tolerances or, where space repeats, so large that a body has no room for it, which is named.
+  /// Cost: O(n) here, and each body of the class searches again at the next advance.
   Result<void> set_sensor(SensorClass sensor_class, const Sensor& sensor);
   Result<void> set_sensor_class(BodyId body, SensorClass sensor_class);
   const Sensor& sensor(SensorClass sensor_class) const;
@@ -254,7 +260,8 @@ class World {
   Result<std::vector<Near>> nearest(const Vec3& point, std::size_t count, Probe probe);
   /// All bodies that may be the first on the way from `origin` along `direction` (of any length > 0, at most
   /// 1e100), by lower limit of that way: empty when there certainly is none within `length`. A single body
-  /// that is certainly the first is marked so. With a probe all of them are probed. Walls do not count. Cost:
+  /// that is certainly the first is marked so. With a probe all of them are probed. Walls do not count. Where
+  /// space repeats the length may be at most 64 boxes, and a sphere's radius half a box (out_of_range). Cost:
   /// at most 64 grid searches along the way.
   Result<std::vector<Hit>> ray_cast(const Vec3& origin, const Vec3& direction, double length) const;
   Result<std::vector<Hit>> ray_cast(const Vec3& origin, const Vec3& direction, double length, Probe probe);
@@ -300,6 +307,8 @@ class World {
   Result<void> check_growth(const BodyDefinition& changed, BodyId id, std::string_view argument,
                             std::string_view call) const;
   Result<void> check_moving(BodyId body, std::string_view call) const;
+  Result<void> check_reach(const BodyDefinition& changed, BodyId id, std::string_view argument,
+                           std::string_view call) const;
   Result<void> check_fixed_room(const FixedDefinition& fixed, BodyId id, std::string_view call) const;
   /// The definition as the world keeps it.
   Result<FixedDefinition> check_new_fixed(const FixedDefinition& fixed, BodyId id,

@@ -17,9 +17,30 @@ enum class ContactMode {
   impacts,
 };
 
+/// Some of the three axes.
+struct Axes {
+  bool x = false;
+  bool y = false;
+  bool z = false;
+
+  constexpr bool operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+  constexpr bool any() const { return x || y || z; }
+  friend constexpr bool operator==(const Axes&, const Axes&) = default;
+};
+
 struct WorldDefinition {
   /// The walls. Without a box the world is unbounded.
   std::optional<Box> box{};
+  /// On these axes the box has no walls: space repeats with the box's size, and what leaves on one side comes
+  /// in on the other. States that come from the caller may be in any image. States that the world tells lie
+  /// in the box (lower <= position < upper), but the second of an event where it touches the first. A body
+  /// has to fit: on each of these axes 2 radius + 6 position_error + separation_distance + contact_tolerance
+  /// may be at most 3/8 of the box, which a diameter of a third is.
+  /// Cost: a body is asked at least once while it crosses half of the box.
+  Axes periodic{};
+  /// 2: bodies are discs in the plane z = 0. The z of every position, velocity and plan must be 0, and
+  /// that of the box does not matter.
+  int dimensions = 3;
   /// eps > 0 (length): a contact begins at a time when the true gap is at most eps, and no gap
   /// ever falls below -eps unreported.
   double contact_tolerance = 1e-6;

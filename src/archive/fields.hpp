@@ -108,11 +108,18 @@ void transfer(Self& self, Archive& archive) {
           approach_speed, position_excess, velocity_excess, distance);
 }
 
+template <Some<Axes> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [x, y, z] = self;
+  archive(x, y, z);
+}
+
 template <Some<WorldDefinition> Self, class Archive>
 void transfer(Self& self, Archive& archive) {
-  auto& [box, contact_tolerance, separation_distance, contacts, allow_overlap, zeno_interval, start_time] =
-      self;
-  archive(box, contact_tolerance, separation_distance, contacts, allow_overlap, zeno_interval, start_time);
+  auto& [box, periodic, dimensions, contact_tolerance, separation_distance, contacts, allow_overlap,
+         zeno_interval, start_time] = self;
+  archive(box, periodic, dimensions, contact_tolerance, separation_distance, contacts, allow_overlap,
+          zeno_interval, start_time);
 }
 
 template <Some<Counters> Self, class Archive>

@@ -167,6 +167,7 @@ double earliest_separation(const Bound& bound, const HalfSpace& wall, double fro
 double earliest_exit(const Bound& bound, const Box& box, double from, double horizon) {
   double first = infinity;
   for (int axis = 0; axis < 3; ++axis) {
+    if (box.upper[axis] == infinity) continue;
     const Projection p(bound, axis, from);
     const double speed_margin = p.growth_speed + margin * p.velocity_size;
     const double acceleration_margin = bound.growth_acceleration + margin * p.acceleration_size;

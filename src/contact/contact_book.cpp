@@ -83,7 +83,7 @@ bool ContactBook::take_effect(Event& event, const Sphere& first, const Sphere& s
   if (event.kind == EventKind::zeno_guard) guards_told_.insert(event);
   if (event.kind == EventKind::zeno_guard || event.kind == EventKind::bound_violation) return true;
   Event now = wall ? wall_event(event.kind, event.time, first, *box, event.wall)
-                   : contact_event(event.kind, event.time, first, second);
+                   : contact_event(event.kind, event.time, first, second, space_);
   now.distance = event.distance;
   if (begins_now && !still_begins(now)) return false;
   event = now;
@@ -111,7 +111,7 @@ void ContactBook::note_contact(Event& begin) {
   if (pair) entries_[begin.second.index].last_contact = begin.time;
 }
 
-bool ContactBook::contacts_are_sound(bool has_walls) const {
+bool ContactBook::contacts_are_sound(const std::optional<Box>& box) const {
   // A contact as a crossing of its own.
   constexpr double contact = -1.0;
   std::vector<std::tuple<std::uint32_t, std::uint32_t, double>> there;
@@ -119,7 +119,10 @@ bool ContactBook::contacts_are_sound(bool has_walls) const {
   for (std::uint32_t body = 0; body < entries_.size(); ++body) {
     const Entry& entry = entries_[body];
     if (std::isnan(entry.last_contact) || !(entry.zeno_interval >= 0.0)) return false;
-    if (entry.walls >= 1u << wall_count || (entry.walls != 0 && !has_walls)) return false;
+    std::uint8_t standing = 0;
+    for (const Wall wall : walls)
+      if (box && stands(*box, wall)) standing = static_cast<std::uint8_t>(standing | wall_bit(wall));
+    if ((entry.walls & ~standing) != 0) return false;
     for (const std::uint32_t partner : entry.partners) {
       there.emplace_back(body, partner, contact);
       back.emplace_back(partner, body, contact);
@@ -137,12 +140,12 @@ bool ContactBook::contacts_are_sound(bool has_walls) const {
   return there == back && std::adjacent_find(there.begin(), there.end()) == there.end();
 }
 
-bool ContactBook::is_sound(std::size_t bodies, double time, bool has_walls,
+bool ContactBook::is_sound(std::size_t bodies, double time, const std::optional<Box>& box,
                            const std::function<bool(BodyId)>& is_known) const {
   const auto event_is_sound = [&](const Event& event) {
     const bool pair = is_known(event.second) && event.first < event.second && event.wall == Wall::none;
-    const bool wall = event.second == no_body && has_walls && event.wall != Wall::none &&
-                      static_cast<int>(event.wall) <= wall_count;
+    const bool wall = event.second == no_body && event.wall != Wall::none &&
+                      static_cast<int>(event.wall) <= wall_count && box && stands(*box, event.wall);
     if (event.time != time || !is_known(event.first)) return false;
     switch (event.kind) {
       case EventKind::bound_violation:
@@ -162,7 +165,7 @@ bool ContactBook::is_sound(std::size_t bodies, double time, bool has_walls,
     return false;
   };
   const auto change_is_sound = [&](const auto& pair) { return pair.first < bodies && pair.second < bodies; };
-  return entries_.size() == bodies && contacts_are_sound(has_walls) &&
+  return entries_.size() == bodies && contacts_are_sound(box) &&
          std::all_of(pending_.begin(), pending_.end(), event_is_sound) &&
          std::all_of(ended_.begin(), ended_.end(), event_is_sound) &&
          std::all_of(guards_told_.begin(), guards_told_.end(), event_is_sound) &&

@@ -32,7 +32,7 @@ struct Crossing {
 class ContactBook {
  public:
   explicit ContactBook(const WorldDefinition& definition)
-      : rule_(definition), sensor_rule_(rule_.with_ends()) {}
+      : rule_(definition), sensor_rule_(rule_.with_ends()), space_(definition) {}
 
   /// Of contacts.
   const ContactRule& rule() const { return rule_; }
@@ -70,12 +70,13 @@ class ContactBook {
                     Ends ends) {
     std::vector<Event> found;
     for (const std::uint32_t partner : partners_of(body))
-      found.push_back(contact_event(EventKind::contact_end, time, sphere(body), sphere(partner)));
+      found.push_back(contact_event(EventKind::contact_end, time, sphere(body), sphere(partner), space_));
     for (const Wall wall : walls)
       if (touches_wall(body, wall))
         found.push_back(wall_event(EventKind::wall_end, time, sphere(body), *box, wall));
     for (const Crossing& crossing : crossings_of(body)) {
-      found.push_back(contact_event(EventKind::sensor_leave, time, sphere(body), sphere(crossing.partner)));
+      found.push_back(
+          contact_event(EventKind::sensor_leave, time, sphere(body), sphere(crossing.partner), space_));
       found.back().distance = crossing.distance;
     }
     for (const Event& event : found)
@@ -128,15 +129,16 @@ class ContactBook {
   std::vector<std::pair<std::uint32_t, std::uint32_t>>& changed() { return changed_; }
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& changed() const { return changed_; }
 
-  /// All but the rules, which follow from the world's definition.
+  /// All but the rules and the space, which follow from the world's definition.
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [rule, sensor_rule, entries, pending, ended, guards_told, changed] = self;
+    auto& [rule, sensor_rule, space, entries, pending, ended, guards_told, changed] = self;
     archive(entries, pending, ended, guards_told, changed);
   }
   /// For one that was read in a world of this many bodies at `time`: true when contacts are mutual, and
-  /// events are such as could be announced now. `is_known(id)` tells whether an id was ever given out.
-  bool is_sound(std::size_t bodies, double time, bool has_walls,
+  /// events are such as could be announced now. `box` has the walls that stand; `is_known(id)` tells whether
+  /// an id was ever given out.
+  bool is_sound(std::size_t bodies, double time, const std::optional<Box>& box,
                 const std::function<bool(BodyId)>& is_known) const;
 
  private:
@@ -166,12 +168,13 @@ class ContactBook {
   void end(const Event& contact);
   bool take_effect(Event& event, const Sphere& first, const Sphere& second, const std::optional<Box>& box);
   bool still_begins(const Event& now) const;
-  bool contacts_are_sound(bool has_walls) const;
+  bool contacts_are_sound(const std::optional<Box>& box) const;
   bool is_repeated(const Event& begin, std::uint32_t body) const;
   void note_contact(Event& begin);
 
   ContactRule rule_;
   ContactRule sensor_rule_;
+  Space space_;
   std::vector<Entry> entries_;
   std::set<Event, DeliveredBefore> pending_;
   std::set<Event, DeliveredBefore> ended_;  ///< by the caller's changes

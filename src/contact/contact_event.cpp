@@ -1,5 +1,6 @@
 #include "contact/contact_event.hpp"
 
+#include <limits>
 #include <tuple>
 
 namespace kinesphere {
@@ -52,6 +53,14 @@ Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& 
   return event;
 }
 
+Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& b, const Space& space) {
+  if (!space.repeats()) return contact_event(kind, time, a, b);
+  const Sphere& first = a.id < b.id ? a : b;
+  Sphere second = a.id < b.id ? b : a;
+  second.state.position += space.shift_to_nearest(second.state.position, first.state.position);
+  return contact_event(kind, time, first, second);
+}
+
 Event wall_event(EventKind kind, double time, const Sphere& sphere, const Box& box, Wall wall) {
   const HalfSpace inside = half_space(box, wall);
   Event event{.kind = kind, .time = time, .first = sphere.id, .wall = wall};
@@ -72,6 +81,24 @@ Event violation_event(double time, BodyId body, const State& report, const Broke
   event.velocity_excess = broken.velocity_excess;
   return event;
 }
+
+std::optional<Box> walls_of(const WorldDefinition& definition) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (!definition.box) return std::nullopt;
+  Box box = *definition.box;
+  bool any = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis < definition.dimensions && !definition.periodic[axis]) {
+      any = true;
+    } else {
+      box.lower[axis] = -infinity;
+      box.upper[axis] = infinity;
+    }
+  }
+  return any ? std::optional(box) : std::nullopt;
+}
+
+bool stands(const Box& box, Wall wall) { return std::isfinite(box.lower[(static_cast<int>(wall) - 1) / 2]); }
 
 HalfSpace half_space(const Box& box, Wall wall) {
   const int index = static_cast<int>(wall) - 1;

@@ -5,6 +5,7 @@
 #include "kinesphere/bound.hpp"
 #include "kinesphere/event.hpp"
 #include "kinesphere/shape.hpp"
+#include "space/space.hpp"
 
 namespace kinesphere {
 
@@ -18,11 +19,19 @@ struct Sphere {
 
 /// Event::first is the one with the smaller id, whichever comes first here.
 Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& b);
+/// Event::second is seen in its image nearest to the first.
+Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& b, const Space& space);
 Event wall_event(EventKind kind, double time, const Sphere& sphere, const Box& box, Wall wall);
 /// A bound_violation.
 Event violation_event(double time, BodyId body, const State& report, const BrokenPromise& broken);
 
-/// The half-space inside a wall of the box.
+/// The walls of a world as a box, from -infinity to +infinity on axes that have none; nothing where no axis
+/// has any.
+std::optional<Box> walls_of(const WorldDefinition& definition);
+/// Whether a box of this kind has the wall.
+bool stands(const Box& box, Wall wall);
+
+/// The half-space inside a wall of the box, one that stands.
 HalfSpace half_space(const Box& box, Wall wall);
 
 /// The bit of a wall in a set of walls.

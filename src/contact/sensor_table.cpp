@@ -15,9 +15,10 @@ const Sensor& SensorTable::of(SensorClass sensor_class) const {
   return sensor_class < sensors_.size() ? sensors_[sensor_class] : nothing;
 }
 
-double SensorTable::reach(SensorClass sensor_class) const {
-  const std::vector<double>& distances = of(sensor_class).distances;
-  return distances.empty() ? 0.0 : *std::max_element(distances.begin(), distances.end());
+double reach_of(const Sensor& sensor) {
+  double largest = 0.0;
+  for (const double distance : sensor.distances) largest = std::max(largest, distance);
+  return largest;
 }
 
 }  // namespace kinesphere

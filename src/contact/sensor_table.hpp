@@ -10,6 +10,9 @@
 
 namespace kinesphere {
 
+/// Nothing farther away than this is sensed (length): the largest distance, or 0.
+double reach_of(const Sensor& sensor);
+
 class SensorTable {
  public:
   void set(SensorClass sensor_class, const Sensor& sensor);
@@ -17,8 +20,7 @@ class SensorTable {
   const Sensor& of(SensorClass sensor_class) const;
   /// False in a world without sensors.
   bool any() const { return any_; }
-  /// Nothing farther away than this is sensed (length; the largest distance, or 0).
-  double reach(SensorClass sensor_class) const;
+  double reach(SensorClass sensor_class) const { return reach_of(of(sensor_class)); }
 
   /// The largest distance at which either of the two senses the other and that is not `known`(distance).
   template <class Known>

@@ -37,7 +37,7 @@ class CheckedDetector final : public Detector {
 
   Result<void> kick(std::uint32_t body, const Vec3& velocity) override {
     if (!is_present(body)) return absent("kick", body);
-    if (auto valid = check_velocity(velocity, {body, 0}, "kick"); !valid) return valid;
+    if (auto valid = check_velocity(velocity, {body, 0}, definition_, "kick"); !valid) return valid;
     return detector_->kick(body, velocity);
   }
 
@@ -75,6 +75,18 @@ class CheckedDetector final : public Detector {
 };
 
 }  // namespace
+
+Result<void> check_whole_space(const WorldDefinition& definition) {
+  return InputCheck("detector")
+      .require(!definition.periodic.any(), ErrorCode::unsupported, {"periodic"},
+               "must be false on all axes for any detector but world",
+               std::string_view(definition.periodic.x   ? "true on x"
+                                : definition.periodic.y ? "true on y"
+                                                        : "true on z"))
+      .require(definition.dimensions == 3, ErrorCode::unsupported, {"dimensions"},
+               "must be 3 for any detector but world", static_cast<double>(definition.dimensions))
+      .result();
+}
 
 std::unique_ptr<Detector> with_checked_input(std::unique_ptr<Detector> detector,
                                              const WorldDefinition& definition, std::size_t bodies) {

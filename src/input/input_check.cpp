@@ -16,6 +16,8 @@ std::string text_of(double number) {
 
 std::string text_of(std::size_t number) { return std::to_string(number); }
 
+std::string text_of(std::string_view text) { return std::string(text); }
+
 std::string text_of(const Vec3& vector) {
   return "(" + text_of(vector.x) + ", " + text_of(vector.y) + ", " + text_of(vector.z) + ")";
 }

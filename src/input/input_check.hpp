@@ -14,6 +14,8 @@ namespace kinesphere {
 
 std::string text_of(double number);
 std::string text_of(std::size_t number);
+/// The text itself.
+std::string text_of(std::string_view text);
 std::string text_of(const Vec3& vector);
 std::string text_of(const Box& box);
 std::string text_of(const State& state);

@@ -108,6 +108,12 @@ double HashGrid::cells_per_length(std::size_t level) const {
   return std::ldexp(1.0, -(finest_exponent_ + exponent_step * static_cast<int>(level)));
 }
 
+double HashGrid::largest_extent() const {
+  for (std::size_t level = levels_.size(); level-- > 0;)
+    if (levels_[level].bodies > 0) return 1.0 / cells_per_length(level);
+  return 0.0;
+}
+
 void HashGrid::insert(std::uint32_t body, const FloatBox& box) {
   const int number = level_for(box.extent());
   while (levels_.size() <= static_cast<std::size_t>(number)) {

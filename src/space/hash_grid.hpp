@@ -50,6 +50,9 @@ class HashGrid {
   /// Of the cells on the finest level in use: about twice the typical box (length).
   double finest_edge() const { return std::ldexp(1.0, finest_exponent_); }
 
+  /// No registered box is wider on any axis (length).
+  double largest_extent() const;
+
   /// Calls visit(body) once for each registered body whose box overlaps `box`, touching included. `visit` may
   /// not change the grid. Cost: the cells that the box meets, on each level in use, and what they hold.
   template <class Visit>

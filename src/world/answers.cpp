@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bound/relative_motion.hpp"
 #include "world/present.hpp"
 
 namespace kinesphere {
@@ -71,15 +72,56 @@ void World::Engine::Answers::consider_touching(std::uint32_t number, Onset& firs
 }
 
 void World::Engine::Answers::consider_walls(std::uint32_t number, Onset& first) const {
-  if (!engine_.definition_.box || !body(number).present() || body(number).is_fixed()) return;
+  if (!engine_.walls_ || !body(number).present() || body(number).is_fixed()) return;
   const double known = recorded_of_walls(number);
   if (known >= first.time) return;
   const Bound bound = guarded(number);
   for (const Wall wall : walls) {
-    const HalfSpace inside = half_space(*engine_.definition_.box, wall);
+    if (!stands(*engine_.walls_, wall)) continue;
+    const HalfSpace inside = half_space(*engine_.walls_, wall);
     const double time = std::max(known, earliest_meeting(bound, inside, now_, infinity));
     if (time < first.time) first = {time, number, std::nullopt, wall, false};
   }
+}
+
+/// As earliest_meeting, in whichever image.
+double World::Engine::Answers::meeting(const Extent& extent_of_a, const Extent& extent_of_b) const {
+  const Space& space = engine_.space_;
+  if (!space.repeats()) {
+    return visit_extents(extent_of_a, extent_of_b, [this](const Bound& bound, const auto& partner) {
+      return earliest_meeting(bound, partner, now_, infinity);
+    });
+  }
+  const Bound& a = extent_of_a.bound;
+  const Bound& b = extent_of_b.bound;
+  Bound image = b;
+  image.position += space.shift_to_nearest(b.centre_at(now_), a.centre_at(now_));
+  const Vec3 nearest = image.position;
+  const RelativeMotion motion(a, image, now_);
+  // All images that are at most one period from the nearest; the others are at least two away on some axis,
+  // and cannot come before the bounds have gone this way on it.
+  double first = infinity;
+  std::array<int, 3> most{};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!space.repeats(axis)) continue;
+    most[static_cast<std::size_t>(axis)] = 1;
+    const double way =
+        2.0 * space.period()[axis] - std::abs(motion.offset[axis]) - motion.radii - motion.growth;
+    const double speed = std::abs(motion.velocity[axis]) + motion.growth_speed;
+    const double acceleration = std::abs(motion.acceleration[axis]) + motion.growth_acceleration;
+    constexpr double margin = rounding::margin;
+    const double until = rounding::first_crossing(
+        way - margin * (motion.offset_size + 2.0 * space.period()[axis]),
+        -(speed + margin * motion.velocity_size), -(acceleration + margin * motion.acceleration_size));
+    first = std::min(first, rounding::sum_down(now_, until));
+  }
+  for (int x = -most[0]; x <= most[0]; ++x)
+    for (int y = -most[1]; y <= most[1]; ++y)
+      for (int z = -most[2]; z <= most[2]; ++z) {
+        image.position = nearest + space.shift_of({double(x), double(y), double(z)});
+        first = std::min(first, earliest_meeting(a, image, now_, std::max(first, now_)));
+      }
+  return std::max(first, now_);
 }
 
 void World::Engine::Answers::consider(std::uint32_t a, std::uint32_t b, Onset& first) const {
@@ -88,11 +130,7 @@ void World::Engine::Answers::consider(std::uint32_t a, std::uint32_t b, Onset& f
   if (known >= first.time) return;
   const Bound bound_of_a = guarded(a);
   const Bound bound_of_b = guarded(b);
-  const double meeting = visit_extents(engine_.extent(a, bound_of_a), engine_.extent(b, bound_of_b),
-                                       [this](const Bound& bound, const auto& partner) {
-                                         return earliest_meeting(bound, partner, now_, infinity);
-                                       });
-  const double time = std::max(known, meeting);
+  const double time = std::max(known, meeting(engine_.extent(a, bound_of_a), engine_.extent(b, bound_of_b)));
   if (time < first.time) first = {time, a, b, Wall::none, false};
 }
 
@@ -146,10 +184,11 @@ void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t
     const Box box = body(number).is_fixed() ? body(number).box
                     : horizon < infinity    ? swept_box(guarded(number), now_, horizon)
                                             : everywhere;
-    if (fits_grid(box)) {
-      grid.for_each_overlap(box, [&](std::uint32_t other) { consider(number, other, first); });
+    if (fits_grid(box) && engine_.space_.is_narrow(box)) {
+      engine_.space_.for_each_overlap(grid, box,
+                                      [&](std::uint32_t other) { consider(number, other, first); });
       for (const std::uint32_t other : beyond_grid) consider(number, other, first);
-      grid.set(number, box);
+      grid.set(number, engine_.space_.home(box));
     } else {
       std::for_each(numbers.begin(), at, [&](std::uint32_t other) { consider(number, other, first); });
       beyond_grid.push_back(number);
@@ -159,7 +198,8 @@ void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t
 
 DistanceLimits World::Engine::Answers::distance(std::uint32_t a, std::uint32_t b, double time) const {
   const Bound first = present_bound(body(a), now_);
-  const Bound second = present_bound(body(b), now_);
+  Bound second = present_bound(body(b), now_);
+  second.position += engine_.space_.shift_to_nearest(second.centre_at(time), first.centre_at(time));
   const Extent extent_of_a = engine_.extent(a, first);
   const Extent extent_of_b = engine_.extent(b, second);
   if (extent_of_a.shape && extent_of_b.shape) return {-infinity, infinity, false};

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 
 #include "input/input_check.hpp"
 #include "world/engine.hpp"
@@ -74,10 +75,13 @@ class World::Engine::Audit {
     if (const auto wrong = engine_.grid_.check(number, b.box))
       find("registration", name(number) + " " + *wrong);
     if (b.is_fixed()) return check_fixed(number);
-    if (b.dirty || !exact(b)) return;
+    if (b.dirty) return;
+    if (!engine_.space_.is_narrow(b.box)) find("registration", name(number) + " has too wide a box");
+    if (!exact(b)) return;
     const Vec3 room = Vec3{1.0, 1.0, 1.0} * (0.25 * engine_.definition_.contact_tolerance);
-    const double exit =
-        earliest_exit(engine_.reach(b), {b.box.lower - room, b.box.upper + room}, now_, b.box_end);
+    Box box{b.box.lower - room, b.box.upper + room};
+    if (engine_.space_.is_flat()) std::tie(box.lower.z, box.upper.z) = std::pair(-infinity, infinity);
+    const double exit = earliest_exit(engine_.reach(b), box, now_, b.box_end);
     if (too_late(b.box_end, exit, now_))
       find("registration", name(number) + " leaves its box" + times(b.box_end, exit));
   }
@@ -110,16 +114,16 @@ class World::Engine::Audit {
 
   void check_walls(std::uint32_t number) {
     const Body& b = body(number);
-    if (!engine_.definition_.box || b.is_fixed() || !settled(number, number) ||
-        engine_.book_.walls_of(number) != 0 || !exact(b))
+    if (!engine_.walls_ || b.is_fixed() || !settled(number, number) || engine_.book_.walls_of(number) != 0 ||
+        !exact(b))
       return;
     // As for pairs: within the tolerance bouncing bodies follow the contact rule.
-    if (impacts() && until_reports_of_walls(engine_.book_.rule(), b.bound, *engine_.definition_.box, now_,
-                                            infinity) <= now_)
+    if (impacts() &&
+        until_reports_of_walls(engine_.book_.rule(), b.bound, *engine_.walls_, now_, infinity) <= now_)
       return;
     const double within = impacts() ? engine_.definition_.contact_tolerance : 0.0;
     const Vec3 room = Vec3{1.0, 1.0, 1.0} * within;
-    const Box box{engine_.definition_.box->lower - room, engine_.definition_.box->upper + room};
+    const Box box{engine_.walls_->lower - room, engine_.walls_->upper + room};
     const double reached = earliest_exit(b.bound, box, now_, b.box_end);
     if (too_late(b.wall_time, reached, now_) && reached > now_)
       find("wall", name(number) + " may reach a wall unseen" + times(b.wall_time, reached));
@@ -157,16 +161,25 @@ class World::Engine::Audit {
       for (const Watch& watch : body(watcher).watches) {
         if (watch.partner != partner || watch.epoch != body(partner).epoch) continue;
         watched = true;
+        // Then the two may meet in another image.
+        if (engine_.space_.repeats() && watch.time > std::min(body(a).box_end, body(b).box_end))
+          find("certificate", pair(a, b) + " are watched beyond the end of a box");
         if (too_late(watch.time, change, now_))
           find("certificate", pair(a, b) + " may change unseen" + times(watch.time, change));
       }
     }
     if (watched) return;
-    const bool for_ever = threshold.within && !engine_.sensors_.any();
+    const bool for_ever = threshold.within && !engine_.facts_end_with_boxes();
     const double until = for_ever ? infinity : std::min(body(a).box_end, body(b).box_end);
-    if (!threshold.within && !FloatBox(body(a).box).overlaps(FloatBox(body(b).box))) return;
+    if (!threshold.within && !boxes_overlap(a, b)) return;
     if (too_late(until, change, now_))
       find("certificate", pair(a, b) + " are not watched" + times(until, change));
+  }
+
+  bool boxes_overlap(std::uint32_t a, std::uint32_t b) const {
+    const Vec3 shift = engine_.shift_to_meet(a, b);
+    const Box other{body(b).box.lower + shift, body(b).box.upper + shift};
+    return FloatBox(body(a).box).overlaps(FloatBox(other));
   }
 
   double earliest_change(std::uint32_t a, std::uint32_t b, const Threshold& threshold) const {
@@ -183,10 +196,8 @@ class World::Engine::Audit {
   bool checkable(std::uint32_t a, std::uint32_t b, const Threshold& threshold) const {
     if (!exact(body(a)) || !exact(body(b))) return false;
     const ContactRule& rule = engine_.book_.rule_of(threshold);
-    if (!rule.impacts_only()) return true;
-    return engine_.visit_pair(a, b, [&](const Bound& bound, const auto& partner) {
-      return gap_limits(bound, partner, now_).lower > rule.tolerance();
-    });
+    return !rule.impacts_only() ||
+           engine_.gap_now(engine_.extent(a), engine_.extent(b)).lower > rule.tolerance();
   }
 
   /// True when the engine owes a fact about the pair (a body and itself: its walls) now.

@@ -13,9 +13,10 @@ Bound World::Engine::bound_with(BodyId id, const BodyDefinition& changed) const 
 }
 
 std::optional<Wall> World::Engine::certain_overlap_of_wall(const Bound& bound) const {
-  if (!definition_.box) return std::nullopt;
+  if (!walls_) return std::nullopt;
   for (const Wall wall : walls)
-    if (gap_limits(bound, half_space(*definition_.box, wall), time_).upper < -definition_.contact_tolerance)
+    if (stands(*walls_, wall) &&
+        gap_limits(bound, half_space(*walls_, wall), time_).upper < -definition_.contact_tolerance)
       return wall;
   return std::nullopt;
 }
@@ -24,19 +25,15 @@ std::optional<Wall> World::Engine::certain_overlap_of_wall(const Bound& bound) c
 /// before.
 void World::Engine::replace(std::uint32_t number, const Bound& bound) {
   const double apart = book_.rule().separation_distance();
-  const auto lower_gap = [this](const Bound& moving, const auto& other) {
-    return gap_limits(moving, other, time_).lower;
-  };
   const auto ends = [&](const Event& end) {
     if (book_.pending().contains(end)) return true;
     const std::uint32_t partner = end.first.index == number ? end.second.index : end.first.index;
-    const double gap = end.wall == Wall::none
-                           ? visit_extents(extent(number, bound), extent(partner), lower_gap)
-                           : lower_gap(bound, half_space(*definition_.box, end.wall));
-    return gap >= end.distance + apart;
+    const GapLimits gap = end.wall == Wall::none ? gap_now(extent(number, bound), extent(partner))
+                                                 : gap_limits(bound, half_space(*walls_, end.wall), time_);
+    return gap.lower >= end.distance + apart;
   };
   book_.end_contacts(
-      number, time_, [this](std::uint32_t other) { return sphere(other); }, definition_.box, ends);
+      number, time_, [this](std::uint32_t other) { return sphere(other); }, walls_, ends);
   void_facts(number);
   appear(number, bound);
 }
@@ -44,6 +41,7 @@ void World::Engine::replace(std::uint32_t number, const Bound& bound) {
 void World::Engine::teleport(BodyId id, const State& state) {
   Body& body = bodies_[id.index];
   if (definition_.contacts == ContactMode::impacts) book_.release_all(id.index);
+  body.image = {};
   replace(id.index, bound_of(body.definition, state, time_));
   body.definition.position = state.position;
   body.definition.velocity = state.velocity;
@@ -81,6 +79,7 @@ void World::Engine::enable(BodyId id, const State& state) {
   if (body.is_fixed()) return appear_fixed(id.index);
   body.definition.position = state.position;
   body.definition.velocity = state.velocity;
+  body.image = {};
   appear(id.index, bound_now(body.definition));
 }
 
@@ -124,9 +123,10 @@ void World::Engine::refilter(BodyId id) {
   const std::uint32_t number = id.index;
   if (!bodies_[number].present()) return;
   book_.end_contacts(
-      number, time_, [this](std::uint32_t other) { return sphere(other); }, definition_.box,
+      number, time_, [this](std::uint32_t other) { return sphere(other); }, walls_,
       [this](const Event& end) { return !may_hold(end); });
   book_.drop_pending(number, [this](const Event& event) { return may_hold(event); });
+  if (bodies_[number].is_fixed()) register_shape(number);
   void_facts(number);
 }
 

@@ -5,18 +5,20 @@ namespace kinesphere {
 
 Sphere World::Engine::sphere(std::uint32_t number) const {
   const Bound& bound = bodies_[number].bound;
-  return {id_of(number),
-          bound.radius,
-          {bound.centre_at(time_), bound.velocity_at(time_)},
-          shapes_.empty() ? nullptr : extent(number).shape};
+  Sphere sphere{id_of(number),
+                bound.radius,
+                {bound.centre_at(time_), bound.velocity_at(time_)},
+                shapes_.empty() ? nullptr : extent(number).shape};
+  if (space_.repeats()) sphere.state.position = space_.wrapped(sphere.state.position).position;
+  return sphere;
 }
 
 Event World::Engine::contact(EventKind kind, std::uint32_t a, std::uint32_t b) const {
-  return contact_event(kind, time_, sphere(a), sphere(b));
+  return contact_event(kind, time_, sphere(a), sphere(b), space_);
 }
 
 Event World::Engine::wall_contact(EventKind kind, std::uint32_t number, Wall wall) const {
-  return wall_event(kind, time_, sphere(number), *definition_.box, wall);
+  return wall_event(kind, time_, sphere(number), *walls_, wall);
 }
 
 std::optional<Event> World::Engine::deliver() {
@@ -24,7 +26,7 @@ std::optional<Event> World::Engine::deliver() {
     return id == id_of(id.index) && bodies_[id.index].present() ? std::optional(sphere(id.index))
                                                                 : std::nullopt;
   };
-  std::optional<Event> event = book_.deliver(sphere_of, definition_.box);
+  std::optional<Event> event = book_.deliver(sphere_of, walls_);
   if (!event) return event;
   ++counters_.events[static_cast<std::size_t>(event->kind)];
   if (event->repeated) ++counters_.repeated_contacts;

@@ -7,7 +7,11 @@
 namespace kinesphere {
 
 World::Engine::Engine(const WorldDefinition& definition)
-    : definition_(definition), book_(definition), time_(definition.start_time) {}
+    : definition_(definition),
+      space_(definition),
+      walls_(walls_of(definition)),
+      book_(definition),
+      time_(definition.start_time) {}
 
 /// A body that lives and has nothing else yet.
 std::uint32_t World::Engine::take_number() {
@@ -43,8 +47,9 @@ BodyId World::Engine::next_id(std::size_t additions_before) const {
 void World::Engine::appear(std::uint32_t number, const Bound& bound) {
   Body& body = bodies_[number];
   body.bound = bound;
-  body.box = box_now(bound);
   body.box_end = time_;
+  body.box = box_now(bound);
+  bring_home(body);
   grid_.set(number, body.box);
   mark_dirty(number);
 }
@@ -52,7 +57,7 @@ void World::Engine::appear(std::uint32_t number, const Bound& bound) {
 /// The body's contacts end, and nobody finds it any more.
 void World::Engine::withdraw(std::uint32_t number) {
   book_.depart(
-      number, time_, [this](std::uint32_t other) { return sphere(other); }, definition_.box);
+      number, time_, [this](std::uint32_t other) { return sphere(other); }, walls_);
   grid_.remove(number);
   schedule_.remove(number);
   bodies_[number].dirty = false;
@@ -76,17 +81,42 @@ Bound World::Engine::bound_now(const BodyDefinition& body) const {
   return bound_of(body, {body.position, body.velocity}, time_);
 }
 
+GapLimits World::Engine::gap_now(const Extent& a, const Extent& b) const {
+  const auto limits = [this](const Bound& bound, const auto& partner) {
+    return gap_limits(bound, partner, time_);
+  };
+  if (!space_.repeats()) return visit_extents(a, b, limits);
+  Bound nearest = b.bound;
+  nearest.position += space_.shift_to_nearest(b.bound.centre_at(time_), a.bound.centre_at(time_));
+  return limits(a.bound, nearest);
+}
+
 bool World::Engine::certainly_overlap(const Extent& a, const Extent& b) const {
-  return visit_extents(a, b, [this](const Bound& bound, const auto& partner) {
-    return gap_limits(bound, partner, time_).upper < -definition_.contact_tolerance;
-  });
+  return gap_now(a, b).upper < -definition_.contact_tolerance;
+}
+
+/// The body with its last report in the primary box, wherever the engine keeps it.
+BodyView World::Engine::view(std::uint32_t number) const {
+  const Body& body = bodies_[number];
+  BodyView view{body.definition, body.bound, body.box, body.box_end, {}, body.enabled, body.is_fixed()};
+  if (!space_.repeats()) return view;
+  const auto [position, images] = space_.wrapped(body.bound.position);
+  const Vec3 shift = space_.shift_of(images);
+  view.definition.position = view.bound.position = position;
+  view.box = {body.box.lower - shift, body.box.upper - shift};
+  for (int axis = 0; axis < 3; ++axis) {
+    constexpr double limit = 0x1p62;
+    view.image[static_cast<std::size_t>(axis)] =
+        static_cast<std::int64_t>(std::clamp(body.image[axis] + images[axis], -limit, limit));
+  }
+  return view;
 }
 
 std::optional<BodyId> World::Engine::certain_overlap(BodyId id, const Extent& extent,
                                                      const BodyDefinition& definition) const {
   std::optional<BodyId> found;
   const Box box = extent.shape ? box_of(*extent.shape) : box_now(extent.bound);
-  grid_.for_each_overlap(box, [&](std::uint32_t other) {
+  space_.for_each_overlap(grid_, box, [&](std::uint32_t other) {
     const Body& body = bodies_[other];
     const bool certain = other != id.index && !(extent.fixed && body.is_fixed()) &&
                          certainly_overlap(extent, this->extent(other)) &&

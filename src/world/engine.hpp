@@ -15,6 +15,11 @@
 // has run out, which renews the first and the last kind of fact. Each body is scheduled at the earliest of
 // its box end, its wall time and its watches. A fixed body has a shape in a table of its own and a box for
 // ever. It is never probed and watches nobody: its partners, which move, watch it.
+//
+// Where space repeats, the image in which two bodies can meet is the one in which their boxes are nearest
+// (space/space.hpp). It may be another one after either box has ended, so there no watch outlives the boxes.
+// A body's bound and box are in one image: reports are moved to that nearest to the bound, and a new box
+// brings both home to the primary box. Of fixed bodies there are only balls there, which are bounds at rest.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +38,7 @@
 #include "kinesphere/shape.hpp"
 #include "kinesphere/world.hpp"
 #include "schedule/schedule.hpp"
-#include "space/hash_grid.hpp"
+#include "space/space.hpp"
 #include "world/extent.hpp"
 #include "world/horizon.hpp"
 
@@ -60,6 +65,8 @@ struct Body {
   BodyDefinition definition;  ///< with the state of the last report
   Bound bound;                ///< since the last report
   Box box;                    ///< contains the body, and all that it senses, until box_end
+  /// Whole numbers: bound.position + image * period is on the path since the caller placed the body.
+  Vec3 image{};
   double box_end = 0.0;
   double wall_time = 0.0;  ///< no wall contact begins or ends before this or, if it is infinite, box_end
   std::optional<Horizon> horizon;
@@ -78,10 +85,10 @@ struct Body {
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [promised, since_report, place, place_end, walls_until, ahead, watched, own_generation, own_epoch,
-           own_shape, lives, takes_part, unsettled, has_searched, kicked] = self;
-    archive(promised, since_report, place, place_end, walls_until, ahead, watched, own_generation, own_epoch,
-            own_shape, lives, takes_part, unsettled, has_searched, kicked);
+    auto& [promised, since_report, place, images, place_end, walls_until, ahead, watched, own_generation,
+           own_epoch, own_shape, lives, takes_part, unsettled, has_searched, kicked] = self;
+    archive(promised, since_report, place, images, place_end, walls_until, ahead, watched, own_generation,
+            own_epoch, own_shape, lives, takes_part, unsettled, has_searched, kicked);
   }
 
   /// The world knows its present state.
@@ -128,24 +135,32 @@ class World::Engine {
   bool probing() const { return probing_; }
   /// The ids that the next bodies added will have, in their order.
   BodyId next_id(std::size_t additions_before = 0) const;
+  BodyView view(std::uint32_t number) const;
+  const Space& space() const { return space_; }
   /// Where a body with this definition would be now.
   Bound bound_now(const BodyDefinition& body) const;
   /// The body's bound, if its radius and errors were those of `changed`.
   Bound bound_with(BodyId id, const BodyDefinition& changed) const;
-  Box box_now(const Bound& bound) const { return swept_box(bound, time_, time_); }
+  Box box_now(const Bound& bound) const { return space_.within(swept_box(bound, time_, time_)); }
   Box box_of(const Shape& shape) const;
+  Box box_of(const Body& fixed) const;
   /// What the body takes up, or would with another bound.
   Extent extent(std::uint32_t number) const { return extent(number, bodies_[number].bound); }
   Extent extent(std::uint32_t number, const Bound& bound) const {
     if (!bodies_[number].is_fixed()) return {bound};
     return extent_of(bound, shapes_[bodies_[number].shape_number]);
   }
-  /// visit_extents() of two bodies as they are; in most worlds nothing is fixed.
+  /// visit_extents() of two bodies as they are, in the image in which they may meet while both boxes last; in
+  /// most worlds nothing is fixed and space does not repeat.
   template <class Visit>
   auto visit_pair(std::uint32_t a, std::uint32_t b, Visit visit) const {
+    if (space_.repeats()) return visit(bodies_[a].bound, seen_from(a, b));
     if (shapes_.empty()) return visit(bodies_[a].bound, bodies_[b].bound);
     return visit_extents(extent(a), extent(b), visit);
   }
+  /// A shape that has been checked: the normal of a half-space made exactly as long as doubles allow, a ball
+  /// moved into the box where space repeats, a box without ends in z in the plane.
+  Shape as_kept(Shape shape) const;
   static Extent extent_of(const Bound& bound, const Shape& shape) {
     return {bound, true, std::holds_alternative<Ball>(shape) ? nullptr : &shape};
   }
@@ -212,6 +227,9 @@ class World::Engine {
   }
   bool may_hold(const Event& event) const;
 
+  /// The limits of the gap of the two now, in the image in which they are nearest.
+  GapLimits gap_now(const Extent& a, const Extent& b) const;
+
   // settling.cpp: facts.
   void mark_dirty(std::uint32_t number);
   void void_facts(std::uint32_t number);
@@ -220,6 +238,13 @@ class World::Engine {
   void choose_first_horizons(const std::vector<std::uint32_t>& round);
   Bound reach(const Body& body) const;
   void register_box(std::uint32_t number);
+  void bring_home(Body& body) const;
+  double longest_in_period(const Body& body) const;
+  Vec3 shift_to_meet(std::uint32_t a, std::uint32_t b) const;
+  Bound seen_from(std::uint32_t a, std::uint32_t b) const;
+  /// Whether the facts about a pair hold no longer than its boxes, also while it touches: one watch stands
+  /// for all its thresholds, or for one image.
+  bool facts_end_with_boxes() const { return sensors_.any() || space_.repeats(); }
   Result<void> search(std::uint32_t number);
   Result<void> settle_pair(std::uint32_t number, std::uint32_t partner);
   template <class Partner>
@@ -237,7 +262,7 @@ class World::Engine {
   // probing.cpp: reports.
   Result<void> probe(std::span<const std::uint32_t> numbers);
   Result<void> probe_staler(std::uint32_t a, std::uint32_t b);
-  void apply_report(std::uint32_t number, const State& state);
+  void apply_report(std::uint32_t number, const State& answer);
 
   // contacts.cpp: events.
   Sphere sphere(std::uint32_t number) const;
@@ -253,9 +278,12 @@ class World::Engine {
   bool shapes_are_sound() const;
   bool is_sound(const Body& body) const;
   bool is_sound_fixed(const Body& body) const;
+  bool image_is_sound(const Body& body) const;
   bool was_given_out(BodyId id) const;
 
   WorldDefinition definition_;
+  Space space_;
+  std::optional<Box> walls_;  ///< as walls_of(definition_)
   ContactBook book_;
   double time_;
   std::size_t size_ = 0;

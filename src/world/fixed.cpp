@@ -32,6 +32,17 @@ Box World::Engine::box_of(const Shape& shape) const {
   return bounding_box(shape, 8.0 * coordinate_limit(definition_));
 }
 
+Shape World::Engine::as_kept(Shape shape) const {
+  if (auto* solid = std::get_if<HalfSpace>(&shape)) solid->normal = solid->normal / norm(solid->normal);
+  if (auto* ball = std::get_if<Ball>(&shape); ball && space_.repeats())
+    ball->centre = space_.wrapped(ball->centre).position;
+  if (auto* box = std::get_if<Box>(&shape); box && space_.is_flat()) {
+    box->upper.z = coordinate_limit(definition_);
+    box->lower.z = -box->upper.z;
+  }
+  return shape;
+}
+
 BodyId World::Engine::add_fixed(const FixedDefinition& definition) {
   const std::uint32_t number = take_number();
   Body& body = bodies_[number];
@@ -60,13 +71,16 @@ void World::Engine::appear_fixed(std::uint32_t number) {
   mark_dirty(number);
 }
 
-/// With room for all that it senses around it.
+/// Of a fixed body, with room for all that it senses around it.
+Box World::Engine::box_of(const Body& fixed) const {
+  const Vec3 room = Vec3{1.0, 1.0, 1.0} * sensors_.reach(fixed.definition.sensor_class);
+  const Box box = box_of(shapes_[fixed.shape_number]);
+  return space_.within({box.lower - room, box.upper + room});
+}
+
 void World::Engine::register_shape(std::uint32_t number) {
-  Body& body = bodies_[number];
-  const Vec3 room = Vec3{1.0, 1.0, 1.0} * sensors_.reach(body.definition.sensor_class);
-  const Box box = box_of(shape(number));
-  body.box = {box.lower - room, box.upper + room};
-  grid_.set(number, body.box);
+  bodies_[number].box = box_of(bodies_[number]);
+  grid_.set(number, bodies_[number].box);
 }
 
 }  // namespace kinesphere

@@ -11,7 +11,8 @@ namespace kinesphere {
 /// leaves the body a way D beyond its own width w costs about `registration_cost + larger + density (2 (w +
 /// D))^3` candidate tests and lasts in proportion to D; `larger` are those with boxes so much larger that
 /// this one lies within them whatever its own size is. Per unit of time that is least where 2 D^3 + 3 w D^2 =
-/// w^3 + (registration_cost + larger) / (8 density).
+/// w^3 + (registration_cost + larger) / (8 density). In two dimensions the square of 2 (w + D) stands for the
+/// cube, and it is least where D^2 = w^2 + (registration_cost + larger) / (4 density).
 class Horizon {
  public:
   /// To be read into.
@@ -29,12 +30,18 @@ class Horizon {
   static bool is_larger(double extent, double than_extent) { return extent > 4.0 * than_extent; }
 
   /// Learns from a search with a box of this extent, and chooses the next way.
-  void learn(std::size_t candidates, std::size_t larger, double box_extent, double body_width) {
+  void learn(std::size_t candidates, std::size_t larger, double box_extent, double body_width,
+             int dimensions = 3) {
     const double reach = 2.0 * std::max(box_extent, shortest_way_);
-    density_ +=
-        learning_rate * (static_cast<double>(candidates - larger) / (reach * reach * reach) - density_);
-    const double w = body_width;
+    const double size = dimensions == 2 ? reach * reach : reach * reach * reach;
+    density_ += learning_rate * (static_cast<double>(candidates - larger) / size - density_);
     const double fixed_cost = registration_cost + static_cast<double>(larger);
+    if (dimensions == 2) {
+      const double best = std::sqrt(body_width * body_width + fixed_cost / (4.0 * density_));
+      way_ = std::clamp(std::clamp(best, 0.5 * way_, 2.0 * way_), shortest_way_, longest_way_);
+      return;
+    }
+    const double w = body_width;
     const double target = w * w * w + fixed_cost / (8.0 * density_);
     double way = way_;
     for (int step = 0; step < 3; ++step) {

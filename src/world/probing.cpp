@@ -65,8 +65,11 @@ Result<void> World::Engine::probe_staler(std::uint32_t a, std::uint32_t b) {
   return probe(std::span(&staler, 1));
 }
 
-void World::Engine::apply_report(std::uint32_t number, const State& state) {
+void World::Engine::apply_report(std::uint32_t number, const State& answer) {
   Body& body = bodies_[number];
+  State state = answer;
+  if (space_.repeats())
+    state.position += space_.shift_to_nearest(answer.position, body.bound.centre_at(time_));
   const auto kicked_to = body.kicked_since_report ? std::optional(body.definition.velocity) : std::nullopt;
   const auto broken =
       broken_promise(body.definition, body.bound, state, time_, kicked_to, definition_.contact_tolerance);
@@ -75,7 +78,8 @@ void World::Engine::apply_report(std::uint32_t number, const State& state) {
   body.bound = bound_of(body.definition, state, time_);
   body.kicked_since_report = false;
   if (!broken) return;
-  const Event violation = violation_event(time_, id_of(number), state, *broken);
+  const Event violation = violation_event(time_, id_of(number),
+                                          {space_.wrapped(state.position).position, state.velocity}, *broken);
   book_.announce(violation);
   void_facts(number);
 }

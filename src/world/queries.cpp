@@ -83,6 +83,21 @@ std::optional<Passage> passage(const Way& way, const Vec3& centre, double radius
   return found;
 }
 
+/// A body may have been met in several pieces of the way, and in several images.
+void keep_first_of_each_body(std::vector<Hit>& hits) {
+  std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.body < b.body; });
+  std::size_t kept = 0;
+  for (const Hit& hit : hits) {
+    if (kept > 0 && hits[kept - 1].body == hit.body) {
+      hits[kept - 1].lower = std::min(hits[kept - 1].lower, hit.lower);
+      hits[kept - 1].upper = std::min(hits[kept - 1].upper, hit.upper);
+    } else {
+      hits[kept++] = hit;
+    }
+  }
+  hits.resize(kept);
+}
+
 }  // namespace
 
 /// The bodies that may be in the box now, by index. A registered box holds its body until box_end, which is
@@ -91,7 +106,7 @@ std::vector<std::uint32_t> World::Engine::Queries::candidates(const Box& box) co
   std::vector<std::uint32_t> numbers;
   for (const std::uint32_t number : engine_.dirty_)
     if (engine_.bodies_[number].dirty) numbers.push_back(number);
-  engine_.grid_.for_each_overlap(box, [&](std::uint32_t number) {
+  engine_.space_.for_each_overlap(engine_.grid_, box, [&](std::uint32_t number) {
     if (!engine_.bodies_[number].dirty) numbers.push_back(number);
   });
   std::sort(numbers.begin(), numbers.end());
@@ -99,9 +114,17 @@ std::vector<std::uint32_t> World::Engine::Queries::candidates(const Box& box) co
   return numbers;
 }
 
+/// In the image that is nearest to a point.
+Place World::Engine::Queries::place(std::uint32_t number, const Vec3& point) const {
+  Place place = place_of(engine_.bodies_[number], now_);
+  place.centre += engine_.space_.shift_to_nearest(place.centre, point);
+  return place;
+}
+
 template <class Distance, class ShapeGap>
 std::vector<Found> World::Engine::Queries::overlapping(const Box& box, Distance distance_to,
                                                        ShapeGap gap_to) const {
+  const Vec3 middle = 0.5 * (box.lower + box.upper);
   std::vector<Found> found;
   const double size = norm_one(box.lower) + norm_one(box.upper);
   for (const std::uint32_t number : candidates(box)) {
@@ -111,7 +134,7 @@ std::vector<Found> World::Engine::Queries::overlapping(const Box& box, Distance 
       found.push_back({engine_.id_of(number), gap.upper <= 0.0 ? Certainty::certainly : Certainty::possibly});
       continue;
     }
-    const Place at = place(number);
+    const Place at = place(number, middle);
     const double distance = distance_to(at.centre);
     const double wrong = margin * (size + norm_one(at.centre) + at.outer);
     if (distance - wrong > at.outer) continue;
@@ -127,7 +150,8 @@ std::vector<Found> World::Engine::Queries::overlapping(const Vec3& centre, doubl
       [&](const Shape& shape) { return limits_of(resting(centre, radius), shape); });
 }
 
-std::vector<Found> World::Engine::Queries::overlapping(const Box& box) const {
+std::vector<Found> World::Engine::Queries::overlapping(const Box& region) const {
+  const Box box = engine_.space_.within(region);
   return overlapping(
       box, [&](const Vec3& point) { return distance_to_box(point, box); },
       [&](const Shape& shape) { return limits_of(box, shape); });
@@ -142,7 +166,7 @@ std::vector<Near> World::Engine::Queries::distances(const std::vector<std::uint3
       all.push_back({engine_.id_of(number), Certainty::possibly, gap.lower, gap.upper});
       continue;
     }
-    const Place at = place(number);
+    const Place at = place(number, point);
     const double distance = norm(at.centre - point);
     const double wrong = margin * (norm_one(point) + norm_one(at.centre) + at.outer);
     all.push_back({engine_.id_of(number), Certainty::possibly, distance - at.outer - wrong,
@@ -194,6 +218,30 @@ std::vector<Near> World::Engine::Queries::nearest(const Vec3& point, std::size_t
   return all;
 }
 
+/// What becomes of a body on the way, in the first of its images that comes near this piece of it: nothing
+/// where it is missed.
+std::optional<Hit> World::Engine::Queries::hit(const Way& way, const Box& piece, std::uint32_t number) const {
+  if (const Shape* shape = engine_.extent(number).shape) {
+    const WayLimits touch = touch_of(way, *shape);
+    if (touch.lower == infinity) return std::nullopt;
+    return Hit{engine_.id_of(number), Certainty::possibly, touch.lower, touch.upper};
+  }
+  const Place at = place_of(engine_.bodies_[number], now_);
+  std::optional<Hit> first;
+  engine_.space_.for_each_shift(box_around(at.centre, at.centre, at.outer), piece, [&](const Vec3& shift) {
+    const Vec3 centre = at.centre + shift;
+    const double wrong = margin * (norm_one(way.origin) + norm_one(centre) + at.outer + way.radius);
+    const auto may = passage(way, centre, at.outer + way.radius + wrong, wrong);
+    if (!may) return;
+    const auto must = passage(way, centre, at.inner + way.radius - wrong, -wrong);
+    const Hit image{engine_.id_of(number), Certainty::possibly, may->enter, must ? must->enter : infinity};
+    if (!first) first = image;
+    first->lower = std::min(first->lower, image.lower);
+    first->upper = std::min(first->upper, image.upper);
+  });
+  return first;
+}
+
 std::vector<Hit> World::Engine::Queries::cast(const Way& way) const {
   std::vector<Hit> hits;
   double sure = infinity;  // something is hit by then
@@ -207,25 +255,18 @@ std::vector<Hit> World::Engine::Queries::cast(const Way& way) const {
     const std::vector<std::uint32_t> here = candidates(box);
     std::set_difference(here.begin(), here.end(), seen.begin(), seen.end(), std::back_inserter(fresh));
     for (const std::uint32_t number : fresh) {
-      if (const Shape* shape = engine_.extent(number).shape) {
-        const WayLimits touch = touch_of(way, *shape);
-        if (touch.lower == infinity) continue;
-        hits.push_back({engine_.id_of(number), Certainty::possibly, touch.lower, touch.upper});
-        sure = std::min(sure, touch.upper);
-        continue;
-      }
-      const Place at = place(number);
-      const double wrong = margin * (norm_one(way.origin) + norm_one(at.centre) + at.outer + way.radius);
-      const auto may = passage(way, at.centre, at.outer + way.radius + wrong, wrong);
-      if (!may) continue;
-      const auto must = passage(way, at.centre, at.inner + way.radius - wrong, -wrong);
-      hits.push_back({engine_.id_of(number), Certainty::possibly, may->enter, must ? must->enter : infinity});
-      sure = std::min(sure, hits.back().upper);
+      const std::optional<Hit> found = hit(way, box, number);
+      if (!found) continue;
+      hits.push_back(*found);
+      sure = std::min(sure, found->upper);
     }
+    // Where space repeats, a body that is missed here may be hit in another image later.
+    if (engine_.space_.repeats()) continue;
     const auto middle = static_cast<std::ptrdiff_t>(seen.size());
     seen.insert(seen.end(), fresh.begin(), fresh.end());
     std::inplace_merge(seen.begin(), seen.begin() + middle, seen.end());
   }
+  if (engine_.space_.repeats()) keep_first_of_each_body(hits);
   std::erase_if(hits, [=](const Hit& hit) { return hit.lower > sure; });
   std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) {
     return a.lower != b.lower ? a.lower < b.lower : a.body < b.body;

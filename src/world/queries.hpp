@@ -1,6 +1,7 @@
 // Questions about space at the current time: the grid finds candidates, what is known of each decides.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "world/engine.hpp"
@@ -26,12 +27,13 @@ class World::Engine::Queries {
   std::vector<Hit> cast(const Way& way) const;
 
  private:
-  Place place(std::uint32_t number) const { return place_of(engine_.bodies_[number], now_); }
+  Place place(std::uint32_t number, const Vec3& point) const;
   std::vector<std::uint32_t> candidates(const Box& box) const;
   /// Those whose distance from the region, `distance_to(place centre)`, may be or is below their radius, and
   /// fixed bodies whose shape may have or has no gap to it, `gap_to(shape)`.
   template <class Distance, class ShapeGap>
   std::vector<Found> overlapping(const Box& box, Distance distance_to, ShapeGap gap_to) const;
+  std::optional<Hit> hit(const Way& way, const Box& piece, std::uint32_t number) const;
   std::vector<std::uint32_t> around(const Vec3& point, std::size_t count) const;
   std::vector<Near> distances(const std::vector<std::uint32_t>& numbers, const Vec3& point) const;
 

@@ -112,7 +112,8 @@ void World::Engine::choose_first_horizons(const std::vector<std::uint32_t>& roun
   }
   if (count == 0) return;
   const Vec3 size = upper - lower;
-  const double spacing = std::ldexp(std::max({size.x, size.y, size.z}), -std::ilogb(count) / 3);
+  const double spacing =
+      std::ldexp(std::max({size.x, size.y, size.z}), -std::ilogb(count) / definition_.dimensions);
   const double way = spacing > 0.0 ? 0.25 * spacing : definition_.contact_tolerance;
   for (const std::uint32_t number : round)
     if (!bodies_[number].horizon && !bodies_[number].is_fixed())
@@ -130,9 +131,57 @@ void World::Engine::register_box(std::uint32_t number) {
   Body& body = bodies_[number];
   if (body.is_fixed()) return register_shape(number);
   const double speed = norm(body.bound.velocity) + body.definition.velocity_error;
-  body.box_end = just_after(time_ + body.horizon->length(speed, body.largest_acceleration()));
-  body.box = swept_box(reach(body), time_, body.box_end);
+  double length = body.horizon->length(speed, body.largest_acceleration());
+  if (space_.repeats()) length = std::min(length, longest_in_period(body));
+  body.box_end = just_after(time_ + length);
+  body.box = space_.within(swept_box(reach(body), time_, body.box_end));
+  bring_home(body);
   grid_.set(number, body.box);
+}
+
+/// Moves the body to the image in which the centre of its box lies in the primary box.
+void World::Engine::bring_home(Body& body) const {
+  if (!space_.repeats()) return;
+  const Vec3 images = space_.wrapped(0.5 * (body.box.lower + body.box.upper)).images;
+  if (images == Vec3{}) return;
+  body.bound.position -= space_.shift_of(images);
+  body.image += images;
+  body.box = space_.within(swept_box(reach(body), time_, body.box_end));
+}
+
+/// How long a box of a body may last to be as narrow as space/space.hpp wants it (2): the box of a bound
+/// grows by at most (|v| + 2 e1) s + (|g| / 2 + A) s^2 on an axis.
+double World::Engine::longest_in_period(const Body& body) const {
+  const Bound& bound = body.bound;
+  const double reserve =
+      book_.rule().release_gap() + 4.0 * body.definition.position_error + 2.0 * reach(body).radius;
+  double longest = infinity;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!space_.repeats(axis)) continue;
+    const double period = space_.period()[axis];
+    // A little less than half, for rounding.
+    const double room = (0.5 - 0x1p-10) * period - reserve;
+    const double speed = std::abs(bound.velocity[axis]) + 2.0 * bound.growth_speed;
+    const double a = 0.5 * std::abs(bound.planned_acceleration[axis]) + bound.growth_acceleration;
+    const double way = std::max(room, 0.0);
+    const double divisor = speed + std::sqrt(speed * speed + 4.0 * a * way);
+    if (divisor > 0.0) longest = std::min(longest, 2.0 * way / divisor);
+  }
+  return longest;
+}
+
+/// What brings body b to the image in which body a may meet it while both boxes last: nearest by their boxes.
+Vec3 World::Engine::shift_to_meet(std::uint32_t a, std::uint32_t b) const {
+  const Box& box = bodies_[a].box;
+  const Box& other = bodies_[b].box;
+  return space_.shift_to_nearest(0.5 * (other.lower + other.upper), 0.5 * (box.lower + box.upper));
+}
+
+/// The bound of body b as body a has to reckon with it, where space repeats.
+Bound World::Engine::seen_from(std::uint32_t a, std::uint32_t b) const {
+  Bound bound = bodies_[b].bound;
+  bound.position += shift_to_meet(a, b);
+  return bound;
 }
 
 /// Records facts between a body whose box is new and everything that its box meets.
@@ -143,7 +192,7 @@ Result<void> World::Engine::search(std::uint32_t number) {
   partners_ = book_.partners_of(number);
   for (const Crossing& crossing : book_.crossings_of(number)) partners_.push_back(crossing.partner);
   const std::size_t known = partners_.size();
-  grid_.for_each_overlap(bodies_[number].box, [&](std::uint32_t other) {
+  space_.for_each_overlap(grid_, bodies_[number].box, [&](std::uint32_t other) {
     if (other != number) partners_.push_back(other);
   });
   const std::size_t candidates = partners_.size() - known;
@@ -162,7 +211,7 @@ Result<void> World::Engine::search(std::uint32_t number) {
   }
   Body& body = bodies_[number];
   if (body.is_fixed()) return {};
-  body.horizon->learn(candidates, larger, extent, 2.0 * reach(body).radius);
+  body.horizon->learn(candidates, larger, extent, 2.0 * reach(body).radius, definition_.dimensions);
   return settle_walls(number);
 }
 
@@ -191,9 +240,9 @@ bool World::Engine::look_at_pair(std::uint32_t number, std::uint32_t partner, co
                                  const Partner& other) {
   const Body& a = bodies_[number];
   const Body& b = bodies_[partner];
-  // When a box ends the pair is settled again, unless there is a watch: it must hold for all thresholds.
-  const double settled_again = std::min(a.box_end, b.box_end);
-  const Horizons horizons{settled_again, sensors_.any() ? settled_again : infinity};
+  const double boxes_end = std::min(a.box_end, b.box_end);
+  const double certificate_end = facts_end_with_boxes() ? boxes_end : infinity;
+  const Horizons horizons{boxes_end, certificate_end};
   const bool fresh = a.fresh(time_) && b.fresh(time_);
   const Promise sum{a.definition.velocity_error + b.definition.velocity_error,
                     a.largest_acceleration() + b.largest_acceleration()};
@@ -207,7 +256,7 @@ bool World::Engine::look_at_pair(std::uint32_t number, std::uint32_t partner, co
   });
   if (!fresh && *next_look <= time_) return false;
   unwatch(number, partner);
-  if (next_look) watch(number, partner, *next_look);
+  if (next_look && *next_look <= certificate_end) watch(number, partner, *next_look);
   return true;
 }
 
@@ -232,17 +281,16 @@ std::optional<double> World::Engine::judge(const Outlook<Partner>& outlook, cons
 
 /// Records how long no wall contact of the body can begin or end.
 Result<void> World::Engine::settle_walls(std::uint32_t number) {
-  if (!definition_.box) {
+  if (!walls_) {
     bodies_[number].wall_time = infinity;
     return {};
   }
   for (;;) {
     Body& body = bodies_[number];
     if (body.dirty) return {};
-    body.wall_time =
-        book_.walls_of(number) != 0
-            ? time_
-            : until_reports_of_walls(book_.rule(), body.bound, *definition_.box, time_, body.box_end);
+    body.wall_time = book_.walls_of(number) != 0
+                         ? time_
+                         : until_reports_of_walls(book_.rule(), body.bound, *walls_, time_, body.box_end);
     if (body.wall_time > time_) return {};
     if (body.fresh(time_)) break;
     if (auto probed = probe(std::span(&number, 1)); !probed) return probed;
@@ -250,7 +298,8 @@ Result<void> World::Engine::settle_walls(std::uint32_t number) {
   Body& body = bodies_[number];
   double first = infinity;
   for (const Wall wall : walls) {
-    const HalfSpace inside = half_space(*definition_.box, wall);
+    if (!stands(*walls_, wall)) continue;
+    const HalfSpace inside = half_space(*walls_, wall);
     const Threshold threshold{.within = book_.touches_wall(number, wall)};
     const Outlook<HalfSpace> outlook(book_.rule(), threshold, body.bound, inside, time_,
                                      {body.box_end, body.box_end});

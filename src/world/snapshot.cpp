@@ -60,10 +60,11 @@ bool is_sound(const Box& box) {
 
 template <class Self, class Archive>
 void World::Engine::transfer(Self& self, Archive& archive) {
-  // The definition comes first, as an engine is made from it; the rest matters only during advance().
-  auto& [definition, book, time, size, bodies, free, shapes, free_shapes, grid, schedule, dirty, counters,
-         sensors, pair_filter, filtering, gathering, probe, probing_call, probing, probe_ids, probe_states,
-         partners] = self;
+  // The definition comes first, as an engine is made from it, space and walls too; the last matter only
+  // during advance().
+  auto& [definition, space, enclosure, book, time, size, bodies, free, shapes, free_shapes, grid, schedule,
+         dirty, counters, sensors, pair_filter, filtering, gathering, probe, probing_call, probing, probe_ids,
+         probe_states, partners] = self;
   archive(book, time, size, bodies, free, shapes, free_shapes, grid, schedule, dirty, counters, sensors,
           filtering, gathering);
 }
@@ -106,7 +107,7 @@ const char* World::Engine::contradiction() const {
   for (int number = 0; number <= std::numeric_limits<SensorClass>::max(); ++number)
     if (!check_sensor(sensors_.of(static_cast<SensorClass>(number)), definition_)) return "sensors";
   const auto known = [this](BodyId id) { return was_given_out(id); };
-  if (!book_.is_sound(bodies_.size(), time_, definition_.box.has_value(), known)) return "contacts";
+  if (!book_.is_sound(bodies_.size(), time_, walls_, known)) return "contacts";
   const auto present = static_cast<std::size_t>(
       std::count_if(bodies_.begin(), bodies_.end(), [](const Body& body) { return body.present(); }));
   if (!grid_.is_sound() || grid_.size() != present) return "grid";
@@ -146,9 +147,9 @@ bool World::Engine::is_sound_fixed(const Body& body) const {
                                        body.definition.sensor_class, body.definition.user_data});
   return same(body.definition, made) &&
          same(body.bound, bound_of(made, {made.position, {}}, body.bound.time)) && body.bound.time <= time_ &&
-         std::isfinite(body.bound.time) && same(body.box, box_of(shape)) && body.box_end == infinity &&
-         body.wall_time == infinity && body.watches.empty() && !body.horizon && !body.searched &&
-         !body.kicked_since_report && !(body.dirty && !body.enabled);
+         std::isfinite(body.bound.time) && (!body.enabled || same(body.box, box_of(body))) &&
+         body.box_end == infinity && body.wall_time == infinity && body.watches.empty() && !body.horizon &&
+         !body.searched && !body.kicked_since_report && !(body.dirty && !body.enabled);
 }
 
 bool World::Engine::bodies_are_sound() const {
@@ -180,7 +181,9 @@ bool World::Engine::is_sound(const Body& body) const {
   WorldDefinition unbounded = definition_;
   unbounded.box.reset();
   if (!check_body(body.definition, unbounded, "restore") ||
-      !kinesphere::is_sound(body.bound, time_, unbounded) || !kinesphere::is_sound(body.box))
+      !check_radius(body.definition, no_body, definition_, "restore") ||
+      !kinesphere::is_sound(body.bound, time_, unbounded) || !kinesphere::is_sound(body.box) ||
+      !image_is_sound(body))
     return false;
   if (!body.enabled) return !body.dirty && !body.kicked_since_report && body.watches.empty();
   if (!std::isfinite(body.box_end) || body.box_end < time_ || std::isnan(body.wall_time)) return false;
@@ -190,6 +193,16 @@ bool World::Engine::is_sound(const Body& body) const {
     const Body& partner = bodies_[w.partner];
     return w.epoch < partner.epoch || (w.epoch == partner.epoch && partner.present());
   });
+}
+
+/// Whole numbers, and none on axes that do not repeat.
+bool World::Engine::image_is_sound(const Body& body) const {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double images = body.image[axis];
+    if (!(std::abs(images) <= 0x1p62) || std::floor(images) != images) return false;
+    if (!space_.repeats(axis) && images != 0.0) return false;
+  }
+  return true;
 }
 
 bool World::Engine::was_given_out(BodyId id) const {

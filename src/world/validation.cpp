@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include "bound/triangle.hpp"
-#include "input/input_check.hpp"
+#include "contact/contact_rule.hpp"
 
 namespace kinesphere {
 namespace {
@@ -24,22 +26,42 @@ void require_radius(InputCheck& check, double radius, BodyId body, const WorldDe
   require_size(check, {"radius", body}, radius, coordinate_limit(world));
 }
 
+/// A pair can be looked at in one image only: space/space.hpp has the limit and the proof.
+void require_room(InputCheck& check, std::string_view argument, const BodyDefinition& definition, BodyId body,
+                  const WorldDefinition& world) {
+  if (!world.box) return;
+  const double needed = 6.0 * definition.position_error + ContactRule(world).release_gap();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!world.periodic[axis]) continue;
+    const double room = 0.375 * (world.box->upper[axis] - world.box->lower[axis]);
+    check.require(
+        2.0 * definition.radius + needed <= room, ErrorCode::out_of_range, {argument, body},
+        "must leave 2 radius + 6 position_error + separation_distance + contact_tolerance at most 3/8 of "
+        "the periodic box, which is",
+        room, 2.0 * definition.radius + needed);
+  }
+}
+
 void require_promise(InputCheck& check, const MotionPromise& promise, BodyId body,
                      const WorldDefinition& world) {
   require_size(check, {"acceleration_limit", body}, promise.acceleration_limit, magnitude_limit);
   require_size(check, {"position_error", body}, promise.position_error, coordinate_limit(world));
   require_size(check, {"velocity_error", body}, promise.velocity_error, magnitude_limit);
   check.within({"planned_acceleration", body}, promise.planned_acceleration, magnitude_limit);
+  require_plane(check, {"planned_acceleration", body}, promise.planned_acceleration, world);
 }
 
 void require_state(InputCheck& check, const State& state, const BodyDefinition& definition, BodyId body,
                    const WorldDefinition& world) {
   check.within({"position", body}, state.position, coordinate_limit(world))
       .within({"velocity", body}, state.velocity, magnitude_limit);
+  require_plane(check, {"position", body}, state.position, world);
+  require_plane(check, {"velocity", body}, state.velocity, world);
   if (!world.box) return;
   const double reach =
       world.allow_overlap ? 0.0 : definition.radius + definition.position_error - world.contact_tolerance;
-  for (int axis = 0; axis < 3; ++axis) {
+  for (int axis = 0; axis < world.dimensions; ++axis) {
+    if (world.periodic[axis]) continue;
     check.require(state.position[axis] - reach >= world.box->lower[axis] &&
                       state.position[axis] + reach <= world.box->upper[axis],
                   ErrorCode::outside_domain, {"position", body},
@@ -50,6 +72,7 @@ void require_state(InputCheck& check, const State& state, const BodyDefinition& 
 
 void require_shape(InputCheck& check, const Ball& ball, const WorldDefinition& world) {
   check.within({"shape", no_body, "centre"}, ball.centre, coordinate_limit(world));
+  require_plane(check, {"shape", no_body, "centre"}, ball.centre, world);
   require_radius(check, ball.radius, no_body, world);
 }
 
@@ -61,6 +84,7 @@ void require_shape(InputCheck& check, const HalfSpace& solid, const WorldDefinit
       .finite({"shape", no_body, "offset"}, solid.offset)
       .require(std::abs(solid.offset) <= limit, ErrorCode::out_of_range, {"shape", no_body, "offset"},
                "must be at most", limit, solid.offset);
+  require_plane(check, {"shape", no_body, "normal"}, solid.normal, world);
 }
 
 void require_shape(InputCheck& check, const Box& box, const WorldDefinition& world) {
@@ -72,6 +96,8 @@ void require_shape(InputCheck& check, const Box& box, const WorldDefinition& wor
 }
 
 void require_shape(InputCheck& check, const Triangle& triangle, const WorldDefinition& world) {
+  check.require(world.dimensions == 3, ErrorCode::unsupported, {"shape"}, "must not be a triangle",
+                std::string_view("one in a plane"));
   for (const Vec3& corner : {triangle.a, triangle.b, triangle.c})
     check.within({"shape", no_body, "corner"}, corner, coordinate_limit(world));
   if (check.error()) return;
@@ -82,6 +108,12 @@ void require_shape(InputCheck& check, const Triangle& triangle, const WorldDefin
 }
 
 }  // namespace
+
+void require_plane(InputCheck& check, const Subject& subject, const Vec3& value,
+                   const WorldDefinition& world) {
+  check.require(world.dimensions == 3 || value.z == 0.0, ErrorCode::out_of_range, subject,
+                "must have z = 0 in two dimensions", value);
+}
 
 double coordinate_limit(const WorldDefinition& world) { return 0x1p41 * world.contact_tolerance; }
 
@@ -98,11 +130,26 @@ Result<void> check_world(const WorldDefinition& definition) {
                  {"separation_distance"}, "must be larger than contact_tolerance",
                  definition.contact_tolerance, definition.separation_distance);
   }
+  const int dimensions = definition.dimensions;
+  check.require(dimensions == 2 || dimensions == 3, ErrorCode::out_of_range, {"dimensions"}, "must be 2 or 3",
+                static_cast<double>(dimensions));
   if (definition.box) {
-    check.box({"box"}, *definition.box)
-        .within({"box", no_body, "lower"}, definition.box->lower, coordinate_limit(definition))
-        .within({"box", no_body, "upper"}, definition.box->upper, coordinate_limit(definition));
+    Box box = *definition.box;
+    if (dimensions == 2) std::tie(box.lower.z, box.upper.z) = std::pair(0.0, 1.0);
+    check.box({"box"}, box)
+        .within({"box", no_body, "lower"}, box.lower, coordinate_limit(definition))
+        .within({"box", no_body, "upper"}, box.upper, coordinate_limit(definition));
   }
+  const std::string_view on = definition.periodic.x   ? "true on x"
+                              : definition.periodic.y ? "true on y"
+                                                      : "true on z";
+  check
+      .require(definition.box || !definition.periodic.any(), ErrorCode::out_of_range, {"periodic"},
+               "must be false on all axes where there is no box", on)
+      .require(dimensions == 3 || !definition.periodic.z, ErrorCode::out_of_range, {"periodic"},
+               "must be false on z in two dimensions", on);
+  // A body without any size would not fit.
+  if (!check.error()) require_room(check, "box", {.radius = 0.0}, no_body, definition);
   return check.result();
 }
 
@@ -111,30 +158,32 @@ Result<void> check_body(const BodyDefinition& body, const WorldDefinition& world
   require_radius(check, body.radius, no_body, world);
   require_promise(check, promise_of(body), no_body, world);
   require_state(check, {body.position, body.velocity}, body, no_body, world);
+  require_room(check, "radius", body, no_body, world);
   return check.result();
 }
 
 Result<void> check_shape(const Shape& shape, const WorldDefinition& world, std::string_view call) {
   InputCheck check(call);
   std::visit([&](const auto& solid) { require_shape(check, solid, world); }, shape);
-  return check.result();
+  const bool repeats = world.periodic.x || world.periodic.y || world.periodic.z;
+  if (auto valid = check.result(); !valid || !repeats || std::holds_alternative<Ball>(shape)) return valid;
+  return Error{ErrorCode::unsupported, "shape", no_body,
+               std::string(call) + ": shape must be a ball where space repeats"};
 }
 
-Shape unit_normal(Shape shape) {
-  if (HalfSpace* solid = std::get_if<HalfSpace>(&shape)) solid->normal = solid->normal / norm(solid->normal);
-  return shape;
-}
-
-Result<void> check_radius(double radius, BodyId body, const WorldDefinition& world, std::string_view call) {
+Result<void> check_radius(const BodyDefinition& changed, BodyId body, const WorldDefinition& world,
+                          std::string_view call) {
   InputCheck check(call);
-  require_radius(check, radius, body, world);
+  require_radius(check, changed.radius, body, world);
+  require_room(check, "radius", changed, body, world);
   return check.result();
 }
 
-Result<void> check_promise(const MotionPromise& promise, BodyId body, const WorldDefinition& world,
+Result<void> check_promise(const BodyDefinition& changed, BodyId body, const WorldDefinition& world,
                            std::string_view call) {
   InputCheck check(call);
-  require_promise(check, promise, body, world);
+  require_promise(check, promise_of(changed), body, world);
+  require_room(check, "position_error", changed, body, world);
   return check.result();
 }
 
@@ -154,8 +203,21 @@ Result<void> check_sensor(const Sensor& sensor, const WorldDefinition& world) {
   return check.result();
 }
 
-Result<void> check_velocity(const Vec3& velocity, BodyId body, std::string_view call) {
-  return InputCheck(call).within({"velocity", body}, velocity, magnitude_limit).result();
+Result<void> check_reach(double reach, const BodyDefinition& body, BodyId id, std::string_view argument,
+                         const WorldDefinition& world, std::string_view call) {
+  InputCheck check(call);
+  BodyDefinition grown = body;
+  grown.radius += reach;
+  require_room(check, argument, grown, id, world);
+  return check.result();
+}
+
+Result<void> check_velocity(const Vec3& velocity, BodyId body, const WorldDefinition& world,
+                            std::string_view call) {
+  InputCheck check(call);
+  check.within({"velocity", body}, velocity, magnitude_limit);
+  require_plane(check, {"velocity", body}, velocity, world);
+  return check.result();
 }
 
 Result<void> check_report(const State& state, BodyId body, double time, const WorldDefinition& world,
@@ -164,12 +226,16 @@ Result<void> check_report(const State& state, BodyId body, double time, const Wo
   const auto fits = [](const Vec3& v, double limit) {
     return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
   };
-  if (fits(state.position, coordinate_limit(world)) && fits(state.velocity, magnitude_limit)) return {};
+  const bool in_plane = world.dimensions == 3 || (state.position.z == 0.0 && state.velocity.z == 0.0);
+  if (fits(state.position, coordinate_limit(world)) && fits(state.velocity, magnitude_limit) && in_plane)
+    return {};
   const std::string answer = std::string(call) + ": the probe's answer at time " + text_of(time);
-  return InputCheck(answer)
-      .within({"position", body}, state.position, coordinate_limit(world))
-      .within({"velocity", body}, state.velocity, magnitude_limit)
-      .result();
+  InputCheck check(answer);
+  check.within({"position", body}, state.position, coordinate_limit(world))
+      .within({"velocity", body}, state.velocity, magnitude_limit);
+  require_plane(check, {"position", body}, state.position, world);
+  require_plane(check, {"velocity", body}, state.velocity, world);
+  return check.result();
 }
 
 Result<void> check_time(double until, double now) {

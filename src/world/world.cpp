@@ -89,8 +89,16 @@ Result<void> World::check_growth(const BodyDefinition& changed, BodyId id, std::
   return {};
 }
 
+/// Whether there is room where space repeats for all that a body senses.
+Result<void> World::check_reach(const BodyDefinition& changed, BodyId id, std::string_view argument,
+                                std::string_view call) const {
+  const double reach = engine_->sensors().reach(changed.sensor_class);
+  return kinesphere::check_reach(reach, changed, id, argument, definition(), call);
+}
+
 Result<void> World::check_new(const BodyDefinition& body, BodyId id, std::string_view call) const {
-  auto valid = first_error(check_idle(engine_->probing(), call), check_body(body, definition(), call));
+  auto valid = first_error(check_idle(engine_->probing(), call), check_body(body, definition(), call),
+                           check_reach(body, no_body, "sensor_class", call));
   return valid ? check_room(body, id, call) : valid;
 }
 
@@ -109,7 +117,7 @@ Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodie
     const Bound bound = engine_->bound_now(bodies[number]);
     const Box box = engine_->box_now(bound);
     std::optional<std::uint32_t> other;
-    earlier.for_each_overlap(box, [&](std::uint32_t candidate) {
+    engine_->space().for_each_overlap(earlier, box, [&](std::uint32_t candidate) {
       const Bound placed = engine_->bound_now(bodies[candidate]);
       const bool overlap = engine_->certainly_overlap({bound}, {placed}) &&
                            engine_->may_touch(engine_->next_id(number), bodies[number],
@@ -117,7 +125,7 @@ Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodie
       if (overlap && (!other || candidate < *other)) other = candidate;
     });
     if (other) return overlap_error(call, no_body, "bodies[" + std::to_string(*other) + "]");
-    earlier.set(number, box);
+    earlier.set(number, engine_->space().home(box));
   }
   std::vector<BodyId> ids;
   ids.reserve(bodies.size());
@@ -148,7 +156,7 @@ Result<void> World::remove_all(std::span<const BodyId> bodies) {
 
 Result<void> World::kick(BodyId body, const Vec3& velocity) {
   auto valid = first_error(check_moving(body, "kick"), check_enabled(body, true, "kick"),
-                           check_velocity(velocity, body, "kick"));
+                           check_velocity(velocity, body, definition(), "kick"));
   if (valid) changing(step::Kick{body, velocity}).kick(body, velocity);
   return valid;
 }
@@ -178,22 +186,24 @@ Result<void> World::disable(BodyId body) {
 }
 
 Result<void> World::set_radius(BodyId body, double radius) {
-  auto valid =
-      first_error(check_moving(body, "set_radius"), check_radius(radius, body, definition(), "set_radius"));
+  auto valid = check_moving(body, "set_radius");
   if (!valid) return valid;
   BodyDefinition changed = engine_->table()[body.index].definition;
   changed.radius = radius;
-  valid = check_growth(changed, body, "radius", "set_radius");
+  valid = check_radius(changed, body, definition(), "set_radius");
+  if (valid) valid = check_reach(changed, body, "radius", "set_radius");
+  if (valid) valid = check_growth(changed, body, "radius", "set_radius");
   if (valid) changing(step::SetRadius{body, radius}).set_radius(body, radius);
   return valid;
 }
 
 Result<void> World::set_promise(BodyId body, const MotionPromise& promise) {
-  auto valid = first_error(check_moving(body, "set_promise"),
-                           check_promise(promise, body, definition(), "set_promise"));
+  auto valid = check_moving(body, "set_promise");
   if (!valid) return valid;
   const BodyDefinition changed = with_promise(engine_->table()[body.index].definition, promise);
-  valid = check_growth(changed, body, "position_error", "set_promise");
+  valid = check_promise(changed, body, definition(), "set_promise");
+  if (valid) valid = check_reach(changed, body, "position_error", "set_promise");
+  if (valid) valid = check_growth(changed, body, "position_error", "set_promise");
   if (valid) changing(step::SetPromise{body, promise}).set_promise(body, promise);
   return valid;
 }
@@ -225,12 +235,22 @@ Result<void> World::set_solid(BodyId body, bool solid) {
 
 Result<void> World::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
   auto valid = first_error(check_idle(engine_->probing(), "set_sensor"), check_sensor(sensor, definition()));
+  const double reach = reach_of(sensor);
+  for (const BodyId id : bodies()) {
+    const BodyDefinition& body = engine_->table()[id.index].definition;
+    if (valid && body.sensor_class == sensor_class)
+      valid = kinesphere::check_reach(reach, body, id, "sensor", definition(), "set_sensor");
+  }
   if (valid) changing(step::SetSensor{sensor_class, sensor}).set_sensor(sensor_class, sensor);
   return valid;
 }
 
 Result<void> World::set_sensor_class(BodyId body, SensorClass sensor_class) {
   auto valid = check_call(body, "set_sensor_class");
+  if (!valid) return valid;
+  BodyDefinition changed = engine_->table()[body.index].definition;
+  changed.sensor_class = sensor_class;
+  valid = check_reach(changed, body, "sensor_class", "set_sensor_class");
   if (valid) changing(step::SetSensorClass{body, sensor_class}).set_sensor_class(body, sensor_class);
   return valid;
 }
@@ -314,8 +334,7 @@ Result<std::vector<std::byte>> World::stop_recording() {
 
 Result<BodyView> World::body(BodyId id) const {
   if (auto valid = check_alive(id, "body"); !valid) return valid.error();
-  const Body& body = engine_->table()[id.index];
-  return BodyView{body.definition, body.bound, body.box, body.box_end, body.enabled, body.is_fixed()};
+  return engine_->view(id.index);
 }
 
 Result<std::vector<BodyId>> World::touching(BodyId body) const {

@@ -24,9 +24,11 @@ Result<void> World::check_fixed_room(const FixedDefinition& fixed, BodyId id, st
 
 Result<FixedDefinition> World::check_new_fixed(const FixedDefinition& fixed, BodyId id,
                                                std::string_view call) const {
-  if (auto valid = check_shape(fixed.shape, definition(), call); !valid) return valid.error();
+  auto valid = check_shape(fixed.shape, definition(), call);
+  if (valid) valid = check_reach(body_of(fixed), no_body, "shape", call);
+  if (!valid) return valid.error();
   FixedDefinition kept = fixed;
-  kept.shape = unit_normal(fixed.shape);
+  kept.shape = engine_->as_kept(fixed.shape);
   if (auto room = check_fixed_room(kept, id, call); !room) return room.error();
   return kept;
 }

@@ -21,6 +21,7 @@ InputCheck& check_length(InputCheck& check, std::string_view argument, double le
 Result<void> check_sphere(const Vec3& centre, double radius, const WorldDefinition& world) {
   InputCheck check("overlapping");
   check.within({"centre"}, centre, coordinate_limit(world));
+  require_plane(check, {"centre"}, centre, world);
   return check_length(check, "radius", radius, world).result();
 }
 
@@ -35,7 +36,10 @@ Result<void> check_region(const Box& box, const WorldDefinition& world) {
 }
 
 Result<void> check_point(const Vec3& point, const WorldDefinition& world) {
-  return InputCheck("nearest").within({"point"}, point, coordinate_limit(world)).result();
+  InputCheck check("nearest");
+  check.within({"point"}, point, coordinate_limit(world));
+  require_plane(check, {"point"}, point, world);
+  return check.result();
 }
 
 Result<void> check_way(const Vec3& origin, double radius, const Vec3& direction, double length,
@@ -45,7 +49,19 @@ Result<void> check_way(const Vec3& origin, double radius, const Vec3& direction,
   check_length(check, "radius", radius, world)
       .within({"direction"}, direction, 1e100)
       .require(direction != Vec3{}, ErrorCode::out_of_range, {"direction"}, "must not be zero", direction);
-  return check_length(check, "length", length, world).result();
+  require_plane(check, {"origin"}, origin, world);
+  require_plane(check, {"direction"}, direction, world);
+  check_length(check, "length", length, world);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!world.periodic[axis]) continue;
+    const double period = world.box->upper[axis] - world.box->lower[axis];
+    check
+        .require(radius <= 0.5 * period, ErrorCode::out_of_range, {"radius"},
+                 "must be at most half of the periodic box, which is", 0.5 * period, radius)
+        .require(length <= 64.0 * period, ErrorCode::out_of_range, {"length"},
+                 "must be at most 64 times the periodic box, which is", 64.0 * period, length);
+  }
+  return check.result();
 }
 
 /// Scaled first, so that no square underflows.

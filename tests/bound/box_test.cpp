@@ -114,6 +114,16 @@ TEST(EarliestExit, is_infinite_for_a_body_at_rest_and_from_for_one_outside) {
   EXPECT_EQ(earliest_exit({.position = {0, 0, -40}, .radius = 1}, box, 2, 9), 2.0);
 }
 
+TEST(EarliestExit, asks_nothing_on_axes_without_end) {
+  const Box channel{{-infinity, -2, -infinity}, {infinity, 2, infinity}};
+  EXPECT_EQ(earliest_exit({.velocity = {1e100, 0, -1e50}, .radius = 1, .growth_acceleration = 0}, channel, 0,
+                          infinity),
+            infinity);
+  const double got = earliest_exit({.velocity = {5, 1, 7}, .radius = 1}, channel, 0, infinity);
+  EXPECT_LE(got, 1.0);
+  EXPECT_NEAR(got, 1.0, 1e-12);
+}
+
 TEST(SweptBox, reaches_to_the_turning_point) {
   // Up and down again: highest, with its radius, at 5 + 1 after one unit of time.
   const Bound ball{.velocity = {1, 0, 10}, .planned_acceleration = {0, 0, -10}, .radius = 1};

@@ -45,6 +45,18 @@ TEST_P(WrongCalls, OfMake) {
   expect_error(make({.start_time = nothing}), ErrorCode::not_finite, "start_time");
 }
 
+TEST_P(WrongCalls, OfMakeForASpaceThatOnlyTheWorldKnows) {
+  const WorldDefinition repeats{.box = Box{{-5, -5, -5}, {5, 5, 5}}, .periodic = {false, true, false}};
+  const WorldDefinition plane{.dimensions = 2};
+  if (GetParam().name == "world") {
+    EXPECT_TRUE(make(repeats));
+    EXPECT_TRUE(make(plane));
+  } else {
+    expect_error(make(repeats), ErrorCode::unsupported, "periodic");
+    expect_error(make(plane), ErrorCode::unsupported, "dimensions");
+  }
+}
+
 TEST_P(WrongCalls, AreAnsweredAndForgotten) {
   const auto made = make({});
   Detector& detector = **made;

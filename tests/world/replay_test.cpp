@@ -211,7 +211,7 @@ TEST(Divergence, IsNamedWithStepAndTime) {
 TEST(Divergence, ShowsInAChangeThatCannotBeMade) {
   const Bytes bytes = altered(meeting(true), [](auto& steps) {
     for (Step& step : steps)
-      if (auto* kick = std::get_if<step::Kick>(&step)) kick->body.index = 9;
+      if (auto* kick = std::get_if<step::Kick>(&step)) kick->subject.index = 9;
   });
   const std::string message = divergence(bytes);
   EXPECT_NE(

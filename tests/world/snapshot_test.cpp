@@ -222,8 +222,8 @@ TEST(SnapshotOfAWorld, AfterABadAnswerGoesOnTheSame) {
 // Bytes that are no snapshot.
 
 /// In mid-contact, between two events of one instant, with kicks and additions that are not settled yet.
-Bytes rich_snapshot(ContactMode mode) {
-  Playground p({.box = Box{{0, 0, 0}, {10, 10, 10}}, .contacts = mode});
+Bytes rich_snapshot(ContactMode mode, const Axes& periodic = {}) {
+  Playground p({.box = Box{{0, 0, 0}, {10, 10, 10}}, .periodic = periodic, .contacts = mode});
   for (int k = 0; k < 4; ++k) {
     const double y = 2.0 + 2.0 * k;
     p.add({.acceleration_limit = 1, .position = {3, y, 5}, .velocity = {1, 0, 0}});
@@ -299,15 +299,18 @@ TEST(BadSnapshot, SaysWhatIsWrong) {
   Bytes damaged = bytes;
   damaged[bytes.size() / 2] ^= std::byte{1};
   EXPECT_TRUE(is_refused(damaged, "checksum"));
-  Bytes impossible = bytes;  // the contact tolerance stands behind the box
-  write_number(impossible, snapshot_header_size + 1 + 48, 0);
+  Bytes impossible = bytes;  // the contact tolerance stands behind the box, its axes and the dimensions
+  write_number(impossible, snapshot_header_size + 1 + 48 + 3 + 4, 0);
   EXPECT_TRUE(is_refused(sealed(impossible), "definition"));
 }
 
 TEST(BadSnapshot, SealedNonsenseIsRefusedOrHarmless) {
   int accepted = 0;
-  for (const ContactMode mode : {ContactMode::begin_and_end, ContactMode::impacts}) {
-    const Bytes bytes = rich_snapshot(mode);
+  for (const auto& [mode, periodic] :
+       {std::pair(ContactMode::begin_and_end, Axes{}), std::pair(ContactMode::impacts, Axes{}),
+        std::pair(ContactMode::begin_and_end, Axes{true, true, true}),
+        std::pair(ContactMode::impacts, Axes{true, false, true})}) {
+    const Bytes bytes = rich_snapshot(mode, periodic);
     for (std::uint64_t seed = 0; seed < 6000; ++seed) {
       SCOPED_TRACE("seed " + std::to_string(seed));
       Random random(seed);

@@ -1,0 +1,92 @@
+// Images of points and boxes, and the search for the images of a box.
+#include "space/space.hpp"
+
+#include <algorithm>
+
+namespace kinesphere {
+namespace {
+
+/// More than the few roundings of a shifted coordinate, relative to what went into it.
+constexpr double margin = 0x1p-50;
+
+}  // namespace
+
+Space::Space(const WorldDefinition& definition) : flat_(definition.dimensions == 2) {
+  if (!definition.box) return;
+  for (int axis = 0; axis < definition.dimensions; ++axis) {
+    if (!definition.periodic[axis]) continue;
+    lower_[axis] = definition.box->lower[axis];
+    upper_[axis] = definition.box->upper[axis];
+    period_[axis] = upper_[axis] - lower_[axis];
+    per_period_[axis] = 1.0 / period_[axis];
+    repeats_ = true;
+  }
+}
+
+Space::Wrapped Space::wrapped(const Vec3& point) const {
+  Wrapped result{point, {}};
+  if (!repeats_) return result;
+  const Vec3 way = point - lower_;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!repeats(axis)) continue;
+    double& images = result.images[axis];
+    double& position = result.position[axis];
+    images = std::floor(way[axis] * per_period_[axis]);
+    position = point[axis] - images * period_[axis];
+    // Rounding may have taken it across the border.
+    if (position >= upper_[axis]) ++images;
+    if (!(lower_[axis] <= position && position < upper_[axis])) position = lower_[axis];
+  }
+  return result;
+}
+
+/// Rounded outward.
+Box Space::moved(const Box& box, const Vec3& shift) {
+  Box image = box;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (shift[axis] == 0.0) continue;
+    const auto room = [&](double edge) { return margin * (std::abs(edge) + std::abs(shift[axis])); };
+    image.lower[axis] = box.lower[axis] + shift[axis] - room(box.lower[axis]);
+    image.upper[axis] = box.upper[axis] + shift[axis] + room(box.upper[axis]);
+  }
+  return image;
+}
+
+Box Space::home(const Box& box) const {
+  if (!repeats_) return within(box);
+  return moved(within(box), -shift_of(wrapped(0.5 * (box.lower + box.upper)).images));
+}
+
+bool Space::is_narrow(const Box& box) const {
+  for (int axis = 0; axis < 3; ++axis)
+    if (repeats(axis) && !(box.upper[axis] - box.lower[axis] < 0.5 * period_[axis])) return false;
+  return true;
+}
+
+/// Registered boxes stick out of the primary box by at most half of their own width. A box that is as wide as
+/// the period overlaps an image of each of them.
+Space::Images Space::images_near(const Box& box, const HashGrid& grid) const {
+  Images images{within(box)};
+  const double half_width = 0.5 * grid.largest_extent();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!repeats(axis)) continue;
+    const double size = std::abs(lower_[axis]) + std::abs(upper_[axis]);
+    const double reach = std::min(half_width, 0.5 * period_[axis]) + margin * size;
+    const double lower = lower_[axis] - reach;
+    const double upper = upper_[axis] + reach;
+    if (!(box.upper[axis] - box.lower[axis] < period_[axis])) {
+      images.box.lower[axis] = lower;
+      images.box.upper[axis] = upper;
+      continue;
+    }
+    const double room = 4.0 * margin * (size + std::abs(box.lower[axis]) + std::abs(box.upper[axis]));
+    images.first[axis] = std::ceil((lower - box.upper[axis] - room) * per_period_[axis]);
+    const double last = std::floor((upper - box.lower[axis] + room) * per_period_[axis]);
+    // Never more than four, whatever rounding does to numbers that are too large for any promise.
+    const double count = last - images.first[axis] + 1.0;
+    images.count[static_cast<std::size_t>(axis)] = static_cast<int>(std::clamp(count, 0.0, 4.0));
+  }
+  return images;
+}
+
+}  // namespace kinesphere

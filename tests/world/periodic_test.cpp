@@ -1,0 +1,574 @@
+// Space that repeats: every contact over all images, each once, with image counts that follow the paths.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "support/expect_error.hpp"
+#include "world/periodic_world.hpp"
+
+namespace kinesphere {
+namespace {
+
+constexpr double eps = PeriodicWorld::eps;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Axes all_axes{true, true, true};
+
+class Periodic : public testing::TestWithParam<PeriodicKind> {};
+
+/// A contact that the tolerance does not leave open.
+bool is_clear(const Overlap& overlap) { return overlap.depth > 4.0 * eps; }
+
+/// The begins that the world tells of one pair, against all overlaps that there are.
+void expect_same(const PeriodicWorld& p, BodyId a, BodyId b, const std::vector<Overlap>& overlaps,
+                 const std::vector<Event>& begins) {
+  std::size_t next = 0;
+  for (const Overlap& overlap : overlaps) {
+    while (next < begins.size() && begins[next].time < overlap.begin - 1e-3) ++next;
+    const bool told = next < begins.size() && begins[next].time <= overlap.begin + 1e-9;
+    if (is_clear(overlap)) {
+      EXPECT_TRUE(told) << a << " and " << b << " overlap from " << overlap.begin << " unseen";
+    }
+    if (told) ++next;
+  }
+  for (const Event& begin : begins) EXPECT_LE(p.true_gap(a, b, begin.time), eps) << begin;
+  const auto clear = static_cast<std::size_t>(std::count_if(overlaps.begin(), overlaps.end(), is_clear));
+  EXPECT_GE(begins.size(), clear);
+  EXPECT_LE(begins.size(), overlaps.size()) << a << " and " << b;
+}
+
+TEST_P(Periodic, FindsEveryContactInAllImages) {
+  PeriodicWorld p(GetParam());
+  const double until = p.kind.duration;
+  std::map<std::pair<BodyId, BodyId>, std::vector<Overlap>> truth;
+  std::size_t total = 0;
+  for (const BodyId a : p.ids)
+    for (const BodyId b : p.ids)
+      if (a < b) total += (truth[{a, b}] = p.overlaps(a, b, until)).size();
+  std::map<std::pair<BodyId, BodyId>, std::vector<Event>> begins;
+  std::set<std::pair<BodyId, BodyId>> touching;
+  std::size_t stops = 0;
+  while (const auto event = p.advance(until)) {
+    p.check_event(*event);
+    p.check_image(event->first);
+    const std::pair pair{event->first, event->second};
+    if (event->kind == EventKind::contact_begin) {
+      begins[pair].push_back(*event);
+      EXPECT_TRUE(touching.insert(pair).second) << *event;
+    } else if (event->kind == EventKind::contact_end) {
+      EXPECT_EQ(touching.erase(pair), 1u) << *event;
+      EXPECT_GT(p.true_gap(event->first, event->second, event->time), 3.9 * eps);
+    } else {
+      EXPECT_NE(event->kind, EventKind::bound_violation) << *event;
+    }
+    if (++stops % 7 == 0) {
+      ASSERT_TRUE(is_clean(p.world));
+    }
+  }
+  EXPECT_TRUE(is_clean(p.world));
+  EXPECT_GT(total, 20u) << "a test that tests nothing";
+  for (const auto& [pair, overlaps] : truth) expect_same(p, pair.first, pair.second, overlaps, begins[pair]);
+  for (const BodyId id : p.ids) p.check_image(id);
+}
+
+TEST_P(Periodic, GoesOnFromASnapshotToTheBit) {
+  PeriodicWorld p(GetParam());
+  p.run(0.4 * p.kind.duration);
+  World restored = World::restore(p.world.save().value()).value();
+  EXPECT_EQ(restored.save().value(), p.world.save().value());
+  World clone = p.world.clone().value();
+  const Random same = p.random;
+  std::vector<EventHash> hashes;
+  for (World* world : {&p.world, &restored, &clone}) {
+    p.random = same;
+    EventHash hash;
+    while (const auto event = world->advance(p.kind.duration, p.probe()).value()) hash.add(*event);
+    hashes.push_back(hash);
+    EXPECT_TRUE(is_clean(*world));
+    EXPECT_EQ(world->save().value(), p.world.save().value());
+  }
+  EXPECT_EQ(hashes[0].value(), hashes[1].value());
+  EXPECT_EQ(hashes[0].value(), hashes[2].value());
+}
+
+/// What the world answers about the future, at several stops, against what comes.
+TEST_P(Periodic, AnswersAreNeverLate) {
+  PeriodicWorld p(GetParam());
+  const double end = p.kind.duration;
+  for (int stop = 0; stop < 6; ++stop) {
+    p.run(end * stop / 12.0);
+    double first_of_all = infinity;
+    bool any_touching = false;
+    std::map<BodyId, double> first_of;
+    for (const BodyId a : p.ids) first_of[a] = infinity;
+    for (const BodyId a : p.ids) {
+      for (const BodyId b : p.ids) {
+        if (!(a < b)) continue;
+        const SafeTime safe = p.world.safe_until(a, b).value();
+        const DistanceLimits limits = p.world.distance_limits(a, b, p.world.time() + 0.01).value();
+        const double gap = p.true_gap(a, b, p.world.time() + 0.01);
+        EXPECT_LE(limits.lower, gap + 1e-9);
+        EXPECT_GE(limits.upper, gap - 1e-9);
+        any_touching |= safe.touching;
+        if (safe.touching) {
+          first_of[a] = first_of[b] = p.world.time();
+          continue;
+        }
+        const auto overlaps = p.overlaps(a, b, end);
+        if (overlaps.empty()) continue;
+        EXPECT_LE(safe.time, overlaps[0].begin + 1e-9) << a << " " << b << " at " << p.world.time();
+        const SafeTime fresh = p.world.safe_until(a, b, p.probe()).value();
+        EXPECT_LE(fresh.time, overlaps[0].begin + 1e-9) << a << " " << b;
+        first_of_all = std::min(first_of_all, overlaps[0].begin);
+        for (const BodyId id : {a, b}) first_of[id] = std::min(first_of[id], overlaps[0].begin);
+      }
+    }
+    for (const BodyId id : p.ids) EXPECT_LE(p.world.safe_until(id).value().time, first_of[id] + 1e-9) << id;
+    EXPECT_LE(p.world.safe_until().value().time, first_of_all + 1e-9);
+    EXPECT_GE(p.world.safe_until().value().touching, any_touching);  // or a wall is touched
+    EXPECT_TRUE(is_clean(p.world));
+  }
+}
+
+/// Positions of the truth in all images that matter.
+std::vector<Vec3> images_of(const PeriodicWorld& p, BodyId id, int most) {
+  const Vec3 at = p.shortest(p.state(id).position - p.kind.box.lower) + p.kind.box.lower;
+  std::vector<Vec3> images;
+  const auto range = [&](int axis) { return p.period[axis] > 0.0 ? most : 0; };
+  for (int x = -range(0); x <= range(0); ++x)
+    for (int y = -range(1); y <= range(1); ++y)
+      for (int z = -range(2); z <= range(2); ++z)
+        images.push_back(at + Vec3{x * p.period.x, y * p.period.y, z * p.period.z});
+  return images;
+}
+
+double distance_to(const Box& box, const Vec3& point) {
+  Vec3 away;
+  for (int axis = 0; axis < 3; ++axis)
+    away[axis] = std::max({box.lower[axis] - point[axis], point[axis] - box.upper[axis], 0.0});
+  return norm(away);
+}
+
+void expect_found(const PeriodicWorld& p, const std::vector<Found>& found,
+                  const std::function<double(const Vec3&)>& distance) {
+  for (const BodyId id : p.ids) {
+    double least = infinity;
+    for (const Vec3& image : images_of(p, id, 4)) least = std::min(least, distance(image));
+    const auto it = std::find_if(found.begin(), found.end(), [=](const Found& f) { return f.body == id; });
+    if (least < p.radius(id) - 1e-9) {
+      EXPECT_NE(it, found.end()) << id << " at " << least;
+    }
+    if (it != found.end() && it->certainty == Certainty::certainly) {
+      EXPECT_LT(least, p.radius(id) + 1e-9) << id;
+    }
+  }
+  const auto same = [](const Found& a, const Found& b) { return a.body == b.body; };
+  EXPECT_EQ(std::adjacent_find(found.begin(), found.end(), same), found.end()) << "found twice";
+}
+
+TEST_P(Periodic, QueriesReachAcrossTheBorder) {
+  PeriodicWorld p(GetParam());
+  const double size = norm(p.kind.box.upper - p.kind.box.lower);
+  for (int stop = 1; stop <= 8; ++stop) {
+    p.run(p.kind.duration * stop / 20.0);
+    Vec3 centre = p.any_point();
+    if (stop % 2 == 0) centre.x = p.kind.box.upper.x;
+    const double reach = 0.3 * size * p.random.uniform();
+    const auto from_centre = [&](const Vec3& at) { return norm(at - centre) - reach; };
+    expect_found(p, p.world.overlapping(centre, reach).value(), from_centre);
+    expect_found(p, p.world.overlapping(centre, reach, p.probe()).value(), from_centre);
+    const Vec3 half = p.flat(Vec3{1, 1, 1} * (0.5 * reach));
+    const Box region{centre - half, centre + half};
+    const auto from_region = [&](const Vec3& at) { return distance_to(region, at); };
+    expect_found(p, p.world.overlapping(region).value(), from_region);
+    expect_found(p, p.world.overlapping(region, p.probe()).value(), from_region);
+
+    std::vector<std::pair<double, BodyId>> truth;
+    for (const BodyId id : p.ids)
+      truth.emplace_back(norm(p.shortest(p.state(id).position - centre)) - p.radius(id), id);
+    std::sort(truth.begin(), truth.end());
+    const auto near = p.world.nearest(centre, 3, p.probe()).value();
+    ASSERT_EQ(near.size(), 3u);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(near[k].body, truth[k].second);
+      EXPECT_NEAR(near[k].lower, truth[k].first, 1e-9);
+    }
+    EXPECT_GE(p.world.nearest(centre, 3).value().size(), 3u);
+
+    const Vec3 direction = p.flat(p.random.point_in_ball());
+    const Vec3 unit = direction / norm(direction);
+    const double length = 1.5 * size;
+    double first = infinity;
+    for (const BodyId id : p.ids)
+      for (const Vec3& image : images_of(p, id, 9)) {
+        const Vec3 way = image - centre;
+        const double along = dot(way, unit);
+        const double square = p.radius(id) * p.radius(id) - norm_squared(way - unit * along);
+        if (square <= 0.0 || along + std::sqrt(square) < 0.0) continue;
+        first = std::min(first, std::max(0.0, along - std::sqrt(square)));
+      }
+    const auto hits = p.world.ray_cast(centre, direction, length, p.probe()).value();
+    if (first < length - 1e-9) {
+      ASSERT_FALSE(hits.empty());
+      EXPECT_NEAR(hits[0].lower, first, 1e-7);
+    } else if (first > length + 1e-9) {
+      EXPECT_TRUE(hits.empty());
+    }
+    const auto rough = p.world.ray_cast(centre, direction, length).value();
+    if (first < length) {
+      ASSERT_FALSE(rough.empty());
+      EXPECT_LE(rough[0].lower, first + 1e-9);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Periodic,
+                         testing::Values(PeriodicKind{.name = "crowd",
+                                                      .box = {{0, 0, 0}, {10, 10, 10}},
+                                                      .bodies = 60,
+                                                      .least_radius = 0.1,
+                                                      .largest_radius = 0.6,
+                                                      .speed = 5},
+                                         PeriodicKind{.name = "wrapped reports",
+                                                      .box = {{0, 0, 0}, {10, 10, 10}},
+                                                      .bodies = 60,
+                                                      .least_radius = 0.1,
+                                                      .largest_radius = 0.6,
+                                                      .speed = 5,
+                                                      .reports = Reports::wrapped,
+                                                      .seed = 2},
+                                         PeriodicKind{.name = "reports in any image",
+                                                      .box = {{-7, 3, 100}, {3, 15, 108}},
+                                                      .bodies = 60,
+                                                      .least_radius = 0.1,
+                                                      .largest_radius = 0.6,
+                                                      .speed = 5,
+                                                      .reports = Reports::any_image,
+                                                      .seed = 3},
+                                         PeriodicKind{.name = "thirds of the box",
+                                                      .box = {{0, 0, 0}, {3, 3, 3}},
+                                                      .bodies = 6,
+                                                      .least_radius = 0.5,
+                                                      .largest_radius = 0.5,
+                                                      .speed = 3,
+                                                      .reports = Reports::wrapped,
+                                                      .seed = 4},
+                                         PeriodicKind{.name = "three cells",
+                                                      .box = {{-1.5, -1.5, -1.5}, {1.5, 1.5, 1.5}},
+                                                      .bodies = 16,
+                                                      .least_radius = 0.2,
+                                                      .largest_radius = 0.35,
+                                                      .speed = 3,
+                                                      .seed = 5},
+                                         PeriodicKind{.name = "a large one among small ones",
+                                                      .box = {{0, 0, 0}, {6, 6, 6}},
+                                                      .bodies = 40,
+                                                      .least_radius = 0.01,
+                                                      .largest_radius = 0.1,
+                                                      .speed = 6,
+                                                      .duration = 12.0,
+                                                      .reports = Reports::wrapped,
+                                                      .first_radius = 1.0,
+                                                      .seed = 6},
+                                         PeriodicKind{.name = "fast ones",
+                                                      .box = {{0, 0, 0}, {2, 3, 4}},
+                                                      .bodies = 8,
+                                                      .least_radius = 0.05,
+                                                      .largest_radius = 0.2,
+                                                      .speed = 300,
+                                                      .duration = 1.0,
+                                                      .reports = Reports::wrapped,
+                                                      .seed = 7},
+                                         PeriodicKind{.name = "fast ones, unwrapped",
+                                                      .box = {{0, 0, 0}, {2, 3, 4}},
+                                                      .bodies = 8,
+                                                      .least_radius = 0.05,
+                                                      .largest_radius = 0.2,
+                                                      .speed = 300,
+                                                      .duration = 1.0,
+                                                      .seed = 8},
+                                         PeriodicKind{.name = "slab",
+                                                      .box = {{0, 0, 0}, {5, 5, 5}},
+                                                      .periodic = {true, true, false},
+                                                      .bodies = 40,
+                                                      .least_radius = 0.1,
+                                                      .largest_radius = 0.4,
+                                                      .speed = 2,
+                                                      .duration = 3.0,
+                                                      .reports = Reports::wrapped,
+                                                      .seed = 9},
+                                         PeriodicKind{.name = "channel",
+                                                      .box = {{0, 0, 0}, {5, 5, 5}},
+                                                      .periodic = {false, true, false},
+                                                      .bodies = 40,
+                                                      .least_radius = 0.1,
+                                                      .largest_radius = 0.4,
+                                                      .speed = 2,
+                                                      .duration = 3.0,
+                                                      .seed = 10},
+                                         PeriodicKind{.name = "discs",
+                                                      .box = {{0, 0, 0}, {6, 6, 0}},
+                                                      .periodic = {true, true, false},
+                                                      .dimensions = 2,
+                                                      .bodies = 30,
+                                                      .least_radius = 0.05,
+                                                      .largest_radius = 0.3,
+                                                      .speed = 3,
+                                                      .reports = Reports::wrapped,
+                                                      .seed = 11}),
+                         [](const auto& tested) {
+                           std::string name = tested.param.name;
+                           std::erase_if(name,
+                                         [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
+                           return name;
+                         });
+
+TEST(PeriodicBox, PairsMeetAcrossACorner) {
+  for (const Reports reports : {Reports::unwrapped, Reports::wrapped}) {
+    PeriodicWorld p({.name = "corner", .box = {{0, 0, 0}, {10, 10, 10}}, .reports = reports});
+    const BodyId a = p.add({.radius = 1, .position = {0.5, 0.5, 0.5}});
+    const BodyId b = p.add({.radius = 1, .position = {7, 7, 7}, .velocity = {1, 1, 1}});
+    const auto event = p.advance(100);
+    ASSERT_TRUE(event);
+    EXPECT_EQ(event->kind, EventKind::contact_begin);
+    EXPECT_NEAR(event->time, 3.5 - 2.0 / std::sqrt(3.0), 1e-5);
+    EXPECT_EQ(event->first, a);
+    EXPECT_EQ(event->second, b);
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(event->second_state.position[axis], 0.5 - 2.0 / std::sqrt(3.0), 1e-5);
+      EXPECT_NEAR(event->normal[axis], -1.0 / std::sqrt(3.0), 1e-6);
+    }
+    p.check_event(*event);
+  }
+}
+
+/// A body with itself makes no contact, however often it comes round.
+TEST(PeriodicBox, OneBodyMeetsNobody) {
+  PeriodicWorld p({.name = "alone", .box = {{0, 0, 0}, {3, 3, 3}}});
+  const BodyId id = p.add({.radius = 0.5, .position = {1, 1, 1}, .velocity = {1000, 100, -10}});
+  EXPECT_FALSE(p.advance(10));
+  const BodyView view = p.world.body(id).value();
+  EXPECT_GT(view.image[0], 3300);
+  EXPECT_LT(view.image[2], -30);
+  p.check_image(id);
+}
+
+TEST(PeriodicBox, PositionsFromTheCallerMayBeInAnyImage) {
+  PeriodicWorld p({.name = "any", .box = {{0, 0, 0}, {10, 10, 10}}}, {.allow_overlap = false});
+  const BodyId a = p.add({.radius = 1, .position = {25, -35, 5}});
+  EXPECT_EQ(p.world.body(a).value().definition.position, (Vec3{5, 5, 5}));
+  EXPECT_EQ(p.world.body(a).value().image, (std::array<std::int64_t, 3>{2, -4, 0}));
+  expect_error(p.world.add({.radius = 1, .position = {-5, 105, 6.5}}), ErrorCode::overlapping, "position",
+               "add", a);
+  const BodyId b = p.add({.radius = 1, .position = {9.5, 5, 5}});
+  expect_error(p.world.teleport(a, {{10.5, 5, 5}, {}}), ErrorCode::overlapping, "position", "teleport", b);
+  p.world.teleport(a, {{-8, 5, 5}, {}}).value();
+  p.set_position(a, {-8, 5, 5});
+  EXPECT_EQ(p.world.body(a).value().image, (std::array<std::int64_t, 3>{-1, 0, 0}));
+  EXPECT_FALSE(p.advance(1));
+  const std::vector<BodyDefinition> together{{.radius = 0.5, .position = {5, 5, 0.2}},
+                                             {.radius = 0.5, .position = {5, 5, 9.9}}};
+  expect_error(p.world.add_all(together), ErrorCode::overlapping, "position", "add_all");
+  EXPECT_TRUE(is_clean(p.world));
+}
+
+/// Bodies that come and go, grow, jump and are kicked: the facts and the image counts hold at each stop.
+TEST(PeriodicBox, HoldsThroughEveryKindOfChange) {
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+    SCOPED_TRACE(seed);
+    const auto mode = seed % 2 == 0 ? ContactMode::impacts : ContactMode::begin_and_end;
+    PeriodicWorld p({.name = "changes",
+                     .box = {{0, 0, 0}, {6, 6, 6}},
+                     .bodies = 25,
+                     .least_radius = 0.05,
+                     .largest_radius = 0.5,
+                     .speed = 4,
+                     .reports = Reports::any_image,
+                     .first_radius = 1.0,
+                     .seed = seed},
+                    {.contacts = mode});
+    std::set<std::pair<BodyId, BodyId>> touching;
+    for (int step = 1; step <= 60; ++step) {
+      const auto events = p.run(0.05 * step, [&](const Event& event) {
+        // Ends that a change brought about have the states before it.
+        if (event.kind != EventKind::contact_end) p.check_event(event);
+        if (event.kind == EventKind::contact_begin && mode == ContactMode::impacts) {
+          const Vec3 change = event.normal * event.approach_speed;
+          p.kick(event.first, p.state(event.first).velocity - change);
+          p.kick(event.second, p.state(event.second).velocity + change);
+        } else if (event.kind == EventKind::contact_begin) {
+          EXPECT_TRUE(touching.insert({event.first, event.second}).second) << event;
+        } else if (event.kind == EventKind::contact_end) {
+          EXPECT_EQ(touching.erase({event.first, event.second}), 1u) << event;
+        }
+      });
+      if (mode == ContactMode::begin_and_end)
+        for (const BodyId a : p.world.bodies())
+          for (const BodyId b : p.world.bodies()) {
+            if (!(a < b)) continue;
+            const double gap = p.true_gap(a, b, p.world.time());
+            if (gap < -eps) {
+              EXPECT_TRUE(touching.contains({a, b})) << a << " " << b << " gap " << gap;
+            }
+            if (gap > 5.1 * eps) {
+              EXPECT_FALSE(touching.contains({a, b})) << a << " " << b << " gap " << gap;
+            }
+          }
+      ASSERT_TRUE(is_clean(p.world)) << step;
+      for (const BodyId id : p.world.bodies()) p.check_image(id);
+      const BodyId id = p.world.bodies()[p.random.bits() % p.world.size()];
+      const double choice = p.random.uniform();
+      if (choice < 0.3) {
+        p.kick(id, 4.0 * p.random.point_in_ball());
+      } else if (choice < 0.5) {
+        const Vec3 place = p.any_point() + Vec3{12, -6, 0};
+        p.world.teleport(id, {place, p.state(id).velocity}).value();
+        p.set_position(id, place);
+      } else if (choice < 0.7) {
+        p.world.set_radius(id, 0.6 * p.random.uniform()).value();
+      } else if (choice < 0.85) {
+        p.world.set_promise(id, {.acceleration_limit = p.random.uniform()}).value();
+      } else {
+        p.world.remove(id).value();
+        p.add({.radius = 0.3,
+               .acceleration_limit = 1.0,
+               .position = p.any_point(),
+               .velocity = 4.0 * p.random.point_in_ball()},
+              Vec3{});
+      }
+    }
+  }
+}
+
+/// Reports with errors, and true paths that bend as far as the promise allows.
+TEST(PeriodicBox, NothingIsMissedWithErrorsAndAccelerations) {
+  const double noise = 1e-3;
+  PeriodicWorld p({.name = "noisy", .box = {{0, 0, 0}, {5, 4, 3}}}, {.separation_distance = 8 * noise});
+  for (int k = 0; k < 20; ++k) {
+    const double radius = k == 0 ? 0.48 : 0.05 + 0.2 * p.random.uniform();
+    p.ids.push_back(p.add({.radius = radius,
+                           .acceleration_limit = 2,
+                           .position_error = noise,
+                           .velocity_error = noise,
+                           .position = p.any_point(),
+                           .velocity = 3.0 * p.random.point_in_ball()},
+                          1.999 * p.random.point_in_ball()));
+  }
+  p.kind.reports = Reports::any_image;
+  p.distort = [&](BodyId, double, State& state) {
+    state.position = p.told(state.position + 0.999 * noise * p.random.point_in_ball());
+    state.velocity += 0.999 * noise * p.random.point_in_ball();
+  };
+  std::set<std::pair<BodyId, BodyId>> touching;
+  for (int step = 1; step <= 300; ++step) {
+    for (const Event& event : p.run(0.01 * step)) {
+      EXPECT_NE(event.kind, EventKind::bound_violation) << event;
+      if (event.kind == EventKind::contact_begin) touching.insert({event.first, event.second});
+      if (event.kind == EventKind::contact_end) touching.erase({event.first, event.second});
+    }
+    for (const BodyId a : p.ids)
+      for (const BodyId b : p.ids)
+        if (a < b && p.true_gap(a, b, p.world.time()) < -eps) {
+          EXPECT_TRUE(touching.contains({a, b})) << a << " " << b << " at " << p.world.time();
+        }
+    if (step % 10 == 0) {
+      for (const BodyId id : p.ids) p.steer(id, 1.999 * p.random.point_in_ball());
+      EXPECT_TRUE(is_clean(p.world));
+    }
+  }
+}
+
+TEST(PeriodicBox, AGasConservesMomentumAndEnergy) {
+  PeriodicWorld p({.name = "gas", .box = {{0, 0, 0}, {8, 8, 8}}, .reports = Reports::wrapped},
+                  {.contacts = ContactMode::impacts, .allow_overlap = false});
+  while (p.ids.size() < 120) {
+    const BodyDefinition body{
+        .radius = 0.5, .position = p.any_point(), .velocity = 3.0 * p.random.point_in_ball()};
+    if (p.world.add(body)) {
+      p.world.remove(p.world.bodies().back()).value();
+      p.ids.push_back(p.add(body));
+    }
+  }
+  const auto momentum = [&] {
+    Vec3 sum;
+    for (const BodyId id : p.ids) sum += p.state(id).velocity;
+    return sum;
+  };
+  const auto energy = [&] {
+    double sum = 0.0;
+    for (const BodyId id : p.ids) sum += 0.5 * norm_squared(p.state(id).velocity);
+    return sum;
+  };
+  const Vec3 momentum_before = momentum();
+  const double energy_before = energy();
+  std::size_t bounces = 0;
+  for (int step = 1; step <= 20; ++step) {
+    p.run(0.1 * step, [&](const Event& event) {
+      ASSERT_EQ(event.kind, EventKind::contact_begin) << event;
+      ++bounces;
+      const Vec3 change = event.normal * event.approach_speed;
+      p.kick(event.first, p.state(event.first).velocity - change);
+      p.kick(event.second, p.state(event.second).velocity + change);
+    });
+    for (const BodyId a : p.ids)
+      for (const BodyId b : p.ids)
+        if (a < b) {
+          ASSERT_GE(p.true_gap(a, b, p.world.time()), -eps) << a << " " << b;
+        }
+    ASSERT_TRUE(is_clean(p.world));
+  }
+  EXPECT_GT(bounces, 300u);
+  EXPECT_NEAR(norm(momentum() - momentum_before), 0.0, 1e-9);
+  EXPECT_NEAR(energy() / energy_before, 1.0, 1e-10);
+}
+
+TEST(PeriodicBox, ABrokenPromiseIsNoticedAcrossTheBorder) {
+  PeriodicWorld p({.name = "broken", .box = {{0, 0, 0}, {10, 10, 10}}, .reports = Reports::wrapped});
+  const BodyId id =
+      p.add({.radius = 1, .acceleration_limit = 1, .position = {9.5, 5, 5}, .velocity = {1, 0, 0}});
+  p.run(0.1);
+  p.set_position(id, {11.5, 5, 5});
+  const auto events = p.run(20);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, EventKind::bound_violation);
+  EXPECT_GT(events[0].position_excess, 0.5);
+  EXPECT_LT(events[0].position_excess, 2.0);
+  EXPECT_GE(events[0].first_state.position.x, 0.0);
+  EXPECT_LT(events[0].first_state.position.x, 10.0);
+  EXPECT_TRUE(is_clean(p.world));
+}
+
+TEST(WrongPeriodic, IsRefused) {
+  const Box box{{0, 0, 0}, {10, 10, 10}};
+  const auto refused = [](const std::string& argument, const WorldDefinition& definition) {
+    expect_error(World::create(definition), ErrorCode::out_of_range, argument, "World::create");
+  };
+  refused("periodic", {.periodic = all_axes});
+  refused("periodic", {.periodic = {false, true, false}});
+  refused("periodic", {.box = box, .periodic = all_axes, .dimensions = 2});
+  refused("box", {.box = Box{{0, 0, 0}, {10, 1e-5, 10}}, .periodic = all_axes});
+  EXPECT_TRUE(World::create({.box = Box{{0, 0, 0}, {10, 1e-5, 10}}, .periodic = {true, false, true}}));
+
+  World world = World::create({.box = box, .periodic = {true, true, false}}).value();
+  EXPECT_TRUE(world.add({.radius = 10.0 / 6.0}));
+  expect_error(world.add({.radius = 1.9}), ErrorCode::out_of_range, "radius", "add");
+  expect_error(world.add({.radius = 1.0, .position_error = 0.3}), ErrorCode::out_of_range, "radius", "add");
+  expect_error(world.add({.radius = 1.0, .position = {3, 5, 11}}), ErrorCode::outside_domain, "position",
+               "add");
+  const BodyId id = world.add({.radius = 1.0, .position = {-3, 55, 5}}).value();
+  const auto bytes = world.save().value();
+  expect_error(world.set_radius(id, 1.9), ErrorCode::out_of_range, "radius", "set_radius", id);
+  expect_error(world.set_promise(id, {.position_error = 0.3}), ErrorCode::out_of_range, "position_error",
+               "set_promise", id);
+  expect_error(world.sphere_cast({1, 1, 1}, 5.1, {1, 0, 0}, 10), ErrorCode::out_of_range, "radius",
+               "sphere_cast");
+  expect_error(world.ray_cast({1, 1, 1}, {1, 0, 0}, 641), ErrorCode::out_of_range, "length", "ray_cast");
+  EXPECT_EQ(world.save().value(), bytes);
+  EXPECT_TRUE(world.ray_cast({1, 1, 1}, {1, 0, 0}, 640));
+  EXPECT_TRUE(world.overlapping({1, 1, 1}, 1e6));
+  EXPECT_EQ(world.overlapping({1, 1, 1}, 1e6).value().size(), 2u);
+}
+
+}  // namespace
+}  // namespace kinesphere
