@@ -277,6 +277,7 @@ class World::Engine {
   bool bodies_are_sound() const;
   bool shapes_are_sound() const;
   bool is_sound(const Body& body) const;
+  bool contacts_of_fixed_are_sound() const;
   bool is_sound_fixed(const Body& body) const;
   bool image_is_sound(const Body& body) const;
   bool was_given_out(BodyId id) const;

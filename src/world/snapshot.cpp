@@ -107,7 +107,8 @@ const char* World::Engine::contradiction() const {
   for (int number = 0; number <= std::numeric_limits<SensorClass>::max(); ++number)
     if (!check_sensor(sensors_.of(static_cast<SensorClass>(number)), definition_)) return "sensors";
   const auto known = [this](BodyId id) { return was_given_out(id); };
-  if (!book_.is_sound(bodies_.size(), time_, walls_, known)) return "contacts";
+  if (!book_.is_sound(bodies_.size(), time_, walls_, known) || !contacts_of_fixed_are_sound())
+    return "contacts";
   const auto present = static_cast<std::size_t>(
       std::count_if(bodies_.begin(), bodies_.end(), [](const Body& body) { return body.present(); }));
   if (!grid_.is_sound() || grid_.size() != present) return "grid";
@@ -137,6 +138,25 @@ bool World::Engine::shapes_are_sound() const {
   for (const Body& body : bodies_)
     if (body.is_fixed() && !(body.alive && filtering_ && take(body.shape_number))) return false;
   return std::find(is_taken.begin(), is_taken.end(), false) == is_taken.end();
+}
+
+/// Fixed bodies touch neither each other nor walls, and are not about to.
+bool World::Engine::contacts_of_fixed_are_sound() const {
+  const auto fixed = [this](std::uint32_t number) { return bodies_[number].is_fixed(); };
+  const auto lives_fixed = [&](BodyId id) { return id == id_of(id.index) && fixed(id.index); };
+  for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
+    if (!fixed(number)) continue;
+    const auto& partners = book_.partners_of(number);
+    const auto& crossings = book_.crossings_of(number);
+    if (book_.walls_of(number) != 0 || std::any_of(partners.begin(), partners.end(), fixed) ||
+        std::any_of(crossings.begin(), crossings.end(), [&](const Crossing& c) { return fixed(c.partner); }))
+      return false;
+  }
+  return std::none_of(book_.changed().begin(), book_.changed().end(),
+                      [&](const auto& pair) { return fixed(pair.first) && fixed(pair.second); }) &&
+         std::none_of(book_.pending().begin(), book_.pending().end(), [&](const Event& event) {
+           return lives_fixed(event.first) && (event.second == no_body || lives_fixed(event.second));
+         });
 }
 
 /// It must be as it was made.
