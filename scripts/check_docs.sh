@@ -1,23 +1,25 @@
 #!/usr/bin/env bash
 # Fails unless the docs tell the truth: the C++ example of README.md is examples/first_contact.cpp, word for word, and what
 # it says that this example and the main job print is what they print, timings aside; the C++ in docs/worlds.md is taken
-# from the examples.
-# Usage: check_docs.sh <example first_contact> <program kinesphere>
+# from the examples, and what examples/sensors.cpp prints there is what it prints.
+# Usage: check_docs.sh <example first_contact> <example sensors> <program kinesphere>
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-# The lines of the first block after a line that matches a pattern.
+# The lines of the first block in a file after a line that matches a pattern.
 block_after() {
-  awk -v pattern="$1" '$0 ~ pattern {near = 1; next} near && /^```/ {if (on) exit; on = 1; next} on {print}' README.md
+  awk -v pattern="$2" '$0 ~ pattern {near = 1; next} near && /^```/ {if (on) exit; on = 1; next} on {print}' "$1"
 }
 # The width of the columns depends on the timings too.
 untimed() { grep -v '^real' | tr -s ' '; }
 
-diff <(block_after '^## Thirty lines$') examples/first_contact.cpp
+diff <(block_after README.md '^## Thirty lines$') examples/first_contact.cpp
 printed=$("$1")
-diff <(block_after '^prints$') - <<<"$printed"
-printed=$("$2" run paper1)
-diff <(block_after '^The first prints' | untimed) <(untimed <<<"$printed")
+diff <(block_after README.md '^prints$') - <<<"$printed"
+printed=$("$3" run paper1)
+diff <(block_after README.md '^The first prints' | untimed) <(untimed <<<"$printed")
+printed=$("$2")
+diff <(block_after docs/worlds.md '^Sensors see fast bodies') - <<<"$printed"
 
 # Each line of C++ in docs/worlds.md stands in an example.
 awk '/^```/ {on = $0 == "```cpp"; next} on && NF {print}' docs/worlds.md | while IFS= read -r line; do
