@@ -116,7 +116,7 @@ class ContactBook {
       if (first && (second || event.second == no_body)) {
         const Sphere& other = second ? *second : *first;
         if (!take_effect(event, *first, other, box)) continue;
-      } else if (begins(event.kind)) {
+      } else if (begins(event.kind) || event.kind == EventKind::zeno_guard) {
         continue;
       }
       return event;
