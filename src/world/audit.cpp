@@ -88,7 +88,7 @@ class World::Engine::Audit {
 
   void check_fixed(std::uint32_t number) {
     const Body& b = body(number);
-    if (!(b.box == engine_.box_of(engine_.shape(number))) || b.box_end != infinity)
+    if (!(b.box == engine_.box_of(b)) || b.box_end != infinity)
       find("registration", name(number) + " is fixed but not registered where its shape is");
     if (!b.watches.empty()) find("certificate", name(number) + " is fixed but watches another");
   }
