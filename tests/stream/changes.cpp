@@ -16,45 +16,65 @@ T accepted(Result<T> result) {
 
 }  // namespace
 
+/// Where space repeats there is no room for large ones.
+double Player::radius(const Operation& operation) const {
+  return truth_.definition().periodic.any() ? std::min(0.3, operation.radius()) : operation.radius();
+}
+
+MotionPromise Player::promise(const Operation& operation) const {
+  MotionPromise promise = operation.promise();
+  promise.planned_acceleration = truth_.in_space(promise.planned_acceleration);
+  return promise;
+}
+
 /// In a world without overlaps it lies in the box as a whole.
 BodyDefinition Player::new_body(const Operation& operation) const {
-  const MotionPromise promise = operation.promise();
-  BodyDefinition body = with_promise({.radius = operation.radius(),
+  BodyDefinition body = with_promise({.radius = radius(operation),
                                       .position = operation.position(),
-                                      .velocity = operation.velocity(),
+                                      .velocity = truth_.in_space(operation.velocity()),
                                       .filter = operation.filter(),
+                                      .solid = !kind_.sensors || operation.solid(),
+                                      .sensor_class = operation.sensor_class(),
                                       .user_data = operation.code()},
-                                     promise);
+                                     promise(operation));
   if (operation.byte(8) % 8 == 0) body.velocity = {};
-  const WorldDefinition& world = truth_.definition();
-  if (!world.allow_overlap && world.box)
-    for (int axis = 0; axis < 3; ++axis)
-      body.position[axis] = std::clamp(body.position[axis], body.radius, world_size - body.radius);
+  body.position = inside(body.position, body.radius);
   return body;
 }
 
-/// Whether nothing keeps a body, with this bound and filter, from being there where overlaps are refused.
-bool Player::has_room(BodyId id, const Bound& bound, const Filter& filter) const {
+/// The nearest place where a body of this radius may be put.
+Vec3 Player::inside(Vec3 position, double radius) const {
+  const WorldDefinition& world = truth_.definition();
+  const double reach = world.allow_overlap ? 0.0 : radius;
+  for (int axis = 0; axis < 3 && world.box; ++axis)
+    if (!world.periodic[axis]) position[axis] = std::clamp(position[axis], reach, world_size - reach);
+  return truth_.in_space(position);
+}
+
+/// Whether nothing keeps a body, with this extent, from being there where overlaps are refused.
+bool Player::has_room(BodyId id, const Extent& extent, const BodyDefinition& body) const {
   if (truth_.definition().allow_overlap) return true;
   for (const TrueBody& other : truth_.bodies()) {
-    if (!other.present() || other.id == id || !truth_.passes_filters(id, filter, other.id)) continue;
-    const GapLimits gap = gap_limits(bound, world_.body(other.id).value().bound, truth_.time());
+    if (!other.present() || other.id == id || (extent.fixed && other.fixed)) continue;
+    if (!truth_.may_touch(id, body, other.id)) continue;
+    const Bound bound = world_.body(other.id).value().bound;
+    const GapLimits gap = truth_.limits(extent, {bound, other.fixed, other.shape ? &*other.shape : nullptr});
     if (gap.upper < -truth_.definition().contact_tolerance) return false;
   }
   return true;
 }
 
 void Player::join(BodyId id, const BodyDefinition& body, const Operation& operation) {
-  truth_.add(id, body, operation.acceleration(promise_of(body)));
+  truth_.add(id, body, acceleration(operation, promise_of(body)));
   told_.appeared(id);
   changed();
 }
 
 void Player::add(const Operation& operation) {
-  if (truth_.ids().size() >= most_bodies_) return;
+  if (truth_.ids().size() >= kind_.most_bodies) return;
   const BodyDefinition body = new_body(operation);
   const Bound bound = bound_of(body, {body.position, body.velocity}, truth_.time());
-  const bool room = has_room(no_body, bound, body.filter);
+  const bool room = has_room(no_body, {bound}, body);
   const auto id = on_world([&](World& world) { return world.add(body); });
   require(static_cast<bool>(id) == room, "add: overlaps are refused wrongly");
   if (!id) return require(id.error().code == ErrorCode::overlapping, "add: refused for a wrong reason");
@@ -62,10 +82,10 @@ void Player::add(const Operation& operation) {
 }
 
 void Player::add_all(const Operation& operation) {
-  if (truth_.ids().size() + 2 > most_bodies_) return;
+  if (truth_.ids().size() + 2 > kind_.most_bodies) return;
   const BodyDefinition first = new_body(operation);
   BodyDefinition second = first;
-  second.position = Vec3{world_size, world_size, world_size} - first.position;
+  second.position = truth_.in_space(Vec3{world_size, world_size, world_size} - first.position);
   const std::vector<BodyDefinition> bodies{first, second};
   const auto ids = on_world([&](World& world) { return world.add_all(bodies); });
   if (!ids) {
@@ -74,6 +94,34 @@ void Player::add_all(const Operation& operation) {
     return;
   }
   for (std::size_t k = 0; k < bodies.size(); ++k) join((*ids)[k], bodies[k], operation);
+}
+
+void Player::add_fixed(const Operation& operation) {
+  if (!kind_.fixed || truth_.ids().size() >= kind_.most_bodies) return;
+  const bool flat = truth_.definition().dimensions == 2;
+  FixedDefinition fixed{.shape = operation.shape(flat),
+                        .filter = operation.filter(),
+                        .solid = !kind_.sensors || operation.solid(),
+                        .sensor_class = operation.sensor_class(),
+                        .user_data = operation.code()};
+  if (truth_.definition().periodic.any()) fixed.shape = Ball{operation.position(), radius(operation)};
+  if (auto* ball = std::get_if<Ball>(&fixed.shape)) ball->centre = truth_.in_space(ball->centre);
+  const auto id = on_world([&](World& world) { return world.add_fixed(fixed); });
+  if (!id) {
+    require(!truth_.definition().allow_overlap && id.error().code == ErrorCode::overlapping,
+            "add_fixed: refused for a wrong reason");
+    return;
+  }
+  const BodyDefinition body = world_.body(*id).value().definition;
+  require(body.filter == fixed.filter && body.solid == fixed.solid &&
+              body.sensor_class == fixed.sensor_class && body.user_data == fixed.user_data,
+          "add_fixed: other than asked for");
+  const Shape shape = world_.shape_of(*id).value();
+  require(shape.index() == fixed.shape.index(), "add_fixed: another shape");
+  truth_.add_fixed(*id, body, shape);
+  require(room_of_fixed(*id), "add_fixed: an overlap is not refused");
+  told_.appeared(*id);
+  changed();
 }
 
 void Player::leave(BodyId id, const std::vector<Before>& before) {
@@ -113,30 +161,30 @@ void Player::kick(BodyId id, const Vec3& velocity) {
 }
 
 void Player::kick(const Operation& operation) {
-  const auto id = any(operation);
-  if (id && truth_.is_present(*id)) kick(*id, operation.velocity());
+  const auto id = any_moving(operation);
+  if (id && truth_.is_present(*id)) kick(*id, truth_.in_space(operation.velocity()));
 }
 
 /// Bodies that have strayed far are sent back.
 void Player::send_back() {
   for (const BodyId id : truth_.ids()) {
-    if (!truth_.is_present(id)) continue;
+    if (!truth_.is_present(id) || truth_.at(id).fixed) continue;
     const State state = truth_.state(id);
-    const Vec3 out = state.position - Vec3{0.5, 0.5, 0.5} * world_size;
+    const Vec3 out = truth_.in_space(state.position - Vec3{0.5, 0.5, 0.5} * world_size);
     if (norm(out) > 1.5 * world_size && dot(out, state.velocity) > 0.0) kick(id, out * (-0.3));
   }
 }
 
 /// The world learns nothing of it.
 void Player::steer(const Operation& operation) {
-  const auto id = any(operation);
-  if (id) truth_.steer(*id, operation.acceleration(promise_of(truth_.at(*id).definition)));
+  const auto id = any_moving(operation);
+  if (id) truth_.steer(*id, acceleration(operation, promise_of(truth_.at(*id).definition)));
 }
 
 void Player::teleport(BodyId id, const State& state) {
   const auto before = told_.before(world_, id);
   const BodyDefinition& body = truth_.at(id).definition;
-  const bool room = has_room(id, bound_of(body, state, truth_.time()), body.filter);
+  const bool room = has_room(id, {bound_of(body, state, truth_.time())}, body);
   const auto done = on_world([&](World& world) { return world.teleport(id, state); });
   require(static_cast<bool>(done) == room, "teleport: overlaps are refused wrongly");
   if (!done) return require(done.error().code == ErrorCode::overlapping, "teleport: a wrong reason");
@@ -148,39 +196,30 @@ void Player::teleport(BodyId id, const State& state) {
 
 /// Where a body that has this radius may be put.
 State Player::place(const Operation& operation, double radius) const {
-  Operation same = operation;
-  BodyDefinition body = new_body(same);
-  const WorldDefinition& world = truth_.definition();
-  if (!world.allow_overlap && world.box)
-    for (int axis = 0; axis < 3; ++axis)
-      body.position[axis] = std::clamp(operation.position()[axis], radius, world_size - radius);
-  return {body.position, body.velocity};
+  return {inside(operation.position(), radius), new_body(operation).velocity};
 }
 
 void Player::teleport(const Operation& operation) {
-  const auto id = any(operation);
+  const auto id = any_moving(operation);
   if (!id || !truth_.is_present(*id)) return;
   teleport(*id, place(operation, truth_.at(*id).definition.radius));
 }
 
 /// A teleport so short that the body may stay in its contacts, or leave them by a hair.
 void Player::nudge(const Operation& operation) {
-  const auto id = any(operation);
+  const auto id = any_moving(operation);
   if (!id || !truth_.is_present(*id)) return;
-  const WorldDefinition& world = truth_.definition();
   State state = truth_.state(*id);
-  const double length = operation.byte(3) % 2 == 0 ? 0.02 : 8.0 * world.contact_tolerance;
+  const double length = operation.byte(3) % 2 == 0 ? 0.02 : 8.0 * truth_.definition().contact_tolerance;
   state.position += length * operation.random().point_in_ball();
-  const double reach = world.allow_overlap ? 0.0 : truth_.at(*id).definition.radius;
-  for (int axis = 0; axis < 3 && world.box; ++axis)
-    state.position[axis] = std::clamp(state.position[axis], reach, world_size - reach);
+  state.position = inside(state.position, truth_.at(*id).definition.radius);
   teleport(*id, state);
 }
 
 void Player::set_radius(const Operation& operation) {
-  const auto id = any(operation);
+  const auto id = any_moving(operation);
   if (!id) return;
-  const double radius = operation.radius();
+  const double radius = this->radius(operation);
   const auto before = truth_.is_present(*id) ? told_.before(world_, *id) : std::vector<Before>();
   const bool strict = !truth_.definition().allow_overlap;
   const auto done = on_world([&](World& world) { return world.set_radius(*id, radius); });
@@ -194,20 +233,20 @@ void Player::set_radius(const Operation& operation) {
   truth_.at(*id).definition.radius = radius;
   if (!truth_.is_present(*id)) return;
   if (strict && grows)
-    require(has_room(*id, world_.body(*id).value().bound, truth_.at(*id).definition.filter),
+    require(has_room(*id, {world_.body(*id).value().bound}, truth_.at(*id).definition),
             "set_radius: an overlap is not refused");
   told_.replaced(world_, *id, before);
   changed();
 }
 
 void Player::set_promise(const Operation& operation) {
-  const auto id = any(operation);
+  const auto id = any_moving(operation);
   if (!id) return;
-  const MotionPromise promise = operation.promise();
+  const MotionPromise promise = this->promise(operation);
   const auto before = truth_.is_present(*id) ? told_.before(world_, *id) : std::vector<Before>();
   accepted(on_world([&](World& world) { return world.set_promise(*id, promise); }));
   truth_.at(*id).definition = with_promise(truth_.at(*id).definition, promise);
-  truth_.steer(*id, operation.acceleration(promise));
+  truth_.steer(*id, acceleration(operation, promise));
   if (!truth_.is_present(*id)) return;
   told_.replaced(world_, *id, before);
   changed();
@@ -230,11 +269,13 @@ void Player::turn_on(const Operation& operation) {
   if (off == truth_.bodies().end()) return;
   const BodyId id = off->id;
   const State state = place(operation, off->definition.radius);
-  const bool room = has_room(id, bound_of(off->definition, state, truth_.time()), off->definition.filter);
+  const bool room = off->fixed
+                        ? room_of_fixed(id)
+                        : has_room(id, {bound_of(off->definition, state, truth_.time())}, off->definition);
   const auto done = on_world([&](World& world) { return world.enable(id, state); });
   require(static_cast<bool>(done) == room, "enable: overlaps are refused wrongly");
   if (!done) return require(done.error().code == ErrorCode::overlapping, "enable: a wrong reason");
-  truth_.move(id, state);
+  if (!off->fixed) truth_.move(id, state);
   truth_.at(id).enabled = true;
   told_.appeared(id);
   changed();
@@ -248,27 +289,74 @@ void Player::set_user_data(const Operation& operation) {
   truth_.at(*id).definition.user_data = data;
 }
 
-// Filters.
+bool Player::room_of_fixed(BodyId id) const {
+  const TrueBody& body = truth_.at(id);
+  const Bound bound = bound_of(body.definition, truth_.state(id), truth_.time());
+  return has_room(id, {bound, true, body.shape ? &*body.shape : nullptr}, body.definition);
+}
+
+// Who may touch and sense whom.
+
+/// `change` is about to change the answers about these bodies.
+template <class Change>
+void Player::refilter(const std::vector<BodyId>& ids, Change change) {
+  std::vector<std::vector<Before>> before;
+  for (const BodyId id : ids) before.push_back(told_.before(world_, id));
+  change();
+  for (std::size_t k = 0; k < ids.size(); ++k) told_.refiltered(ids[k], before[k]);
+  changed();
+}
 
 void Player::set_filter(const Operation& operation) {
   const auto id = any(operation);
   if (!id) return;
-  const auto before = told_.before(world_, *id);
-  accepted(on_world([&](World& world) { return world.set_filter(*id, operation.filter()); }));
-  truth_.at(*id).definition.filter = operation.filter();
-  told_.refiltered(*id, before);
-  changed();
+  refilter({*id}, [&] {
+    accepted(on_world([&](World& world) { return world.set_filter(*id, operation.filter()); }));
+    truth_.at(*id).definition.filter = operation.filter();
+  });
+}
+
+void Player::set_solid(const Operation& operation) {
+  const auto id = any(operation);
+  if (!id || !kind_.sensors) return;
+  const bool solid = operation.byte(0) % 4 != 0;
+  refilter({*id}, [&] {
+    accepted(on_world([&](World& world) { return world.set_solid(*id, solid); }));
+    truth_.at(*id).definition.solid = solid;
+  });
+}
+
+void Player::set_sensor_class(const Operation& operation) {
+  const auto id = any(operation);
+  if (!id || !kind_.sensors) return;
+  const SensorClass sensor_class = operation.sensor_class();
+  refilter({*id}, [&] {
+    accepted(on_world([&](World& world) { return world.set_sensor_class(*id, sensor_class); }));
+    truth_.at(*id).definition.sensor_class = sensor_class;
+  });
+}
+
+void Player::set_sensor(const Operation& operation) {
+  if (!kind_.sensors) return;
+  const SensorClass sensor_class = operation.sensor_class();
+  const Sensor sensor = operation.sensor(truth_.definition().periodic.any() ? 0.3 : 1.0);
+  std::vector<BodyId> ids = truth_.ids();
+  std::erase_if(ids, [&](BodyId id) { return truth_.at(id).definition.sensor_class != sensor_class; });
+  refilter(ids, [&] {
+    accepted(on_world([&](World& world) { return world.set_sensor(sensor_class, sensor); }));
+    truth_.sensors[sensor_class] = sensor;
+  });
+  require(world_.sensor(sensor_class) == sensor, "a sensor is not what was set");
 }
 
 /// The body becomes one of the haunted, or is so no longer: the pair filter answers otherwise.
 void Player::haunt(const Operation& operation) {
   const auto id = any(operation);
   if (!id) return;
-  const auto before = told_.before(world_, *id);
-  truth_.haunt(*id);
-  accepted(on_world([&](World& world) { return world.refilter(*id); }));
-  told_.refiltered(*id, before);
-  changed();
+  refilter({*id}, [&] {
+    truth_.haunt(*id);
+    accepted(on_world([&](World& world) { return world.refilter(*id); }));
+  });
 }
 
 void Player::give_pair_filter(World& world) const {
@@ -278,14 +366,11 @@ void Player::give_pair_filter(World& world) const {
 }
 
 void Player::set_pair_filter(const Operation& operation) {
-  const std::vector<BodyId> ids = truth_.ids();
-  std::vector<std::vector<Before>> before;
-  for (const BodyId id : ids) before.push_back(told_.before(world_, id));
-  truth_.has_pair_filter = operation.byte(0) % 4 != 0;
-  give_pair_filter(world_);
-  if (twin_) give_pair_filter(*twin_);
-  for (std::size_t k = 0; k < ids.size(); ++k) told_.refiltered(ids[k], before[k]);
-  changed();
+  refilter(truth_.ids(), [&] {
+    truth_.has_pair_filter = operation.byte(0) % 4 != 0;
+    give_pair_filter(world_);
+    if (twin_) give_pair_filter(*twin_);
+  });
 }
 
 }  // namespace kinesphere::stream

@@ -41,7 +41,8 @@ void Player::ask(const Operation& operation) {
   const BodyId other = ids[(operation.body() + 1u + operation.byte(0) % (ids.size() - 1)) % ids.size()];
   const bool probes = operation.byte(1) % 2 == 0;
   const double slack = 1e-3 * truth_.definition().contact_tolerance + 1e-12;
-  if (*id != other && truth_.is_present(*id) && truth_.is_present(other)) {
+  if (*id != other && truth_.is_present(*id) && truth_.is_present(other) &&
+      !(truth_.at(*id).fixed && truth_.at(other).fixed)) {
     const double now = truth_.time();
     for (World* world : {&world_, twin_ ? &*twin_ : nullptr}) {
       if (world == nullptr) continue;
@@ -53,8 +54,8 @@ void Player::ask(const Operation& operation) {
               "distance_limits do not hold the distance");
     }
   }
-  const Vec3 centre = operation.position();
-  const double radius = operation.radius();
+  const Vec3 centre = truth_.in_space(operation.position());
+  const double radius = this->radius(operation);
   for (World* world : {&world_, twin_ ? &*twin_ : nullptr}) {
     if (world == nullptr) continue;
     const auto found = probes ? world->overlapping(centre, radius, probe())
@@ -62,7 +63,7 @@ void Player::ask(const Operation& operation) {
     if (!found) throw Disagreement("overlapping: " + found.error().message);
     for (const BodyId body : ids) {
       if (!truth_.is_present(body)) continue;
-      const double gap = norm(truth_.state(body).position - centre) - truth_.at(body).definition.radius;
+      const double gap = truth_.distance(body, centre);
       const auto entry = std::find_if(found->begin(), found->end(),
                                       [=](const Found& candidate) { return candidate.body == body; });
       if (entry == found->end())
@@ -78,10 +79,11 @@ void Player::call_wrongly(const Operation& operation) {
   const std::vector<std::byte> before = world_.save().value();
   const auto refused = [&](const auto& result, ErrorCode code) {
     require(!result, "a wrong call is not refused");
-    require(result.error().code == code, "a wrong call is refused for a wrong reason");
+    if (result.error().code != code)
+      throw Disagreement("a wrong call is refused for a wrong reason: " + result.error().message);
   };
   const auto id = any(operation);
-  const State state{operation.position(), operation.velocity()};
+  const State state{truth_.in_space(operation.position()), truth_.in_space(operation.velocity())};
   BodyId wrong{operation.byte(0) + 1000u, 0};
   ErrorCode code = ErrorCode::unknown_body;
   if (!removed_.empty() && operation.byte(1) % 2 == 0) {
@@ -110,17 +112,24 @@ void Player::call_wrongly(const Operation& operation) {
     case 4:
       refused(world_.set_filter(wrong, {}), code);
       refused(world_.refilter(wrong), code);
+      refused(world_.set_solid(wrong, true), code);
+      refused(world_.set_sensor_class(wrong, 1), code);
+      refused(world_.set_sensor(1, {.distances = {0.5, -1.0}}), ErrorCode::out_of_range);
       break;
     case 5:
       refused(world_.set_user_data(wrong, 1), code);
       refused(world_.user_data(wrong), code);
       refused(world_.body(wrong), code);
+      refused(world_.touching(wrong), code);
+      refused(world_.sensed(wrong), code);
+      refused(world_.shape_of(wrong), code);
       break;
     case 6:
       refused(world_.add({.radius = nan}), ErrorCode::not_finite);
       refused(world_.add_all(bad_batch),
               truth_.definition().allow_overlap ||
-                      has_room(no_body, bound_of(bad_batch[0], {state.position, {}}, truth_.time()), {})
+                      has_room(no_body, {bound_of(bad_batch[0], {state.position, {}}, truth_.time())},
+                               bad_batch[0])
                   ? ErrorCode::out_of_range
                   : ErrorCode::overlapping);
       break;
@@ -130,11 +139,19 @@ void Player::call_wrongly(const Operation& operation) {
       break;
     case 8:
       if (!id) break;
-      refused(world_.set_radius(*id, -0.5), ErrorCode::out_of_range);
-      refused(world_.set_promise(*id, {.acceleration_limit = nan}), ErrorCode::not_finite);
+      if (truth_.at(*id).fixed) {
+        refused(world_.set_radius(*id, 0.5), ErrorCode::fixed_body);
+        refused(world_.set_promise(*id, {}), ErrorCode::fixed_body);
+        refused(world_.kick(*id, {}), ErrorCode::fixed_body);
+        refused(world_.teleport(*id, state), ErrorCode::fixed_body);
+        refused(world_.add_fixed({.shape = HalfSpace{{1, 1, 0}, 0}}), ErrorCode::out_of_range);
+      } else {
+        refused(world_.set_radius(*id, -0.5), ErrorCode::out_of_range);
+        refused(world_.set_promise(*id, {.acceleration_limit = nan}), ErrorCode::not_finite);
+      }
       break;
     case 9:
-      if (!id) break;
+      if (!id || truth_.at(*id).fixed) break;
       if (truth_.is_present(*id)) {
         refused(world_.enable(*id, state), ErrorCode::enabled_body);
         refused(world_.kick(*id, {nan, 0, 0}), ErrorCode::not_finite);

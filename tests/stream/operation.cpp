@@ -6,7 +6,7 @@
 namespace kinesphere::stream {
 namespace {
 
-constexpr std::size_t header_size = 4;
+constexpr std::size_t header_size = 5;
 
 std::uint8_t header(std::span<const std::uint8_t> bytes, std::size_t k) {
   return k < bytes.size() ? bytes[k] : std::uint8_t{0};
@@ -29,6 +29,40 @@ Filter Operation::filter() const {
   filter.mask = 1 + byte(9) / 16 % 3;
   filter.group = byte(9) / 64 - 1;
   return filter;
+}
+
+Sensor Operation::sensor(double reach) const {
+  Sensor sensor;
+  for (std::size_t k = 0; k < sensor_distances.size(); ++k)
+    if ((byte(0) & byte(1)) >> k & 1 && sensor_distances[k] <= reach)
+      sensor.distances.push_back(sensor_distances[k]);
+  if (byte(3) % 2 == 0) std::reverse(sensor.distances.begin(), sensor.distances.end());
+  if (byte(3) % 8 == 1 && !sensor.distances.empty()) sensor.distances.push_back(sensor.distances[0]);
+  if (byte(2) % 4 == 0) sensor.mask = 1 + byte(2) / 4 % 3;
+  return sensor;
+}
+
+Shape Operation::shape(bool flat) const {
+  const Vec3 at = position();
+  const Vec3 edges = (velocity() + Vec3{4, 4, 4}) * 0.125;
+  switch (byte(7) % 4) {
+    case 0: {
+      // Most of the world is before it.
+      Vec3 normal = Vec3{0.5, 0.5, 0.5} * world_size - at;
+      if (flat) normal.z = 0.0;
+      const double length = norm(normal);
+      normal = length > 0.25 ? normal / length : Vec3{1, 0, 0};
+      return HalfSpace{normal, dot(normal, at)};
+    }
+    case 1:
+      return Box{at, at + edges};
+    case 2:
+      if (!flat && edges.x > 0.1 && edges.y > 0.1)
+        return Triangle{at, at + Vec3{edges.x, 0, edges.z}, at + Vec3{0, edges.y, -edges.z}};
+      return Box{at, at + 0.5 * edges};
+    default:
+      return Ball{at, radius()};
+  }
 }
 
 Random Operation::random() const {
@@ -59,6 +93,7 @@ WorldKind kind_of(std::span<const std::uint8_t> bytes) {
   const std::uint8_t choices = header(bytes, 0);
   const std::uint8_t bodies = header(bytes, 1);
   const std::uint8_t lengths = header(bytes, 2);
+  const std::uint8_t features = header(bytes, 4);
   WorldKind kind;
   WorldDefinition& world = kind.definition;
   world.contacts = choices % 2 == 0 ? ContactMode::begin_and_end : ContactMode::impacts;
@@ -71,6 +106,11 @@ WorldKind kind_of(std::span<const std::uint8_t> bytes) {
   world.start_time = lengths / 16 - 3.0;
   kind.most_bodies = bodies >= 252 ? 100 : 3 + bodies % 32;
   kind.first_bodies = header(bytes, 3) % kind.most_bodies;
+  kind.sensors = features % 2 == 1;
+  kind.fixed = features / 2 % 2 == 1;
+  if (features / 4 % 4 == 1) world.dimensions = 2;
+  if (world.box && features / 16 % 2 == 1)
+    world.periodic = {true, features / 32 % 2 == 1, features / 64 % 2 == 1 && world.dimensions == 3};
   return kind;
 }
 

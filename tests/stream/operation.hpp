@@ -1,6 +1,6 @@
 // Bytes to operations on a world: any bytes are a stream, so that a fuzzer may write them.
 //
-// A stream is a header of 4 bytes, which chooses the kind of world, and records of 12 bytes, one for each
+// A stream is a header of 5 bytes, which chooses the kind of world, and records of 12 bytes, one for each
 // operation; what is missing of the last is zero. As all records are of one size, leaving one out leaves the
 // others what they are.
 #pragma once
@@ -13,6 +13,7 @@
 
 #include "kinesphere/body.hpp"
 #include "kinesphere/random.hpp"
+#include "kinesphere/shape.hpp"
 #include "kinesphere/world_definition.hpp"
 
 namespace kinesphere::stream {
@@ -21,6 +22,10 @@ using Bytes = std::vector<std::uint8_t>;
 
 /// The world is a cube of this size, or, without walls, the bodies keep near it.
 inline constexpr double world_size = 4.0;
+
+/// All distances that sensors in a stream may have. Where space repeats there is no room for the last.
+inline constexpr std::array sensor_distances{0.0, 0.02, 0.1, 0.3, 1.0};
+inline constexpr SensorClass sensor_classes = 3;
 
 /// One operation: what to do, to whom, and numbers for it. Positions lie on a grid of 1/64, velocities on one
 /// of 1/32, so that things often happen at one instant and at exactly equal distances.
@@ -45,6 +50,12 @@ struct Operation {
            0.999 * promise.acceleration_limit * Random(byte(8)).point_in_ball();
   }
   Filter filter() const;
+  bool solid() const { return byte(8) / 8 % 8 != 0; }
+  SensorClass sensor_class() const { return static_cast<SensorClass>(byte(9) / 8 % sensor_classes); }
+  /// Without the distances beyond `reach`.
+  Sensor sensor(double reach) const;
+  /// In a plane it is not a triangle.
+  Shape shape(bool flat) const;
   /// Draws that belong to this operation.
   Random random() const;
 
@@ -61,6 +72,8 @@ struct WorldKind {
   WorldDefinition definition;
   std::size_t most_bodies;
   std::size_t first_bodies;  ///< there from the start
+  bool sensors;              ///< some bodies sense others, and some are not solid
+  bool fixed;                ///< there are bodies that never move
 };
 /// What the header of a stream asks for.
 WorldKind kind_of(std::span<const std::uint8_t> bytes);

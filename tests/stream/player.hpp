@@ -31,7 +31,7 @@ class Player {
     int weight;
     void (Player::*perform)(const Operation&);
   };
-  static const std::array<Kind, 22> kinds;
+  static const std::array<Kind, 26> kinds;
   static const Kind& kind_of(std::uint8_t code);
 
   // The operations. Those without a body to be done to do nothing.
@@ -51,6 +51,10 @@ class Player {
   void set_filter(const Operation& operation);
   void set_pair_filter(const Operation& operation);
   void haunt(const Operation& operation);
+  void set_solid(const Operation& operation);
+  void set_sensor(const Operation& operation);
+  void set_sensor_class(const Operation& operation);
+  void add_fixed(const Operation& operation);
   void set_user_data(const Operation& operation);
   void turn_off(const Operation& operation);
   void turn_on(const Operation& operation);
@@ -68,14 +72,25 @@ class Player {
   void hear(const Event& event);
   void check_order(const Event& event);
   void check_all() const;
+  void check_body(BodyId id) const;
   std::optional<BodyId> any(const Operation& operation) const;
+  std::optional<BodyId> any_moving(const Operation& operation) const;
   Operation about(BodyId id, Operation operation) const;
 
   // changes.cpp
   BodyDefinition new_body(const Operation& operation) const;
-  bool has_room(BodyId id, const Bound& bound, const Filter& filter) const;
+  double radius(const Operation& operation) const;
+  Vec3 acceleration(const Operation& operation, const MotionPromise& promise) const {
+    return truth_.in_space(operation.acceleration(promise));
+  }
+  MotionPromise promise(const Operation& operation) const;
+  bool has_room(BodyId id, const Extent& extent, const BodyDefinition& body) const;
+  template <class Change>
+  void refilter(const std::vector<BodyId>& ids, Change change);
   void join(BodyId id, const BodyDefinition& body, const Operation& operation);
   void leave(BodyId id, const std::vector<Before>& before);
+  Vec3 inside(Vec3 position, double radius) const;
+  bool room_of_fixed(BodyId id) const;
   State place(const Operation& operation, double radius) const;
   void kick(BodyId id, const Vec3& velocity);
   void teleport(BodyId id, const State& state);
@@ -83,7 +98,7 @@ class Player {
   void give_pair_filter(World& world) const;
   void changed() { rounds_ = 3; }
 
-  std::size_t most_bodies_;
+  WorldKind kind_;
   Truth truth_;
   ToldContacts told_;
   World world_;
@@ -91,8 +106,9 @@ class Player {
   std::vector<BodyId> removed_;
   std::size_t events_ = 0;
   std::optional<Event> last_event_;
-  int rounds_ = 0;   ///< of events in order that may begin at this instant
-  double asked_at_;  ///< by the last probe
+  int rounds_ = 0;        ///< of events in order that may begin at this instant
+  bool crossed_ = false;  ///< in this round; the next distance of the same pair comes in one of its own
+  double asked_at_;       ///< by the last probe
 };
 
 struct Failure {

@@ -12,25 +12,23 @@ namespace {
   throw Disagreement(text_of(contact) + ": " + what + ", gap " + std::to_string(gap));
 }
 
-Contact contact_of(const Event& event) { return {event.first, event.second, event.wall}; }
-
-bool is_end(const Event& event) {
-  return event.kind == EventKind::contact_end || event.kind == EventKind::wall_end;
+Contact contact_of(const Event& event) {
+  Contact contact{event.first, event.second, event.wall};
+  if (event.kind == EventKind::sensor_enter || event.kind == EventKind::sensor_leave)
+    contact.sensed = event.distance;
+  return contact;
 }
 
-bool same(const Event& a, const Event& b) {
-  EventHash first, second;
-  first.add(a);
-  second.add(b);
-  return first.value() == second.value() && a.gap == b.gap && a.approach_speed == b.approach_speed &&
-         a.first_state == b.first_state && a.second_state == b.second_state;
+bool is_end(const Event& event) {
+  return event.kind == EventKind::contact_end || event.kind == EventKind::wall_end ||
+         event.kind == EventKind::sensor_leave;
 }
 
 }  // namespace
 
 ToldContacts::ToldContacts(const WorldDefinition& definition, Truth& truth)
     // Far below the tolerance, above rounding.
-    : rule_(definition), truth_(truth), slack_(1e-3 * rule_.tolerance() + 1e-12) {}
+    : rule_(definition), truth_(truth), slack_(1e-3 * rule_.tolerance() + 1e-12), space_(definition) {}
 
 ToldContacts::Told& ToldContacts::told(const Contact& contact) {
   return const_cast<Told&>(std::as_const(*this).told(contact));
@@ -39,7 +37,10 @@ ToldContacts::Told& ToldContacts::told(const Contact& contact) {
 const ToldContacts::Told& ToldContacts::told(const Contact& contact) const {
   const std::uint32_t first = contact.first.index;
   if (contact.wall != Wall::none) return walls_[first][static_cast<std::size_t>(contact.wall) - 1];
-  return pairs_(first, contact.second.index);
+  if (!contact.sensed) return pairs_(first, contact.second.index);
+  const auto place = std::find(sensor_distances.begin(), sensor_distances.end(), *contact.sensed);
+  if (place == sensor_distances.end()) fail("no sensor has this distance", contact, 0.0);
+  return sensed_[static_cast<std::size_t>(place - sensor_distances.begin())](first, contact.second.index);
 }
 
 /// Every contact of the body that there could be, but for filters and disabled partners.
@@ -47,34 +48,60 @@ template <class Action>
 void ToldContacts::for_each(BodyId id, Action action) const {
   for (const TrueBody& other : truth_.bodies()) {
     if (!other.alive || other.id == id) continue;
-    action(id.index < other.id.index ? Contact{id, other.id} : Contact{other.id, id});
+    Contact contact = id.index < other.id.index ? Contact{id, other.id} : Contact{other.id, id};
+    action(contact);
+    for (const double distance : sensor_distances) {
+      contact.sensed = distance;
+      action(contact);
+    }
   }
-  if (!truth_.definition().box) return;
-  for (const Wall wall : walls) action(Contact{.first = id, .wall = wall});
+  if (truth_.at(id).fixed) return;
+  for (const Wall wall : truth_.walls()) action(Contact{.first = id, .wall = wall});
 }
 
 // Changes.
 
-std::vector<Before> ToldContacts::before(const World& world, BodyId id) const {
+Event ToldContacts::end_now(const World& world, const Contact& contact) const {
+  const double now = truth_.time();
   const auto sphere = [&](BodyId body) {
     const Bound bound = world.body(body).value().bound;
-    return Sphere{body, bound.radius, {bound.centre_at(truth_.time()), bound.velocity_at(truth_.time())}};
+    const auto& shape = truth_.at(body).shape;
+    return Sphere{
+        body, bound.radius, {bound.centre_at(now), bound.velocity_at(now)}, shape ? &*shape : nullptr};
   };
+  const Sphere first = sphere(contact.first);
+  if (contact.wall != Wall::none)
+    return wall_event(EventKind::wall_end, now, first, *truth_.definition().box, contact.wall);
+  Event end = contact_event(contact.sensed ? EventKind::sensor_leave : EventKind::contact_end, now, first,
+                            sphere(contact.second), space_);
+  end.distance = contact.sensed.value_or(0.0);
+  return end;
+}
+
+GapLimits ToldContacts::limits(const World& world, const Contact& contact) const {
+  const Bound bound = world.body(contact.first).value().bound;
+  if (contact.wall != Wall::none)
+    return gap_limits(bound, half_space(*truth_.definition().box, contact.wall), truth_.time());
+  const Bound other = world.body(contact.second).value().bound;
+  const auto extent = [this](BodyId id, const Bound& its_bound) {
+    const TrueBody& body = truth_.at(id);
+    return Extent{its_bound, body.fixed, body.shape ? &*body.shape : nullptr};
+  };
+  return truth_.limits(extent(contact.first, bound), extent(contact.second, other));
+}
+
+std::vector<Before> ToldContacts::before(const World& world, BodyId id) const {
   std::vector<Before> found;
   for_each(id, [&](const Contact& contact) {
     if (!told(contact).touching) return;
-    const Event end = contact.wall == Wall::none
-                          ? contact_event(EventKind::contact_end, truth_.time(), sphere(contact.first),
-                                          sphere(contact.second))
-                          : wall_event(EventKind::wall_end, truth_.time(), sphere(contact.first),
-                                       *truth_.definition().box, contact.wall);
-    found.push_back({contact, end, truth_.gap(contact) >= rule_.separation_distance() - slack_});
+    found.push_back(
+        {contact, end_now(world, contact), truth_.gap(contact) >= rule_.separation_distance() - slack_});
   });
   return found;
 }
 
 void ToldContacts::expect_end(const Before& before, bool certain) {
-  if (impacts()) {
+  if (impacts(before.contact)) {
     if (certain) told(before.contact) = {};
     return;
   }
@@ -92,12 +119,8 @@ void ToldContacts::gone(const std::vector<Before>& before) {
 
 void ToldContacts::replaced(const World& world, BodyId id, const std::vector<Before>& before) {
   for (const Before& b : before) {
-    const Bound bound = world.body(b.contact.first).value().bound;
-    const GapLimits limits =
-        b.contact.wall == Wall::none
-            ? gap_limits(bound, world.body(b.contact.second).value().bound, truth_.time())
-            : gap_limits(bound, half_space(*truth_.definition().box, b.contact.wall), truth_.time());
-    const bool certain = limits.lower >= rule_.separation_distance();
+    const bool certain =
+        limits(world, b.contact).lower >= b.contact.sensed.value_or(0.0) + rule_.separation_distance();
     if (certain || b.is_over) expect_end(b, certain);
     if (truth_.gap(b.contact) >= rule_.separation_distance() - slack_) told(b.contact).opened = true;
   }
@@ -106,20 +129,23 @@ void ToldContacts::replaced(const World& world, BodyId id, const std::vector<Bef
 
 void ToldContacts::refiltered(BodyId id, const std::vector<Before>& before) {
   for (const Before& contact : before)
-    if (!truth_.may_touch(contact.contact)) expect_end(contact, true);
+    if (!truth_.may_be_told(contact.contact)) expect_end(contact, true);
   for_each(id, [this](const Contact& contact) { look_again(contact); });
 }
 
 void ToldContacts::kicked(BodyId id) {
-  if (!impacts()) return;
+  if (!rule_.impacts_only()) return;
   for_each(id, [this](const Contact& contact) {
+    if (!impacts(contact)) return;
     told(contact).touching = false;
     look_again(contact);
   });
 }
 
 void ToldContacts::appeared(BodyId id) {
-  pairs_.resize(static_cast<std::uint32_t>(truth_.bodies().size()));
+  const auto count = static_cast<std::uint32_t>(truth_.bodies().size());
+  pairs_.resize(count);
+  for (PairTable<Told>& pairs : sensed_) pairs.resize(count);
   walls_.resize(truth_.bodies().size());
   // An index that is used again may have an end on its way still, but is in no contact.
   for_each(id, [this](const Contact& contact) {
@@ -131,7 +157,7 @@ void ToldContacts::appeared(BodyId id) {
 /// Nothing is known of a contact: bouncing bodies may be deep in each other, as long as they part.
 void ToldContacts::look_again(const Contact& contact) {
   Told& state = told(contact);
-  if (!impacts() || state.touching || !truth_.may_touch(contact)) return;
+  if (!impacts(contact) || state.touching || !truth_.may_be_told(contact)) return;
   state.due = true;
   // The Zeno guard may take an eighth of the tolerance more.
   state.floor = std::min(0.0, truth_.gap(contact) - 0.125 * rule_.tolerance() + rule_.tolerance());
@@ -146,14 +172,16 @@ void ToldContacts::hear(const Event& event) {
   switch (event.kind) {
     case EventKind::contact_begin:
     case EventKind::wall_begin:
+    case EventKind::sensor_enter:
       return begin(event, contact);
     case EventKind::contact_end:
     case EventKind::wall_end:
+    case EventKind::sensor_leave:
       return end(event, contact);
     case EventKind::zeno_guard:
-      if (!impacts()) fail("a Zeno guard, though contacts last", contact, event.gap);
+      if (!impacts(contact)) fail("a Zeno guard, though contacts last", contact, event.gap);
       if (event.gap > rule_.tolerance()) fail("a Zeno guard outside the tolerance", contact, event.gap);
-      if (truth_.may_touch(contact))
+      if (truth_.may_be_told(contact))
         told(contact).floor =
             std::min(told(contact).floor, event.gap - 0.125 * rule_.tolerance() + rule_.tolerance());
       return;
@@ -187,37 +215,89 @@ void ToldContacts::settle_ends() {
 
 bool ToldContacts::is_repeated(BodyId id) const {
   const TrueBody& body = truth_.at(id);
+  if (body.fixed) return false;
   const double acceleration = body.definition.acceleration_limit + norm(body.definition.planned_acceleration);
   return truth_.time() - body.last_contact < rule_.zeno_interval(acceleration);
 }
 
+/// Where space repeats a state is told in another image, and rounded.
+bool ToldContacts::same_state(const State& told, BodyId id) const {
+  const State truth = truth_.state(id);
+  if (!space_.repeats()) return told == truth;
+  const Vec3 shift = truth_.shift_to_nearest(told.position, truth.position);
+  return told.velocity == truth.velocity && norm(told.position + shift - truth.position) <= 1e-12;
+}
+
+bool ToldContacts::same(const Event& a, const Event& b) const {
+  EventHash first, second;
+  first.add(a);
+  second.add(b);
+  if (first.value() != second.value()) return false;
+  if (!space_.repeats())
+    return a.gap == b.gap && a.approach_speed == b.approach_speed && a.first_state == b.first_state &&
+           a.second_state == b.second_state;
+  const Vec3 way = a.second_state.position - a.first_state.position;
+  const Vec3 other = b.second_state.position - b.first_state.position;
+  return std::abs(a.gap - b.gap) <= 1e-12 && a.first_state.velocity == b.first_state.velocity &&
+         a.second_state.velocity == b.second_state.velocity &&
+         (a.wall != Wall::none || norm(way - other) <= 1e-12);
+}
+
 void ToldContacts::begin(const Event& event, const Contact& contact) {
-  if (!truth_.may_touch(contact)) fail("a begin of bodies that may not touch", contact, event.gap);
+  if (!truth_.may_be_told(contact)) fail("a begin of bodies that may not touch", contact, event.gap);
   const double gap = truth_.gap(contact);
-  if (std::abs(gap - event.gap) > slack_) fail("a begin with a wrong gap", contact, event.gap);
-  if (event.gap > rule_.tolerance()) fail("a begin before the bodies are near", contact, gap);
+  const double told_gap = event.gap - event.distance;
+  if (std::abs(gap - told_gap) > slack_) fail("a begin with a wrong gap", contact, event.gap);
+  if (told_gap > rule_.tolerance()) fail("a begin before the bodies are near", contact, gap);
   const bool pair = contact.wall == Wall::none;
-  if (!(event.first_state == truth_.state(contact.first)) ||
-      (pair && !(event.second_state == truth_.state(contact.second))))
+  if (!same_state(event.first_state, contact.first) ||
+      (pair && !same_state(event.second_state, contact.second)))
     fail("a begin with wrong states", contact, gap);
-  const bool repeated = is_repeated(contact.first) || (pair && is_repeated(contact.second));
+  const bool repeated =
+      !contact.sensed && (is_repeated(contact.first) || (pair && is_repeated(contact.second)));
   if (event.repeated != repeated) fail("a begin wrongly marked as repeated", contact, gap);
-  truth_.at(contact.first).last_contact = truth_.time();
-  if (pair) truth_.at(contact.second).last_contact = truth_.time();
+  if (!contact.sensed) {
+    truth_.at(contact.first).last_contact = truth_.time();
+    if (pair) truth_.at(contact.second).last_contact = truth_.time();
+  }
   Told& state = told(contact);
-  if (impacts() && event.approach_speed <= 0.0) fail("an impact that does not approach", contact, gap);
-  if (state.touching && !(impacts() && state.opened)) fail("a begin told twice", contact, gap);
+  const bool impact = impacts(contact);
+  if (impact && event.approach_speed <= 0.0) fail("an impact that does not approach", contact, gap);
+  if (state.touching && !(impact && state.opened)) fail("a begin told twice", contact, gap);
   state = {.touching = true};
 }
 
 void ToldContacts::end(const Event& event, const Contact& contact) {
-  if (impacts()) fail("an end in a world of impacts", contact, event.gap);
-  if (!truth_.may_touch(contact)) fail("an end of bodies that may not touch", contact, event.gap);
+  if (impacts(contact)) fail("an end in a world of impacts", contact, event.gap);
+  if (!truth_.may_be_told(contact)) fail("an end of bodies that may not touch", contact, event.gap);
   if (!told(contact).touching) fail("an end without a begin", contact, event.gap);
   const double gap = truth_.gap(contact);
-  if (std::abs(gap - event.gap) > slack_) fail("an end with a wrong gap", contact, event.gap);
-  if (event.gap < rule_.separation_distance()) fail("an end before the bodies are apart", contact, gap);
+  const double told_gap = event.gap - event.distance;
+  if (std::abs(gap - told_gap) > slack_) fail("an end with a wrong gap", contact, event.gap);
+  if (told_gap < rule_.separation_distance()) fail("an end before the bodies are apart", contact, gap);
   told(contact).touching = false;
+}
+
+void ToldContacts::check_account(const World& world, BodyId id) const {
+  const std::vector<BodyId> touching = world.touching(id).value();
+  const std::vector<Sensed> sensed = world.sensed(id).value();
+  std::size_t contacts = 0;
+  std::size_t crossings = 0;
+  for_each(id, [&](const Contact& contact) {
+    if (contact.wall != Wall::none || impacts(contact)) return;
+    const BodyId other = contact.first == id ? contact.second : contact.first;
+    const bool listed = contact.sensed ? std::find(sensed.begin(), sensed.end(),
+                                                   Sensed{other, *contact.sensed}) != sensed.end()
+                                       : std::find(touching.begin(), touching.end(), other) != touching.end();
+    (contact.sensed ? crossings : contacts) += listed ? 1u : 0u;
+    const auto end =
+        std::find_if(ends_.begin(), ends_.end(), [&](const End& e) { return e.contact == contact; });
+    if (end != ends_.end() && !end->certain) return;
+    if (listed != (told(contact).touching && end == ends_.end()))
+      fail("the account differs from what was told", contact, 0.0);
+  });
+  if (sensed.size() != crossings || (!rule_.impacts_only() && touching.size() != contacts))
+    throw Disagreement("touching() or sensed() names a body twice, or one that is gone");
 }
 
 // Between events.
@@ -229,14 +309,21 @@ void ToldContacts::move_on_to(double time) {
       if (!body.present()) continue;
       for (const TrueBody& other : truth_.bodies()) {
         if (other.id.index >= body.id.index) break;
-        const Contact contact{other.id, body.id};
-        if (other.present() && truth_.may_touch(contact)) check_contact(contact, time);
+        if (other.present()) check_pair({other.id, body.id}, time);
       }
-      if (!truth_.definition().box) continue;
-      for (const Wall wall : walls) check_contact({.first = body.id, .wall = wall}, time);
+      if (body.fixed) continue;
+      for (const Wall wall : truth_.walls()) check_contact({.first = body.id, .wall = wall}, time);
     }
   }
   truth_.move_on_to(time);
+}
+
+void ToldContacts::check_pair(Contact contact, double until) {
+  if (truth_.may_be_told(contact)) check_contact(contact, until);
+  for (const double distance : sensor_distances) {
+    contact.sensed = distance;
+    if (truth_.may_be_told(contact)) check_contact(contact, until);
+  }
 }
 
 /// The first time from `from` on at which the gap certainly passes a level.
@@ -244,13 +331,13 @@ std::optional<double> ToldContacts::reaches(const Contact& contact, Crossing cro
                                             double from, double until) const {
   const double beyond = crossing == Crossing::falls_to ? level - slack_ : level + slack_;
   if (!truth_.may_reach(contact, crossing, beyond, until)) return std::nullopt;
-  return truth_.course(contact).first_time(crossing, beyond, from, until);
+  return truth_.first_time(contact, crossing, beyond, from, until);
 }
 
 void ToldContacts::check_contact(const Contact& contact, double until) {
   Told& state = told(contact);
   const double now = truth_.time();
-  if (impacts()) return check_impacts(contact, state, until);
+  if (impacts(contact)) return check_impacts(contact, state, until);
   if (state.touching) {
     if (const auto time = reaches(contact, Crossing::rises_to, rule_.release_gap(), now, until))
       fail("they part untold at " + std::to_string(*time), contact, truth_.gap(contact));

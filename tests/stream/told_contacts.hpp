@@ -43,6 +43,9 @@ class ToldContacts {
   void teleported(BodyId id) { kicked(id); }
   void appeared(BodyId id);
 
+  /// What the world says that the body touches and senses is what its events have told.
+  void check_account(const World& world, BodyId id) const;
+
  private:
   struct Told {
     bool touching = false;  ///< impacts: a begin was told, and the bodies have not certainly parted since
@@ -58,7 +61,12 @@ class ToldContacts {
     bool certain;
   };
 
-  bool impacts() const { return rule_.impacts_only(); }
+  /// No ends are told, and each approach.
+  bool impacts(const Contact& contact) const { return rule_.impacts_only() && !contact.sensed; }
+  Event end_now(const World& world, const Contact& contact) const;
+  GapLimits limits(const World& world, const Contact& contact) const;
+  bool same(const Event& a, const Event& b) const;
+  bool same_state(const State& told, BodyId id) const;
   Told& told(const Contact& contact);
   const Told& told(const Contact& contact) const;
   template <class Action>
@@ -68,6 +76,7 @@ class ToldContacts {
   void begin(const Event& event, const Contact& contact);
   void end(const Event& event, const Contact& contact);
   bool is_repeated(BodyId id) const;
+  void check_pair(Contact contact, double until);
   void check_contact(const Contact& contact, double until);
   void check_impacts(const Contact& contact, Told& state, double until);
   void check_free(const Contact& contact, Told& state, double from, double until) const;
@@ -78,7 +87,9 @@ class ToldContacts {
   ContactRule rule_;
   Truth& truth_;
   double slack_;
+  Space space_;
   PairTable<Told> pairs_;
+  std::array<PairTable<Told>, sensor_distances.size()> sensed_;
   std::vector<std::array<Told, wall_count>> walls_;
   std::vector<End> ends_;
 };

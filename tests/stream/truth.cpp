@@ -9,13 +9,52 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Calls use(shape) for all but balls.
+template <class Use>
+auto of_shape(const Shape& shape, Use use) {
+  return std::visit(
+      [&]<class Solid>(const Solid& solid) -> decltype(use(HalfSpace{})) {
+        if constexpr (std::is_same_v<Solid, Ball>)
+          throw Disagreement("a ball has no surface of its own");
+        else
+          return use(solid);
+      },
+      shape);
+}
+
+double distance_from(const Shape& shape, const Vec3& point) {
+  return of_shape(shape, [&](const auto& solid) { return nearest_point(solid, point).distance; });
+}
+
+/// From the point towards the shape.
+Vec3 normal_of(const Shape& shape, const Vec3& point) {
+  return of_shape(shape, [&](const auto& solid) { return -nearest_point(solid, point).normal; });
+}
+
 std::string text_of(BodyId id) { return std::to_string(id.index) + "." + std::to_string(id.generation); }
 
 }  // namespace
 
 std::string text_of(const Contact& contact) {
   return text_of(contact.first) + " and " +
-         (contact.wall == Wall::none ? text_of(contact.second) : std::string(name_of(contact.wall)));
+         (contact.wall == Wall::none ? text_of(contact.second) : std::string(name_of(contact.wall))) +
+         (contact.sensed ? " within " + std::to_string(*contact.sensed) : std::string());
+}
+
+Truth::Truth(const WorldDefinition& definition) : definition_(definition), time_(definition.start_time) {
+  if (!definition.box) return;
+  for (const Wall wall : kinesphere::walls) {
+    const int axis = (static_cast<int>(wall) - 1) / 2;
+    if (axis < definition.dimensions && !definition.periodic[axis]) walls_.push_back(wall);
+  }
+}
+
+Vec3 Truth::shift_to_nearest(const Vec3& from, const Vec3& to) const {
+  Vec3 shift;
+  for (int axis = 0; axis < 3; ++axis)
+    if (definition_.periodic[axis])
+      shift[axis] = world_size * std::round((to[axis] - from[axis]) / world_size);
+  return shift;
 }
 
 void Truth::add(BodyId id, const BodyDefinition& body, const Vec3& acceleration) {
@@ -25,8 +64,14 @@ void Truth::add(BodyId id, const BodyDefinition& body, const Vec3& acceleration)
   } else {
     require(!at(id).alive && id.generation == at(id).id.generation + 1, "an id is given out twice");
   }
-  at(id) = {.id = id, .definition = body, .alive = true, .enabled = true};
+  at(id) = {.id = id, .definition = body, .path = {}, .alive = true, .enabled = true};
   at(id).path = {{time_, infinity, body.position, body.velocity, acceleration, {}}};
+}
+
+void Truth::add_fixed(BodyId id, const BodyDefinition& body, const Shape& shape) {
+  add(id, body, {});
+  at(id).fixed = true;
+  if (!std::holds_alternative<Ball>(shape)) at(id).shape = shape;
 }
 
 void Truth::remove(BodyId id) {
@@ -66,46 +111,108 @@ void Truth::haunt(BodyId id) {
   if (!haunted_.insert(id).second) haunted_.erase(id);
 }
 
-bool Truth::passes_filters(BodyId a, const Filter& filter_of_a, BodyId b) const {
-  return passes(filter_of_a, at(b).definition.filter) && (!has_pair_filter || pair_filter(a, b));
+bool Truth::may_touch(BodyId a, const BodyDefinition& definition_of_a, BodyId b) const {
+  const BodyDefinition& other = at(b).definition;
+  return definition_of_a.solid && other.solid && passes(definition_of_a.filter, other.filter) &&
+         (!has_pair_filter || pair_filter(a, b));
 }
 
-bool Truth::may_touch(const Contact& contact) const {
+bool Truth::meets(const Contact& contact) const {
+  const TrueBody& first = at(contact.first);
+  const TrueBody& second = at(contact.second);
+  return is_present(contact.second) && !(first.fixed && second.fixed) &&
+         passes(first.definition.filter, second.definition.filter) &&
+         (!has_pair_filter || pair_filter(contact.first, contact.second));
+}
+
+bool Truth::senses(BodyId a, BodyId b, double distance) const {
+  const Sensor& sensor = sensors[at(a).definition.sensor_class];
+  return (sensor.mask & at(b).definition.filter.category) != 0 &&
+         std::find(sensor.distances.begin(), sensor.distances.end(), distance) != sensor.distances.end();
+}
+
+bool Truth::may_be_told(const Contact& contact) const {
   if (!is_present(contact.first)) return false;
-  if (contact.wall != Wall::none) return true;
-  return is_present(contact.second) &&
-         passes_filters(contact.first, at(contact.first).definition.filter, contact.second);
+  if (contact.wall != Wall::none) return !at(contact.first).fixed;
+  const auto& [a, b, wall, sensed] = contact;
+  if (sensed) return (senses(a, b, *sensed) || senses(b, a, *sensed)) && meets(contact);
+  return at(a).definition.solid && at(b).definition.solid && meets(contact);
 }
 
-double Truth::radii(const Contact& contact) const {
-  const double first = at(contact.first).definition.radius;
-  return contact.wall == Wall::none ? first + at(contact.second).definition.radius : first;
+// Gaps.
+
+/// Of the two, one that has no shape but a radius.
+const TrueBody& Truth::mover(const Contact& contact) const {
+  return at(at(contact.first).shape ? contact.second : contact.first);
 }
 
-GapCourse Truth::course(const Contact& contact) const {
-  const Trajectory& path = at(contact.first).path;
-  if (contact.wall != Wall::none) return {path, half_space(*definition_.box, contact.wall), radii(contact)};
-  return {path, at(contact.second).path, radii(contact)};
+/// Of the other, if it has one.
+const Shape* Truth::shape(const Contact& contact) const {
+  if (contact.wall != Wall::none) return nullptr;
+  const auto& shape = at(at(contact.first).shape ? contact.first : contact.second).shape;
+  return shape ? &*shape : nullptr;
 }
 
-/// Of the first body to the second; of a body inside a wall, along the normal of the wall.
+/// A wall, or a shape that is like one.
+std::optional<HalfSpace> Truth::inside(const Contact& contact) const {
+  if (contact.wall != Wall::none) return half_space(*definition_.box, contact.wall);
+  const Shape* solid = shape(contact);
+  if (solid == nullptr || !std::holds_alternative<HalfSpace>(*solid)) return std::nullopt;
+  return std::get<HalfSpace>(*solid);
+}
+
+/// What the gap is less than the distance of the centres, or of the centre from a wall or shape.
+double Truth::extent(const Contact& contact) const {
+  const double radius = mover(contact).definition.radius;
+  const bool ball = contact.wall == Wall::none && shape(contact) == nullptr;
+  return radius + (ball ? at(contact.second).definition.radius : 0.0) + contact.sensed.value_or(0.0);
+}
+
+double Truth::gap_at(const Contact& contact, double time) const {
+  const Vec3 centre = mover(contact).path.front().state_at(time).position;
+  const double extent = this->extent(contact);
+  if (const auto half = inside(contact)) return dot(half->normal, centre) - half->offset - extent;
+  if (const Shape* solid = shape(contact)) return distance_from(*solid, centre) - extent;
+  const Vec3 other = at(contact.second).path.front().state_at(time).position;
+  return norm(other + shift_to_nearest(other, centre) - centre) - extent;
+}
+
+double Truth::gap(const Contact& contact) const { return gap_at(contact, time_); }
+
+double Truth::distance(BodyId id, const Vec3& point) const {
+  const TrueBody& body = at(id);
+  if (body.shape) return distance_from(*body.shape, point);
+  const Vec3 centre = state(id).position;
+  return norm(centre + shift_to_nearest(centre, point) - point) - body.definition.radius;
+}
+
+GapLimits Truth::limits(const Extent& a, const Extent& b) const {
+  Bound nearest = b.bound;
+  nearest.position += shift_to_nearest(b.bound.centre_at(time_), a.bound.centre_at(time_));
+  return visit_extents(a, Extent{nearest, b.fixed, b.shape}, [this](const Bound& bound, const auto& partner) {
+    return gap_limits(bound, partner, time_);
+  });
+}
+
+/// Of the first body to the second in its nearest image; of a body before a wall or a shape, along the
+/// normal.
 Truth::Relative Truth::relative(const Contact& contact) const {
-  const State first = state(contact.first);
-  const Vec3 acceleration = at(contact.first).path.front().acceleration;
-  if (contact.wall != Wall::none) {
-    const HalfSpace inside = half_space(*definition_.box, contact.wall);
-    const Vec3 n = inside.normal;
-    return {n * (dot(n, first.position) - inside.offset), n * dot(n, first.velocity),
-            n * dot(n, acceleration)};
+  const TrueBody& body = mover(contact);
+  const auto [position, velocity] = body.path.front().state_at(time_);
+  const Vec3 acceleration = body.path.front().acceleration;
+  if (const auto half = inside(contact)) {
+    const Vec3 n = half->normal;
+    return {n * (dot(n, position) - half->offset), n * dot(n, velocity), n * dot(n, acceleration)};
   }
+  if (const Shape* solid = shape(contact)) return {normal_of(*solid, position), -velocity, -acceleration};
   const State second = state(contact.second);
-  return {second.position - first.position, second.velocity - first.velocity,
-          at(contact.second).path.front().acceleration - acceleration};
+  return {second.position + shift_to_nearest(second.position, position) - position,
+          second.velocity - velocity, at(contact.second).path.front().acceleration - acceleration};
 }
 
 double Truth::approach_speed(const Contact& contact) const {
   const auto [x, v, g] = relative(contact);
-  if (contact.wall != Wall::none) return -dot(half_space(*definition_.box, contact.wall).normal, v);
+  if (const auto half = inside(contact)) return -dot(half->normal, v);
   const double distance = norm(x);
   return distance > 0.0 ? -dot(x, v) / distance : -norm(v);
 }
@@ -114,17 +221,67 @@ bool Truth::may_reach(const Contact& contact, Crossing crossing, double level, d
   const auto [x, v, g] = relative(contact);
   const double s = until - time_;
   const double way = 1.001 * (norm(v) + 0.5 * norm(g) * s) * s + 1e-9;
-  const double gap = course(contact).gap_at(time_);
+  const double gap = this->gap(contact);
   return crossing == Crossing::falls_to ? gap - way <= level : gap + way >= level;
+}
+
+std::optional<double> Truth::first_time(const Contact& contact, Crossing crossing, double level, double from,
+                                        double until) const {
+  if (const auto half = inside(contact))
+    return GapCourse(mover(contact).path, *half, extent(contact)).first_time(crossing, level, from, until);
+  if (shape(contact) != nullptr) return march(contact, crossing, level, from, until);
+  return first_in_images(contact, crossing, level, from, until);
+}
+
+/// By steps that the body takes to come to the level at its largest speed, though not too short ones.
+std::optional<double> Truth::march(const Contact& contact, Crossing crossing, double level, double from,
+                                   double until) const {
+  const auto [x, v, g] = relative(contact);
+  const double speed = norm(v) + norm(g) * (until - time_);
+  for (double time = from;;) {
+    const double gap = gap_at(contact, time);
+    const double way = crossing == Crossing::falls_to ? gap - level : level - gap;
+    if (way <= 0.0) return time;
+    if (time >= until) return std::nullopt;
+    time = std::min(until, time + std::max(1e-3 * (until - from), way / speed));
+  }
+}
+
+/// Where space repeats, one image after the other comes near; but bodies that have to part are near each
+/// other in one only.
+std::optional<double> Truth::first_in_images(const Contact& contact, Crossing crossing, double level,
+                                             double from, double until) const {
+  const Trajectory& path = at(contact.first).path;
+  const double extent = this->extent(contact);
+  const Axes periodic = definition_.periodic;
+  if (!periodic.any())
+    return GapCourse(path, at(contact.second).path, extent).first_time(crossing, level, from, until);
+  const auto centre = [from](const Trajectory& along) { return along.front().state_at(from).position; };
+  Trajectory other = at(contact.second).path;
+  const Vec3 nearest = other.front().position + shift_to_nearest(centre(other), centre(path));
+  std::optional<double> first;
+  const int beyond = crossing == Crossing::falls_to ? 1 : 0;
+  const auto range = [&](int axis) { return periodic[axis] ? beyond : 0; };
+  for (int x = -range(0); x <= range(0); ++x)
+    for (int y = -range(1); y <= range(1); ++y)
+      for (int z = -range(2); z <= range(2); ++z) {
+        other.front().position = nearest + world_size * Vec3{double(x), double(y), double(z)};
+        const auto time =
+            GapCourse(path, other, extent).first_time(crossing, level, from, first.value_or(until));
+        if (time) first = time;
+      }
+  return first;
 }
 
 /// From the greatest value of x.x' / (1, or |n.x| for a wall), where x is the relative position.
 bool Truth::opens_before(const Contact& contact, double until) const {
   const auto [x, v, g] = relative(contact);
-  if (contact.wall != Wall::none) {
-    const Vec3 n = half_space(*definition_.box, contact.wall).normal;
+  if (const auto half = inside(contact)) {
+    const Vec3 n = half->normal;
     return std::max(dot(n, v), dot(n, v + g * (until - time_))) >= -1e-9;
   }
+  // Of other shapes that is hard to tell.
+  if (shape(contact) != nullptr) return true;
   const double q0 = dot(x, v);
   const double q1 = norm_squared(v) + dot(x, g);
   const double q2 = 1.5 * dot(v, g);

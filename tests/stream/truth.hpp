@@ -2,7 +2,9 @@
 // it really moves, which is with a constant acceleration between changes.
 #pragma once
 
+#include <array>
 #include <limits>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <vector>
@@ -11,7 +13,10 @@
 #include "detector/gap_course.hpp"
 #include "kinesphere/event.hpp"
 #include "kinesphere/motion/trajectory.hpp"
+#include "kinesphere/shape.hpp"
 #include "kinesphere/world_definition.hpp"
+#include "stream/operation.hpp"
+#include "world/extent.hpp"
 
 namespace kinesphere::stream {
 
@@ -24,11 +29,12 @@ inline void require(bool holds, const char* what) {
   if (!holds) throw Disagreement(what);
 }
 
-/// Two bodies, or a body and a wall.
+/// Two bodies, or a body and a wall; or two bodies and a sensor distance, beyond which their gap then counts.
 struct Contact {
   BodyId first;
   BodyId second = no_body;  ///< of larger index than `first`
   Wall wall = Wall::none;
+  std::optional<double> sensed{};
 
   friend bool operator==(const Contact&, const Contact&) = default;
 };
@@ -40,6 +46,8 @@ struct TrueBody {
   Trajectory path{};            ///< one segment, since the last change
   bool alive = false;
   bool enabled = false;
+  bool fixed = false;
+  std::optional<Shape> shape{};                                    ///< of a fixed body that is no ball
   double last_contact = -std::numeric_limits<double>::infinity();  ///< as events told
 
   bool present() const { return alive && enabled; }
@@ -47,13 +55,23 @@ struct TrueBody {
 
 class Truth {
  public:
-  explicit Truth(const WorldDefinition& definition) : definition_(definition), time_(definition.start_time) {}
+  explicit Truth(const WorldDefinition& definition);
 
   double time() const { return time_; }
   void move_on_to(double time) { time_ = time; }
   const WorldDefinition& definition() const { return definition_; }
+  /// The walls that stand.
+  const std::vector<Wall>& walls() const { return walls_; }
+  /// Nothing sticks out of the plane, where that is all there is.
+  Vec3 in_space(Vec3 v) const {
+    if (definition_.dimensions == 2) v.z = 0.0;
+    return v;
+  }
+  /// Whole periods, to be added to `from`.
+  Vec3 shift_to_nearest(const Vec3& from, const Vec3& to) const;
 
   void add(BodyId id, const BodyDefinition& body, const Vec3& acceleration);
+  void add_fixed(BodyId id, const BodyDefinition& body, const Shape& shape);
   void remove(BodyId id);
   void move(BodyId id, const State& state);
   void steer(BodyId id, const Vec3& acceleration);
@@ -71,12 +89,21 @@ class Truth {
   bool pair_filter(BodyId a, BodyId b) const { return haunted_.contains(a) == haunted_.contains(b); }
   bool has_pair_filter = false;
   void haunt(BodyId id);
+  std::array<Sensor, sensor_classes> sensors{};
   /// Whether events may tell of this contact.
-  bool may_touch(const Contact& contact) const;
-  bool passes_filters(BodyId a, const Filter& filter_of_a, BodyId b) const;
+  bool may_be_told(const Contact& contact) const;
+  /// Whether a body with this definition touches the other when they meet.
+  bool may_touch(BodyId a, const BodyDefinition& definition_of_a, BodyId b) const;
 
-  GapCourse course(const Contact& contact) const;
-  double gap(const Contact& contact) const { return course(contact).gap_at(time_); }
+  /// At the present time; beyond the distance, for a sensor.
+  double gap(const Contact& contact) const;
+  /// Of a point from the surface of the body.
+  double distance(BodyId id, const Vec3& point) const;
+  /// The first time in [from, until] at which the gap is at most, or at least, `level`.
+  std::optional<double> first_time(const Contact& contact, Crossing crossing, double level, double from,
+                                   double until) const;
+  /// What bounds say of the gap of two bodies now.
+  GapLimits limits(const Extent& a, const Extent& b) const;
   /// How fast the gap closes now.
   double approach_speed(const Contact& contact) const;
   /// False only if the gap certainly stays above (falls_to) or below (rises_to) the level until then.
@@ -88,11 +115,22 @@ class Truth {
   struct Relative {
     Vec3 position, velocity, acceleration;
   };
+  const TrueBody& mover(const Contact& contact) const;
+  const Shape* shape(const Contact& contact) const;
+  std::optional<HalfSpace> inside(const Contact& contact) const;
   Relative relative(const Contact& contact) const;
-  double radii(const Contact& contact) const;
+  double extent(const Contact& contact) const;
+  bool meets(const Contact& contact) const;
+  bool senses(BodyId a, BodyId b, double distance) const;
+  double gap_at(const Contact& contact, double time) const;
+  std::optional<double> march(const Contact& contact, Crossing crossing, double level, double from,
+                              double until) const;
+  std::optional<double> first_in_images(const Contact& contact, Crossing crossing, double level, double from,
+                                        double until) const;
   void restart(BodyId id);
 
   WorldDefinition definition_;
+  std::vector<Wall> walls_;
   double time_;
   std::vector<TrueBody> bodies_;  ///< by index
   std::set<BodyId> haunted_;
