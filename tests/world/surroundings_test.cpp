@@ -407,6 +407,32 @@ TEST(Surroundings, SavedInTheMiddleOfContacts) {
   EXPECT_EQ(back.save().value(), p.world.save().value());
 }
 
+TEST(Surroundings, SavedWhenOneHasTakenTheIndexOfABallThatTouched) {
+  for (const double height : {0.5, 3.0}) {
+    Surroundings p({.box = Box{{-9, -9, -9}, {9, 9, 9}}, .contact_tolerance = eps});
+    p.place(ground);
+    const BodyId ball = p.add({.radius = 1, .position = {0, height == 3.0 ? 8.5 : 0.0, height}}, Vec3{});
+    ASSERT_TRUE(p.advance(1.0)) << "it touches the ground or a wall";
+    p.world.remove(ball).value();
+    EXPECT_EQ(p.world.add_fixed({.shape = unit_box})->index, ball.index);
+    EXPECT_TRUE(World::restore(p.world.save().value()));
+    EXPECT_TRUE(is_clean(p.world));
+  }
+}
+
+TEST(Surroundings, OneThatSensesIsRegisteredWithItsReach) {
+  Surroundings p;
+  p.world.set_sensor(1, {.distances = {2}}).value();
+  const BodyId box = p.world.add_fixed({.shape = unit_box, .sensor_class = 1}).value();
+  EXPECT_TRUE(is_clean(p.world));
+  p.world.set_sensor(1, {.distances = {3}}).value();
+  EXPECT_TRUE(is_clean(p.world));
+  p.world.disable(box).value();
+  p.world.set_sensor(1, {}).value();
+  p.world.enable(box, {}).value();
+  EXPECT_TRUE(is_clean(p.world));
+}
+
 TEST(Surroundings, AnswersAreCertifiedAndNear) {
   Surroundings p({.contact_tolerance = eps});
   const BodyId triangle = p.place(flat);
