@@ -20,7 +20,9 @@ class Horizon {
   /// Between these lengths the way is chosen: the longest is for a body that is alone, the shortest for one
   /// among others at the same place, whom no smaller box would shut out.
   Horizon(double first_way, double shortest_way, double longest_way)
-      : way_(std::clamp(first_way, shortest_way, longest_way)), shortest_way_(shortest_way), longest_way_(longest_way) {}
+      : way_(std::clamp(first_way, shortest_way, longest_way)),
+        shortest_way_(shortest_way),
+        longest_way_(longest_way) {}
 
   static Horizon of_new_body(double first_way, double contact_tolerance) {
     return {first_way, 0x1p8 * contact_tolerance, 0x1p40 * contact_tolerance};
