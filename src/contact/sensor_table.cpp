@@ -7,7 +7,7 @@ namespace kinesphere {
 void SensorTable::set(SensorClass sensor_class, const Sensor& sensor) {
   if (sensor_class >= sensors_.size()) sensors_.resize(sensor_class + std::size_t{1});
   sensors_[sensor_class] = sensor;
-  any_ = std::any_of(sensors_.begin(), sensors_.end(), [](const Sensor& s) { return !s.distances.empty(); });
+  any_ = any_ || !sensor.distances.empty();
 }
 
 const Sensor& SensorTable::of(SensorClass sensor_class) const {

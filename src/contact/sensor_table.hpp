@@ -18,7 +18,8 @@ class SensorTable {
   void set(SensorClass sensor_class, const Sensor& sensor);
   /// That of a class which was never set senses nothing.
   const Sensor& of(SensorClass sensor_class) const;
-  /// False in a world without sensors.
+  /// False in a world that never had sensors: facts made while there were some go by rules of their own
+  /// (World::Engine::facts_end_with_boxes), and outlive them.
   bool any() const { return any_; }
   double reach(SensorClass sensor_class) const { return reach_of(of(sensor_class)); }
 

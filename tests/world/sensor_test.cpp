@@ -173,6 +173,18 @@ TEST(Sensor, TakesBackWhatItsChangeMadeUntrueAtTheSameInstant) {
   EXPECT_TRUE(is_clean(p.world));
 }
 
+TEST(Sensor, GoneLeavesNoContactUnwatched) {
+  Playground p;
+  p.world.set_sensor(watchful, {.distances = {2}}).value();
+  p.add({.radius = 1});
+  p.add({.radius = 1, .position = {1, 0, 0}, .velocity = {1e-3, 0, 0}});
+  ASSERT_EQ(p.run(0.0).size(), 1u) << "they touch";
+  EXPECT_TRUE(is_clean(p.world));
+  p.world.set_sensor(watchful, {}).value();
+  EXPECT_TRUE(is_clean(p.world));
+  EXPECT_EQ(p.run(2000.0).size(), 1u) << "they part";
+}
+
 TEST(Sensor, OfOneCentimetreSeesTenThousandBullets) {
   Playground p;
   p.world.set_sensor(watchful, {.distances = {0}}).value();
