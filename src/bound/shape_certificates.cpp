@@ -2,6 +2,7 @@
 #include <limits>
 #include <optional>
 
+#include "bound/reach.hpp"
 #include "bound/rounding.hpp"
 #include "bound/triangle.hpp"
 
@@ -17,17 +18,6 @@ constexpr double negligible_gain = 0x1p-24;
 
 double size_of(const Box& box) { return std::max(norm_one(box.lower), norm_one(box.upper)); }
 double size_of(const Triangle& t) { return std::max({norm_one(t.a), norm_one(t.b), norm_one(t.c)}); }
-
-/// How far the shape reaches in a direction.
-double reach(const Box& box, const Vec3& direction) {
-  double sum = 0.0;
-  for (int axis = 0; axis < 3; ++axis)
-    sum += std::max(direction[axis] * box.lower[axis], direction[axis] * box.upper[axis]);
-  return sum;
-}
-double reach(const Triangle& t, const Vec3& direction) {
-  return std::max({dot(direction, t.a), dot(direction, t.b), dot(direction, t.c)});
-}
 
 /// The shape lies on its far side, whatever the direction: it is raised by what rounding may have lowered it.
 template <class Solid>

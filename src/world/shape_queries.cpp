@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 
+#include "bound/reach.hpp"
 #include "bound/rounding.hpp"
 #include "bound/triangle.hpp"
 
@@ -16,24 +17,10 @@ double size_of(const Box& box) { return norm_one(box.lower) + norm_one(box.upper
 
 GapLimits around(double gap, double wrong) { return {gap - wrong, gap + wrong}; }
 
-/// The least of normal . p in the box.
-double least_along(const Box& box, const Vec3& normal) {
-  double sum = 0.0;
-  for (int axis = 0; axis < 3; ++axis)
-    sum += std::min(normal[axis] * box.lower[axis], normal[axis] * box.upper[axis]);
-  return sum;
-}
-
-double least_along(const Triangle& t, const Vec3& normal) {
-  return std::min({dot(normal, t.a), dot(normal, t.b), dot(normal, t.c)});
-}
-
 /// The gap between both, seen along a direction.
 template <class A, class B>
 double gap_along(const A& a, const B& b, const Vec3& direction) {
-  const double greatest_of_a = -least_along(a, -direction);
-  const double greatest_of_b = -least_along(b, -direction);
-  return std::max(least_along(a, direction) - greatest_of_b, least_along(b, direction) - greatest_of_a);
+  return -std::min(reach(a, direction) + reach(b, -direction), reach(a, -direction) + reach(b, direction));
 }
 
 /// True when the way from one place to the other certainly goes through the triangle: they lie on both sides
@@ -82,7 +69,7 @@ WayLimits touch(const Bound& sphere, const Solid& shape, double length) {
 }  // namespace
 
 GapLimits gap_limits(const Box& region, const HalfSpace& shape) {
-  return around(least_along(region, shape.normal) - shape.offset,
+  return around(-reach(region, -shape.normal) - shape.offset,
                 margin * (size_of(region) + std::abs(shape.offset)));
 }
 
