@@ -22,7 +22,7 @@ class World::Engine::Queries {
   explicit Queries(const Engine& engine) : engine_(engine), now_(engine.time_) {}
 
   std::vector<Found> overlapping(const Vec3& centre, double radius) const;
-  std::vector<Found> overlapping(const Box& box) const;
+  std::vector<Found> overlapping(const Box& region) const;
   std::vector<Near> nearest(const Vec3& point, std::size_t count) const;
   std::vector<Hit> cast(const Way& way) const;
 
