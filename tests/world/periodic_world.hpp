@@ -13,15 +13,19 @@ namespace kinesphere {
 /// How the caller of the world tells positions.
 enum class Reports { unwrapped, wrapped, any_image };
 
+struct PeriodicCrowd {
+  std::size_t bodies = 0;
+  double least_radius = 0.0;
+  double largest_radius = 0.0;
+  double speed = 1.0;
+};
+
 struct PeriodicKind {
   std::string name;
   Box box{};
   Axes periodic{true, true, true};
   int dimensions = 3;
-  std::size_t bodies = 0;
-  double least_radius = 0.0;
-  double largest_radius = 0.0;
-  double speed = 1.0;
+  PeriodicCrowd crowd{};
   double duration = 5.0;
   Reports reports = Reports::unwrapped;
   /// The first body has this radius, if it is not zero.
@@ -47,12 +51,13 @@ class PeriodicWorld : public Playground {
     for (int axis = 0; axis < 3; ++axis)
       if (kind.periodic[axis]) period[axis] = kind.box.upper[axis] - kind.box.lower[axis];
     distort = [this](BodyId, double, State& state) { state.position = told(state.position); };
-    for (std::size_t k = 0; k < kind.bodies; ++k) {
-      double radius = kind.least_radius + (kind.largest_radius - kind.least_radius) * random.uniform();
+    const PeriodicCrowd& crowd = kind.crowd;
+    for (std::size_t k = 0; k < crowd.bodies; ++k) {
+      double radius = crowd.least_radius + (crowd.largest_radius - crowd.least_radius) * random.uniform();
       if (k == 0 && kind.first_radius > 0.0) radius = kind.first_radius;
-      const Vec3 velocity = kind.speed * flat(random.point_in_ball());
+      const Vec3 velocity = crowd.speed * flat(random.point_in_ball());
       // It promises less than it keeps, so that it has to be asked again and again.
-      const double limit = random.uniform() < 0.3 ? 0.0 : 0.3 * kind.speed * random.uniform();
+      const double limit = random.uniform() < 0.3 ? 0.0 : 0.3 * crowd.speed * random.uniform();
       ids.push_back(
           add({.radius = radius, .acceleration_limit = limit, .position = any_point(), .velocity = velocity},
               Vec3{}));
