@@ -1,0 +1,90 @@
+// Calls about sensors and fixed bodies with ids that are gone, and in spaces that have no room for them.
+#include <gtest/gtest.h>
+
+#include "kinesphere/recording.hpp"
+#include "kinesphere/response.hpp"
+#include "support/expect_error.hpp"
+#include "support/playground.hpp"
+
+namespace kinesphere {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(WrongIdOfAFixedBody, IsStaleEverywhere) {
+  World world = World::create({}).value();
+  const BodyId gone = world.add_fixed({.shape = Ball{}}).value();
+  world.remove(gone).value();
+  const auto stale = [&](const auto& result, const std::string& call) {
+    expect_error(result, ErrorCode::stale_body, "body", call, gone);
+  };
+  stale(world.shape_of(gone), "shape_of");
+  stale(world.touching(gone), "touching");
+  stale(world.sensed(gone), "sensed");
+  stale(world.set_solid(gone, false), "set_solid");
+  stale(world.set_sensor_class(gone, 1), "set_sensor_class");
+  stale(world.kick(gone, {}), "kick");
+  stale(world.teleport(gone, {}), "teleport");
+  stale(world.set_radius(gone, 1), "set_radius");
+  stale(world.set_promise(gone, {}), "set_promise");
+  stale(world.disable(gone), "disable");
+  stale(world.enable(gone, {}), "enable");
+}
+
+TEST(WrongFixedBody, HasToFitWhereSpaceRepeats) {
+  World world = World::create({.box = Box{{0, 0, 0}, {10, 10, 10}}, .periodic = {true, true, true}}).value();
+  for (const Shape& shape : {Shape(HalfSpace{{0, 0, 1}, 0}), Shape(Box{{1, 1, 1}, {2, 2, 2}}),
+                             Shape(Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})})
+    expect_error(world.add_fixed({.shape = shape}), ErrorCode::unsupported, "shape", "add_fixed");
+  expect_error(world.add_fixed({.shape = Ball{{1, 1, 1}, 1.9}}), ErrorCode::out_of_range, "shape",
+               "add_fixed");
+  EXPECT_EQ(world.size(), 0u);
+}
+
+TEST(WrongSensor, HasToFitWhereSpaceRepeats) {
+  World world = World::create({.box = Box{{0, 0, 0}, {10, 10, 10}}, .periodic = {true, true, true}}).value();
+  const BodyId ball = world.add({.radius = 1, .position = {5, 5, 5}, .sensor_class = 1}).value();
+  const BodyId fixed = world.add_fixed({.shape = Ball{{1, 1, 1}, 1}, .sensor_class = 2}).value();
+  expect_error(world.set_sensor(1, {.distances = {0.5, 1.0}}), ErrorCode::out_of_range, "sensor",
+               "set_sensor", ball);
+  expect_error(world.set_sensor(2, {.distances = {1.0}}), ErrorCode::out_of_range, "sensor", "set_sensor",
+               fixed);
+  EXPECT_TRUE(world.sensor(1).distances.empty());
+  world.set_sensor(3, {.distances = {1.0}}).value();
+  expect_error(world.set_sensor_class(ball, 3), ErrorCode::out_of_range, "sensor_class", "set_sensor_class",
+               ball);
+  expect_error(world.set_sensor_class(fixed, 3), ErrorCode::out_of_range, "sensor_class", "set_sensor_class",
+               fixed);
+  expect_error(world.add({.radius = 1, .position = {8, 5, 5}, .sensor_class = 3}), ErrorCode::out_of_range,
+               "sensor_class", "add");
+  world.disable(ball).value();
+  expect_error(world.set_sensor(1, {.distances = {1.0}}), ErrorCode::out_of_range, "sensor", "set_sensor",
+               ball);
+  EXPECT_TRUE(is_clean(world));
+}
+
+TEST(WrongFixedBody, HasToLieInThePlane) {
+  World world = World::create({.dimensions = 2}).value();
+  expect_error(world.add_fixed({.shape = Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}), ErrorCode::unsupported,
+               "shape", "add_fixed");
+  expect_error(world.add_fixed({.shape = Ball{{0, 0, 1}, 1}}), ErrorCode::out_of_range, "shape", "add_fixed");
+  expect_error(world.add_fixed({.shape = HalfSpace{{0, 0, 1}, 0}}), ErrorCode::out_of_range, "shape",
+               "add_fixed");
+  EXPECT_EQ(world.size(), 0u);
+}
+
+/// bounce() and settle() have no errors to give: the kick that follows has to refuse what they make of
+/// numbers that are none.
+TEST(WrongBounce, IsRefusedByTheKickThatFollows) {
+  World world = World::create({}).value();
+  const BodyId id = world.add({}).value();
+  const Event contact{.second = {1, 0}, .normal = {1, 0, 0}, .approach_speed = 1};
+  for (const Bounce& wrong :
+       {bounce(contact, 0, 0, 1), bounce(contact, nan, 1, 1), bounce(contact, -1, 1, 1),
+        bounce(contact, 1, 1, nan), settle(contact, 0, 0, 1, 1), settle(contact, 1, 1, nan, 1)})
+    expect_error(world.kick(id, wrong.first_velocity), ErrorCode::not_finite, "velocity", "kick", id);
+  EXPECT_TRUE(std::isnan(least_resting_speed(-1, 1)));
+}
+
+}  // namespace
+}  // namespace kinesphere
