@@ -1,6 +1,7 @@
 // Bodies that never move: how they come, and where they are.
 #include "world/fixed.hpp"
 
+#include <cmath>
 #include "world/engine.hpp"
 #include "world/validation.hpp"
 
@@ -33,7 +34,8 @@ Box World::Engine::box_of(const Shape& shape) const {
 }
 
 Shape World::Engine::as_kept(Shape shape) const {
-  if (auto* solid = std::get_if<HalfSpace>(&shape)) solid->normal = solid->normal / norm(solid->normal);
+  if (auto* solid = std::get_if<HalfSpace>(&shape); solid && std::abs(norm(solid->normal) - 1.0) > 0x1p-51)
+    solid->normal = solid->normal / norm(solid->normal);
   if (auto* ball = std::get_if<Ball>(&shape); ball && space_.repeats())
     ball->centre = space_.wrapped(ball->centre).position;
   if (auto* box = std::get_if<Box>(&shape); box && space_.is_flat()) {
