@@ -52,6 +52,10 @@ struct Event {
   /// True when one of the two bodies touched something less than its Zeno interval ago
   /// (WorldDefinition::zeno_interval): a response that loses energy should lose none here.
   bool repeated = false;
+  /// True when each of the two bodies has had 64 contacts at this very instant already, as one that is stuck
+  /// between walls has: an answer that gives back any speed would go on for ever. After 256 the Zeno guard
+  /// moves time on by its least step.
+  bool jammed = false;
   /// States at `time`. Those of a wall or of no_body are zero; that of a fixed body is one point of its
   /// shape, at rest. Where space repeats, the first is in the box, and the second in the image that is
   /// nearest to it, inside the box or not: the vector from one to the other is the one that a virial needs.

@@ -13,7 +13,8 @@ struct Bounce {
 /// Velocities after a frictionless central bounce with the given masses (> 0; the second is unused for a
 /// wall; infinity for a fixed body, if the other can move) and restitution in [0, 1]. Momentum is kept; a
 /// `repeated` contact is answered without loss (restitution 1), which keeps inelastic collapse from stopping
-/// time (Luding and McNamara's TC model).
+/// time (Luding and McNamara's TC model). Bodies whose contact is `jammed` part with no speed, whatever the
+/// restitution.
 Bounce bounce(const Event& contact, double first_mass, double second_mass, double restitution);
 
 /// As bounce(), for bodies that come to rest in a heap: also a `repeated` contact loses energy, but no two

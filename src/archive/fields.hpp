@@ -102,9 +102,9 @@ void transfer(Self& self, Archive& archive) {
 
 template <Some<Event> Self, class Archive>
 void transfer(Self& self, Archive& archive) {
-  auto& [kind, time, first, second, wall, repeated, first_state, second_state, point, normal, gap,
+  auto& [kind, time, first, second, wall, repeated, jammed, first_state, second_state, point, normal, gap,
          approach_speed, position_excess, velocity_excess, distance] = self;
-  archive(kind, time, first, second, wall, repeated, first_state, second_state, point, normal, gap,
+  archive(kind, time, first, second, wall, repeated, jammed, first_state, second_state, point, normal, gap,
           approach_speed, position_excess, velocity_excess, distance);
 }
 

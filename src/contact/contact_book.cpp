@@ -103,12 +103,31 @@ bool ContactBook::is_repeated(const Event& begin, std::uint32_t body) const {
   return begin.time - entries_[body].last_contact < entries_[body].zeno_interval;
 }
 
-/// Marks the begin of a contact if it is a repeated one, and remembers it for the next.
+/// How many contacts of this instant each of the two has had at least. Walls and fixed bodies do not count:
+/// they may be hit by many at once.
+std::uint32_t ContactBook::contacts_now(const Event& contact) const {
+  std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
+  for (const BodyId id : {contact.first, contact.second}) {
+    if (id == no_body || entries_[id.index].fixed) continue;
+    const Entry& entry = entries_[id.index];
+    least = std::min(least, entry.last_contact == contact.time ? entry.contacts_then : 0);
+  }
+  return least;
+}
+
+/// Marks the begin of a contact if it is a repeated or a jammed one, and remembers it for the next.
 void ContactBook::note_contact(Event& begin) {
   const bool pair = begin.second != no_body;
   begin.repeated = is_repeated(begin, begin.first.index) || (pair && is_repeated(begin, begin.second.index));
-  entries_[begin.first.index].last_contact = begin.time;
-  if (pair) entries_[begin.second.index].last_contact = begin.time;
+  begin.jammed = contacts_now(begin) >= many_at_one_instant;
+  note_contact(begin.first.index, begin.time);
+  if (pair) note_contact(begin.second.index, begin.time);
+}
+
+void ContactBook::note_contact(std::uint32_t body, double time) {
+  Entry& entry = entries_[body];
+  entry.contacts_then = entry.last_contact == time ? entry.contacts_then + 1 : 1;
+  entry.last_contact = time;
 }
 
 bool ContactBook::contacts_are_sound(const std::optional<Box>& box) const {

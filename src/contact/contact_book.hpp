@@ -47,7 +47,10 @@ class ContactBook {
   }
 
   /// A fixed body has no contacts of its own: whether one is a repeated one, its partner decides.
-  void set_fixed(std::uint32_t body) { entries_[body].zeno_interval = 0.0; }
+  void set_fixed(std::uint32_t body) {
+    entries_[body].zeno_interval = 0.0;
+    entries_[body].fixed = true;
+  }
 
   // Who touches whom.
   bool touch(std::uint32_t a, std::uint32_t b) const;
@@ -87,6 +90,10 @@ class ContactBook {
   void depart(std::uint32_t body, double time, SphereNow sphere, const std::optional<Box>& box) {
     end_contacts(body, time, sphere, box, [](const Event&) { return true; });
   }
+
+  /// Whether a contact that could begin now has to wait for time to move on: each of the two has had so many
+  /// at this instant that the caller's answers will not part them.
+  bool is_jammed(const Event& current) const { return contacts_now(current) >= most_at_one_instant; }
 
   // Events of this instant.
   /// Time moves on.
@@ -148,11 +155,13 @@ class ContactBook {
     std::uint8_t walls = 0;
     double zeno_interval = 0.0;
     double last_contact = -std::numeric_limits<double>::infinity();
+    std::uint32_t contacts_then = 0;  ///< at the time of the last one
+    bool fixed = false;
 
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
-      auto& [touched, crossed, touched_walls, interval, last] = self;
-      archive(touched, crossed, touched_walls, interval, last);
+      auto& [touched, crossed, touched_walls, interval, last, count_then, is_fixed] = self;
+      archive(touched, crossed, touched_walls, interval, last, count_then, is_fixed);
     }
   };
 
@@ -170,7 +179,13 @@ class ContactBook {
   bool still_begins(const Event& now) const;
   bool contacts_are_sound(const std::optional<Box>& box) const;
   bool is_repeated(const Event& begin, std::uint32_t body) const;
+  std::uint32_t contacts_now(const Event& contact) const;
   void note_contact(Event& begin);
+  void note_contact(std::uint32_t body, double time);
+
+  /// A chain of touching bodies passes a push on in some contacts each; these are far more.
+  static constexpr std::uint32_t many_at_one_instant = 64;
+  static constexpr std::uint32_t most_at_one_instant = 256;
 
   ContactRule rule_;
   ContactRule sensor_rule_;

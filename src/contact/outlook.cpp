@@ -58,6 +58,16 @@ Verdict Outlook<Partner>::judge(const Event& current, const Promise& promise) co
   return verdict;
 }
 
+template <class Partner>
+Verdict Outlook<Partner>::put_off(const Event& current, const Promise& promise) const {
+  const double beyond = current.gap - threshold_.distance;
+  const double speed = promise.speed_error + std::max(current.approach_speed, 0.0);
+  const double next_look = now_ + rule_.least_step(beyond, speed, promise.acceleration);
+  return {.next_look = std::max(next_look, just_after(now_)),
+          .zeno_step = true,
+          .breaks_tolerance = rule_.step_breaks_tolerance(beyond)};
+}
+
 /// More than what rounding can hide of the present gap.
 template <class Partner>
 double Outlook<Partner>::resolution() const {

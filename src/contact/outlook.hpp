@@ -70,6 +70,10 @@ class Outlook {
   /// From fresh reports; `current` is an event that describes the two now.
   Verdict judge(const Event& current, const Promise& promise) const;
 
+  /// For two that touch too often at this instant: the Zeno guard lets their gap shrink, by no more than it
+  /// may, before the next contact can begin.
+  Verdict put_off(const Event& current, const Promise& promise) const;
+
  private:
   double meeting(double gap) const {
     return earliest_meeting(bound_, partner_, now_, horizons_.meeting, gap + threshold_.distance);

@@ -6,8 +6,9 @@
 namespace kinesphere {
 namespace {
 
-/// The two leave each other with `kept` times their approach speed.
+/// The two leave each other with `kept` times their approach speed, or with none where they are jammed.
 Bounce rebound(const Event& contact, double first_mass, double second_mass, double kept) {
+  if (contact.jammed) kept = 0.0;
   const Vec3 change = contact.normal * ((1.0 + kept) * contact.approach_speed);
   if (contact.second == no_body) return {contact.first_state.velocity - change, {}};
   const double mass = first_mass + second_mass;

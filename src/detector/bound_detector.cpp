@@ -158,7 +158,9 @@ double BoundDetector::wall_outlook(std::uint32_t number, double horizon) {
 /// Holds fresh reports against the contact rule.
 template <class Partner>
 double BoundDetector::judge(const Outlook<Partner>& outlook, const Event& current, const Promise& promise) {
-  const Verdict verdict = outlook.judge(current, promise);
+  Verdict verdict = outlook.judge(current, promise);
+  if (verdict.change == ContactRule::Change::begin && book_.is_jammed(current))
+    verdict = outlook.put_off(current, promise);
   if (verdict.is_news()) {
     Event news = current;
     news.kind = kind_of(verdict.change, false, current.wall);

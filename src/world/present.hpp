@@ -24,13 +24,25 @@ inline Place place_of(const Body& body, double now) {
   return {bound.centre_at(now), body.definition.radius + deviation, body.definition.radius - deviation};
 }
 
-/// Contains the body from now on. A kick changes the velocity: the bound of a report before it tells only
-/// where the body is now.
+/// Contains the body from now on. A bound of a report before a kick, or before the body promised something
+/// else, tells only where the body is now and, but for a kick, how fast.
 inline Bound present_bound(const Body& body, double now) {
-  if (!body.kicked_since_report) return body.bound;
+  const Bound& last = body.bound;
+  const BodyDefinition& promise = body.definition;
+  const bool as_promised = last.growth_speed == promise.velocity_error &&
+                           last.growth_acceleration == promise.acceleration_limit &&
+                           last.planned_acceleration == promise.planned_acceleration;
+  if (as_promised && !body.kicked_since_report) return last;
   const Place place = place_of(body, now);
-  Bound bound = bound_of(body.definition, {place.centre, body.definition.velocity}, now);
+  const Vec3 velocity = body.kicked_since_report ? promise.velocity : last.velocity_at(now);
+  Bound bound = bound_of(promise, {place.centre, velocity}, now);
   bound.radius = place.outer;
+  if (!body.kicked_since_report) {
+    const double s = now - last.time;
+    const double speed =
+        norm_one(last.velocity) + (norm_one(last.planned_acceleration) + last.growth_acceleration) * s;
+    bound.growth_speed = last.growth_speed + last.growth_acceleration * s + rounding::margin * speed;
+  }
   return bound;
 }
 

@@ -265,7 +265,9 @@ bool World::Engine::look_at_pair(std::uint32_t number, std::uint32_t partner, co
 template <class Partner>
 std::optional<double> World::Engine::judge(const Outlook<Partner>& outlook, const Threshold& threshold,
                                            const Event& current, const Promise& promise) {
-  const Verdict verdict = outlook.judge(current, promise);
+  Verdict verdict = outlook.judge(current, promise);
+  if (verdict.change == ContactRule::Change::begin && !threshold.sensed && book_.is_jammed(current))
+    verdict = outlook.put_off(current, promise);
   if (verdict.is_news()) {
     Event news = current;
     news.kind = kind_of(verdict.change, threshold.sensed, current.wall);

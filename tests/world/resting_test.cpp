@@ -173,5 +173,72 @@ TEST(Resting, HeldByTheCallerIsOneLastingContact) {
   }
 }
 
+/// A ball in a corridor that it fills touches both walls at once: thrown from one to the other, it gets
+/// nowhere.
+struct Jam : Playground {
+  explicit Jam(double width)
+      : Playground({.box = Box{{-10, -10, 0}, {10, 10, width}}, .contacts = ContactMode::impacts}),
+        ball(add({.radius = 1, .position = {0, 0, 0.5 * width}, .velocity = {1, 0, 1}})) {}
+  BodyId ball;
+};
+
+TEST(Jammed, BallInACorridorComesThrough) {
+  for (const double width : {1.9999995, 2.0, 2.0 + 1e-12, 2.0000005, 2.000001}) {
+    for (const double restitution : {0.0, 0.5, 1.0}) {
+      Jam p(width);
+      const auto events = p.run(
+          5.0,
+          [&](const Event& event) {
+            if (event.kind == EventKind::wall_begin)
+              p.kick(p.ball, bounce(event, 1, 1, restitution).first_velocity);
+          },
+          1000);
+      ASSERT_EQ(p.world.time(), 5.0) << width << " restitution " << restitution;
+      EXPECT_NEAR(p.state(p.ball).position.x, 5.0, 1e-9);
+      EXPECT_TRUE(of_kind(events, EventKind::zeno_guard).empty());
+      EXPECT_TRUE(is_clean(p.world));
+      if (restitution == 1.0) {
+        EXPECT_TRUE(std::any_of(events.begin(), events.end(), [](const Event& e) { return e.jammed; }));
+      }
+    }
+  }
+}
+
+TEST(Jammed, AnswersThatGoOnAreStoppedByTheZenoGuard) {
+  Jam p(2.0);
+  int events = 0;
+  while (const auto event = p.advance(1.0)) {
+    if (++events == 3000) break;
+    if (event->kind != EventKind::wall_begin) continue;
+    const Vec3 velocity = p.state(p.ball).velocity;
+    p.kick(p.ball, velocity - event->normal * (2.0 * dot(velocity, event->normal)));
+  }
+  EXPECT_GT(p.world.time(), 0.0);
+  EXPECT_GT(p.world.counters().zeno_steps, 3u);
+  EXPECT_LT(std::abs(p.state(p.ball).position.z - 1.0), 2e-6);
+  EXPECT_TRUE(is_clean(p.world));
+}
+
+/// Many that arrive at one instant are no jam.
+TEST(Jammed, IsNotWhatManyHitAtOnce) {
+  Playground p({.contacts = ContactMode::impacts});
+  const BodyId target = p.add({.radius = 10});
+  Random random(1);
+  for (int k = 0; k < 100; ++k) {
+    const Vec3 out = random.unit_vector();
+    p.add({.radius = 0.0,
+           .position = 20.0 * out,
+           .velocity = -1.0 * out,
+           .filter = {.category = 2, .mask = 1}});
+  }
+  std::size_t begins = 0;
+  for (const Event& event : p.run(12.0)) {
+    EXPECT_EQ(event.first, target);
+    EXPECT_FALSE(event.jammed);
+    ++begins;
+  }
+  EXPECT_GE(begins, 100u);
+}
+
 }  // namespace
 }  // namespace kinesphere
