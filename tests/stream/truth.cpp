@@ -9,26 +9,16 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Calls use(shape) for all but balls.
-template <class Use>
-auto of_shape(const Shape& shape, Use use) {
+/// Of a shape that is no ball.
+SurfacePoint nearest_on(const Shape& shape, const Vec3& point) {
   return std::visit(
-      [&]<class Solid>(const Solid& solid) -> decltype(use(HalfSpace{})) {
+      [&]<class Solid>(const Solid& solid) -> SurfacePoint {
         if constexpr (std::is_same_v<Solid, Ball>)
           throw Disagreement("a ball has no surface of its own");
         else
-          return use(solid);
+          return nearest_point(solid, point);
       },
       shape);
-}
-
-double distance_from(const Shape& shape, const Vec3& point) {
-  return of_shape(shape, [&](const auto& solid) { return nearest_point(solid, point).distance; });
-}
-
-/// From the point towards the shape.
-Vec3 normal_of(const Shape& shape, const Vec3& point) {
-  return of_shape(shape, [&](const auto& solid) { return -nearest_point(solid, point).normal; });
 }
 
 std::string text_of(BodyId id) { return std::to_string(id.index) + "." + std::to_string(id.generation); }
@@ -172,7 +162,7 @@ double Truth::gap_at(const Contact& contact, double time) const {
   const Vec3 centre = mover(contact).path.front().state_at(time).position;
   const double extent = this->extent(contact);
   if (const auto half = inside(contact)) return dot(half->normal, centre) - half->offset - extent;
-  if (const Shape* solid = shape(contact)) return distance_from(*solid, centre) - extent;
+  if (const Shape* solid = shape(contact)) return nearest_on(*solid, centre).distance - extent;
   const Vec3 other = at(contact.second).path.front().state_at(time).position;
   return norm(other + shift_to_nearest(other, centre) - centre) - extent;
 }
@@ -181,7 +171,7 @@ double Truth::gap(const Contact& contact) const { return gap_at(contact, time_);
 
 double Truth::distance(BodyId id, const Vec3& point) const {
   const TrueBody& body = at(id);
-  if (body.shape) return distance_from(*body.shape, point);
+  if (body.shape) return nearest_on(*body.shape, point).distance;
   const Vec3 centre = state(id).position;
   return norm(centre + shift_to_nearest(centre, point) - point) - body.definition.radius;
 }
@@ -204,7 +194,8 @@ Truth::Relative Truth::relative(const Contact& contact) const {
     const Vec3 n = half->normal;
     return {n * (dot(n, position) - half->offset), n * dot(n, velocity), n * dot(n, acceleration)};
   }
-  if (const Shape* solid = shape(contact)) return {normal_of(*solid, position), -velocity, -acceleration};
+  if (const Shape* solid = shape(contact))
+    return {-nearest_on(*solid, position).normal, -velocity, -acceleration};
   const State second = state(contact.second);
   return {second.position + shift_to_nearest(second.position, position) - position,
           second.velocity - velocity, at(contact.second).path.front().acceleration - acceleration};
