@@ -117,6 +117,23 @@ TEST(Change, TeleportDoesNotTakeBackAnEndThatWasOnItsWay) {
   p.expect_end_and_begin(-0.75);
 }
 
+TEST(Change, OfABodyDoesNotTakeBackAnEndAtAWallThatWasOnItsWay) {
+  Playground p({.box = Box{{0, 0, 0}, {64, 64, 64}}});
+  BodyId last;
+  for (const double y : {16.0, 48.0})
+    last = p.add({.radius = 1, .position = {0.5, y, 32}, .velocity = {1, 0, 0}});
+  EXPECT_EQ(p.run(0.25).size(), 2u);
+  const auto end = p.advance(1.0);
+  ASSERT_TRUE(end && end->kind == EventKind::wall_end && end->first != last);
+  p.world.set_radius(last, 1.5).value();
+  const auto events = p.run(p.world.time());
+  ASSERT_EQ(events.size(), 2u) << events;
+  EXPECT_EQ(events[0].kind, EventKind::wall_end);
+  EXPECT_EQ(events[0].first, last);
+  EXPECT_GE(events[0].gap, 4e-6);
+  EXPECT_EQ(events[1].kind, EventKind::wall_begin);
+}
+
 TEST(Change, SmallerRadiusEndsAndLargerBegins) {
   Touching p;
   p.world.set_radius(p.b, 0.25).value();
