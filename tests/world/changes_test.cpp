@@ -118,10 +118,10 @@ TEST(Change, TeleportDoesNotTakeBackAnEndThatWasOnItsWay) {
 }
 
 TEST(Change, OfABodyDoesNotTakeBackAnEndAtAWallThatWasOnItsWay) {
-  Playground p({.box = Box{{0, 0, 0}, {64, 64, 64}}});
+  Playground p({.box = Box{{0, -64, -64}, {128, 64, 64}}});
   BodyId last;
-  for (const double y : {16.0, 48.0})
-    last = p.add({.radius = 1, .position = {0.5, y, 32}, .velocity = {1, 0, 0}});
+  for (const double y : {-16.0, 16.0})
+    last = p.add({.radius = 1, .position = {0.5, y, 0}, .velocity = {1, 0, 0}});
   EXPECT_EQ(p.run(0.25).size(), 2u);
   const auto end = p.advance(1.0);
   ASSERT_TRUE(end && end->kind == EventKind::wall_end && end->first != last);
