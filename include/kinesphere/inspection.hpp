@@ -46,9 +46,9 @@ struct CellView {
   std::size_t bodies = 0;  ///< whose registered boxes meet it
 };
 
-/// What is recorded of a pair: whether the two touch does not change before `until`, as long as both keep
-/// their promises and nobody changes them. Pairs of which nothing is recorded are apart at least until the
-/// box of one of them ends (BodyView::box_end).
+/// What is recorded of a pair: whether the two touch or sense each other does not change before `until`, as
+/// long as both keep their promises and nobody changes them. Pairs of which nothing is recorded are apart at
+/// least until the box of one of them ends (BodyView::box_end).
 struct Certificate {
   BodyId first;  ///< first < second
   BodyId second;

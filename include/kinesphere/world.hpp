@@ -99,8 +99,8 @@ class World {
   /// out of the box of the world. Errors: not_finite; out_of_range (a coordinate, offset or radius beyond
   /// 2^41 contact tolerances, a negative radius, a box without lower <= upper, a triangle thinner than 2^-20
   /// of its longest side, a normal whose length differs from 1 by more than 10^-6: the world makes it 1);
-  /// overlapping. Cost: O(1) here (a grid search where overlaps are not allowed), a grid search at the next
-  /// advance.
+  /// unsupported (all but balls where space repeats, a triangle in two dimensions); overlapping. Cost: O(1)
+  /// here (a grid search where overlaps are not allowed), a grid search at the next advance.
   Result<BodyId> add_fixed(const FixedDefinition& body);
   /// Adds all of them or, on an error (as above, naming the one), none.
   Result<std::vector<BodyId>> add_fixed_all(std::span<const FixedDefinition> bodies);

@@ -60,8 +60,10 @@ Companion companion(const Box& box, const Bound& bound, double now) {
   const Vec3& plan = bound.planned_acceleration;
   Companion at{.path = {.time = now}};
   for (int axis = 0; axis < 3; ++axis) {
-    at.path.position[axis] = std::clamp(centre[axis], box.lower[axis], box.upper[axis]);
     const double size = std::abs(centre[axis]) + std::abs(box.lower[axis]) + std::abs(box.upper[axis]);
+    // A number that is none spoils the path, and with it the certificate.
+    at.path.position[axis] =
+        std::isnan(size) ? size : std::clamp(centre[axis], box.lower[axis], box.upper[axis]);
     const double stays = std::min(stay(centre[axis] - box.lower[axis], velocity[axis], plan[axis], size),
                                   stay(box.upper[axis] - centre[axis], -velocity[axis], -plan[axis], size));
     // At an end of the box it stands still on this axis.
