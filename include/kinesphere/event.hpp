@@ -31,6 +31,11 @@ enum class EventKind : std::uint8_t {
 };
 inline constexpr int event_kind_count = 8;
 
+/// Whether an event of this kind is about a sensor distance (Event::distance).
+constexpr bool is_of_sensor(EventKind kind) {
+  return kind == EventKind::sensor_enter || kind == EventKind::sensor_leave;
+}
+
 /// The walls of the box, by the axis and side on which they stand.
 enum class Wall : std::uint8_t { none, x_lower, x_upper, y_lower, y_upper, z_lower, z_upper };
 inline constexpr int wall_count = 6;

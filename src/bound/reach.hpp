@@ -1,4 +1,4 @@
-// The support function of boxes and triangles.
+// The support function of boxes and triangles, and the size of their coordinates.
 #pragma once
 
 #include <algorithm>
@@ -19,5 +19,9 @@ inline double reach(const Box& box, const Vec3& direction) {
 inline double reach(const Triangle& t, const Vec3& direction) {
   return std::max({dot(direction, t.a), dot(direction, t.b), dot(direction, t.c)});
 }
+
+/// What goes into a computation about a shape, for margins. Sums, so that a number that is none spoils them.
+inline double size_of(const Box& box) { return norm_one(box.lower) + norm_one(box.upper); }
+inline double size_of(const Triangle& t) { return norm_one(t.a) + norm_one(t.b) + norm_one(t.c); }
 
 }  // namespace kinesphere

@@ -16,10 +16,6 @@ constexpr double margin = rounding::margin;
 constexpr int max_rounds = 16;
 constexpr double negligible_gain = 0x1p-24;
 
-// Sums, so that a number that is none spoils them.
-double size_of(const Box& box) { return norm_one(box.lower) + norm_one(box.upper); }
-double size_of(const Triangle& t) { return norm_one(t.a) + norm_one(t.b) + norm_one(t.c); }
-
 /// The shape lies on its far side, whatever the direction: it is raised by what rounding may have lowered it.
 template <class Solid>
 HalfSpace supporting_plane(const Solid& solid, const Vec3& normal) {

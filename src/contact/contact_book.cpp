@@ -37,7 +37,7 @@ void ContactBook::set_touching(const Event& contact, bool touching) {
     std::uint8_t& set = entries_[a].walls;
     const std::uint8_t bit = wall_bit(contact.wall);
     set = static_cast<std::uint8_t>(touching ? set | bit : set & ~bit);
-  } else if (is_of_sensor(contact)) {
+  } else if (is_of_sensor(contact.kind)) {
     const Crossing of_a{b, contact.distance};
     const Crossing of_b{a, contact.distance};
     if (touching) {
@@ -66,7 +66,7 @@ void ContactBook::end(const Event& contact) {
   set_touching(contact, false);
   // An end that had come by itself has not taken effect yet.
   pending_.erase(contact);
-  if (is_of_sensor(contact) || !rule_.impacts_only()) ended_.insert(contact);
+  if (is_of_sensor(contact.kind) || !rule_.impacts_only()) ended_.insert(contact);
 }
 
 void ContactBook::announce(const Event& event) {
@@ -87,14 +87,14 @@ bool ContactBook::take_effect(Event& event, const Sphere& first, const Sphere& s
   now.distance = event.distance;
   if (begins_now && !still_begins(now)) return false;
   event = now;
-  if (begins_now && !is_of_sensor(event)) note_contact(event);
+  if (begins_now && !is_of_sensor(event.kind)) note_contact(event);
   set_touching(event, begins_now);
   changed_.emplace_back(first.id.index, second.id.index);
   return true;
 }
 
 bool ContactBook::still_begins(const Event& now) const {
-  const ContactRule& rule = is_of_sensor(now) ? sensor_rule_ : rule_;
+  const ContactRule& rule = is_of_sensor(now.kind) ? sensor_rule_ : rule_;
   return rule.decide(false, now.gap - now.distance, now.approach_speed) == ContactRule::Change::begin;
 }
 

@@ -169,9 +169,6 @@ class ContactBook {
     return kind == EventKind::contact_begin || kind == EventKind::wall_begin ||
            kind == EventKind::sensor_enter;
   }
-  static bool is_of_sensor(const Event& event) {
-    return event.kind == EventKind::sensor_enter || event.kind == EventKind::sensor_leave;
-  }
 
   void set_touching(const Event& contact, bool touching);
   void end(const Event& contact);

@@ -25,11 +25,13 @@ void transfer(Self& self, Archive& archive) {
 
 namespace step {
 
-struct Add {
-  BodyDefinition body{};
+/// A new body, by its call.
+template <class Definition, Result<BodyId> (World::*call)(const Definition&)>
+struct New {
+  Definition body{};
 
   Result<void> repeat(World& world) const {
-    const auto added = world.add(body);
+    const auto added = (world.*call)(body);
     return added ? Result<void>() : Result<void>(added.error());
   }
   template <class Self, class Archive>
@@ -38,20 +40,8 @@ struct Add {
     archive(definition);
   }
 };
-
-struct AddFixed {
-  FixedDefinition body{};
-
-  Result<void> repeat(World& world) const {
-    const auto added = world.add_fixed(body);
-    return added ? Result<void>() : Result<void>(added.error());
-  }
-  template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
-    auto& [definition] = self;
-    archive(definition);
-  }
-};
+using Add = New<BodyDefinition, &World::add>;
+using AddFixed = New<FixedDefinition, &World::add_fixed>;
 
 /// A change of one body that takes no argument, by its call.
 template <Result<void> (World::*call)(BodyId)>

@@ -9,8 +9,7 @@ void EventHash::add(const Event& event) {
   mix(static_cast<std::uint64_t>(event.kind) | static_cast<std::uint64_t>(event.wall) << 8);
   mix(event.first.index | std::uint64_t{event.first.generation} << 32);
   mix(event.second.index | std::uint64_t{event.second.generation} << 32);
-  if (event.kind == EventKind::sensor_enter || event.kind == EventKind::sensor_leave)
-    mix(std::bit_cast<std::uint64_t>(event.distance));
+  if (is_of_sensor(event.kind)) mix(std::bit_cast<std::uint64_t>(event.distance));
 }
 
 void EventHash::mix(std::uint64_t word) {

@@ -135,8 +135,7 @@ bool World::Engine::may_hold(const Event& event) const {
   if (event.second == no_body) return true;
   const std::uint32_t a = event.first.index;
   const std::uint32_t b = event.second.index;
-  const bool sensed = event.kind == EventKind::sensor_enter || event.kind == EventKind::sensor_leave;
-  if (!sensed) return may_touch(a, b);
+  if (!is_of_sensor(event.kind)) return may_touch(a, b);
   return may_meet(a, b) && sensors_.senses(bodies_[a].definition, bodies_[b].definition, event.distance);
 }
 

@@ -13,8 +13,6 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double margin = rounding::margin;
 
-double size_of(const Box& box) { return norm_one(box.lower) + norm_one(box.upper); }
-
 GapLimits around(double gap, double wrong) { return {gap - wrong, gap + wrong}; }
 
 /// The gap between both, seen along a direction.
@@ -28,8 +26,7 @@ double gap_along(const A& a, const B& b, const Vec3& direction) {
 bool certainly_crosses(const Triangle& triangle, const Vec3& from, const Vec3& to) {
   const TriangleFrame frame(triangle);
   const double thick = thickness(triangle);
-  const double size =
-      norm_one(triangle.a) + norm_one(triangle.b) + norm_one(triangle.c) + norm_one(from) + norm_one(to);
+  const double size = size_of(triangle) + norm_one(from) + norm_one(to);
   const double wrong = 16.0 * margin * size / (thick * thick);
   const double wrong_part = wrong / std::sqrt(norm_squared(frame.across) / longest_side_squared(triangle));
   const auto well_inside = [&](const Vec3& place) {

@@ -72,9 +72,11 @@ Result<void> World::check_moved(BodyId id, const State& state, std::string_view 
   return check_room(moved, id, call);
 }
 
-/// Whether there is room for a body to grow where it is, where overlaps are not allowed.
+/// Whether there is room for a body to grow where it is: where space repeats, and where overlaps are not
+/// allowed.
 Result<void> World::check_growth(const BodyDefinition& changed, BodyId id, std::string_view argument,
                                  std::string_view call) const {
+  if (auto reach = check_reach(changed, id, argument, call); !reach) return reach;
   const Body& body = engine_->table()[id.index];
   const Bound bound = engine_->bound_with(id, changed);
   if (definition().allow_overlap || !body.enabled || bound.radius <= body.bound.radius) return {};
@@ -191,7 +193,6 @@ Result<void> World::set_radius(BodyId body, double radius) {
   BodyDefinition changed = engine_->table()[body.index].definition;
   changed.radius = radius;
   valid = check_radius(changed, body, definition(), "set_radius");
-  if (valid) valid = check_reach(changed, body, "radius", "set_radius");
   if (valid) valid = check_growth(changed, body, "radius", "set_radius");
   if (valid) changing(step::SetRadius{body, radius}).set_radius(body, radius);
   return valid;
@@ -202,7 +203,6 @@ Result<void> World::set_promise(BodyId body, const MotionPromise& promise) {
   if (!valid) return valid;
   const BodyDefinition changed = with_promise(engine_->table()[body.index].definition, promise);
   valid = check_promise(changed, body, definition(), "set_promise");
-  if (valid) valid = check_reach(changed, body, "position_error", "set_promise");
   if (valid) valid = check_growth(changed, body, "position_error", "set_promise");
   if (valid) changing(step::SetPromise{body, promise}).set_promise(body, promise);
   return valid;
