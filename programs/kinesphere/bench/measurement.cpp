@@ -14,12 +14,6 @@
 namespace kinesphere::program {
 namespace {
 
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 Run run_once(const NamedDetector& detector, const Scene& scene) {
   Run run;
   const double begin = cpu_seconds();
@@ -56,6 +50,12 @@ double median_of(const std::vector<Run>& runs, Value value) {
 }
 
 }  // namespace
+
+double cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 double Series::per_simulated_second() const {
   return median_of(runs, [](const Run& run) { return run.per_simulated_second(); });

@@ -9,6 +9,9 @@
 
 namespace kinesphere::program {
 
+/// CPU time of this process so far.
+double cpu_seconds();
+
 /// One simulation, in CPU time of this process.
 struct Run {
   SimulationResult result;

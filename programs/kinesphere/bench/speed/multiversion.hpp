@@ -1,0 +1,22 @@
+// Loops compiled for several instruction sets, of which the best that the processor has is taken at run time.
+//
+//   KINESPHERE_INLINE void add_generic(float* a, const float* b, int n) { ... }
+//   KINESPHERE_VERSIONS(add, (float* a, const float* b, int n), (a, b, n))
+//   ... add(a, b, n);
+//
+// For the benchmark alone: the library is the same on every processor.
+#pragma once
+
+#define KINESPHERE_INLINE [[gnu::always_inline]] inline
+
+#if defined(__x86_64__) && defined(__GNUC__)
+#define KINESPHERE_VERSIONS(name, parameters, arguments)                      \
+  [[gnu::noinline]] void name##_sse2 parameters { name##_generic arguments; } \
+  [[gnu::noinline, gnu::target("avx2")]] void name##_avx2 parameters {        \
+    name##_generic arguments;                                                 \
+  }                                                                           \
+  const auto name = __builtin_cpu_supports("avx2") ? name##_avx2 : name##_sse2;
+#else
+#define KINESPHERE_VERSIONS(name, parameters, arguments) \
+  void name parameters { name##_generic arguments; }
+#endif

@@ -1,0 +1,42 @@
+// What hand-tuned fixed-step detectors are given, and what they answer.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace kinesphere::program {
+
+/// Centres of all spheres at one step, by body, in single precision as such programs keep them.
+struct Frame {
+  const float* x;
+  const float* y;
+  const float* z;
+};
+
+struct SpherePair {
+  std::uint32_t first;
+  std::uint32_t second;
+};
+
+enum class SphereTest {
+  at_steps,  ///< spheres touch when they overlap at a step: what happens in between is not seen
+  swept,     ///< spheres touch when they overlap anywhere on their straight ways from one step to the next
+};
+
+/// A detector for fixed steps, and nothing else: others move the spheres and answer contacts.
+class StepKernel {
+ public:
+  virtual ~StepKernel() = default;
+
+  virtual std::string name() const = 0;
+  /// Appends the pairs that touch in the step from `before` to `now`, each once, in any order. `before` is
+  /// the `now` of the last call, and equal to `now` in the first.
+  virtual void look(const Frame& before, const Frame& now, std::vector<SpherePair>& touching) = 0;
+  /// What it takes (bytes).
+  virtual std::size_t bytes() const = 0;
+};
+
+}  // namespace kinesphere::program
