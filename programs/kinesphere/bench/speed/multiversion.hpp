@@ -10,12 +10,16 @@
 #define KINESPHERE_INLINE [[gnu::always_inline]] inline
 
 #if defined(__x86_64__) && defined(__GNUC__)
-#define KINESPHERE_VERSIONS(name, parameters, arguments)                      \
-  [[gnu::noinline]] void name##_sse2 parameters { name##_generic arguments; } \
-  [[gnu::noinline, gnu::target("avx2")]] void name##_avx2 parameters {        \
-    name##_generic arguments;                                                 \
-  }                                                                           \
-  const auto name = __builtin_cpu_supports("avx2") ? name##_avx2 : name##_sse2;
+#define KINESPHERE_VERSION(name, generic, parameters, arguments, set) \
+  [[gnu::noinline, gnu::target(set)]] void name parameters { generic arguments; }
+#define KINESPHERE_VERSIONS(name, parameters, arguments)                                                     \
+  [[gnu::noinline]] void name##_sse2 parameters { name##_generic arguments; }                                \
+  KINESPHERE_VERSION(name##_avx2, name##_generic, parameters, arguments, "avx2")                             \
+  KINESPHERE_VERSION(name##_avx512, name##_generic, parameters, arguments,                                   \
+                     "avx512f,avx512vl,avx512dq,avx512bw")                                                   \
+  const auto name = __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") ? name##_avx512 \
+                    : __builtin_cpu_supports("avx2")                                         ? name##_avx2   \
+                                                                                             : name##_sse2;
 #else
 #define KINESPHERE_VERSIONS(name, parameters, arguments) \
   void name parameters { name##_generic arguments; }

@@ -126,9 +126,7 @@ class StepRecorder {
   }
 
   Vec3 position_between(std::size_t step, std::uint32_t at, double fraction) const {
-    const auto place = [&](const Frame& frame) {
-      return Vec3{frame.x[at], frame.y[at], frame.z[at]};
-    };
+    const auto place = [&](const Frame& frame) { return Vec3{frame.x[at], frame.y[at], frame.z[at]}; };
     return place(recording_.frame(step - 1)) * (1.0 - fraction) + place(recording_.frame(step)) * fraction;
   }
 

@@ -24,9 +24,7 @@ struct StepRecording {
   Frame frame(std::size_t step_number) const {
     return {x[step_number].data(), y[step_number].data(), z[step_number].data()};
   }
-  double body_time() const {
-    return step * static_cast<double>(steps()) * static_cast<double>(radii.size());
-  }
+  double body_time() const { return step * static_cast<double>(steps()) * static_cast<double>(radii.size()); }
 };
 
 /// Called for each pair, or body and wall (then `second` is the body again), that touches in a step, with

@@ -29,41 +29,39 @@ struct Strips {
   bool forward;
 };
 
+/// Those of the spheres from j on that have a bit are near sphere i.
+[[gnu::noinline]] void note_near(const Strips& strips, std::uint32_t i, std::uint32_t j, std::uint32_t end,
+                                 std::uint32_t hits, std::vector<SpherePair>& near) {
+  for (; hits != 0 && j < end; hits >>= 1, ++j) {
+    if ((hits & 1u) == 0) continue;
+    const bool smaller =
+        strips.radius[j] < strips.radius[i] || (strips.radius[j] == strips.radius[i] && j > i);
+    if (strips.forward || smaller) near.push_back({strips.body[i], strips.body[j]});
+  }
+}
+
 KINESPHERE_INLINE int cell_along(const StripLayout& layout, std::size_t axis, float at) {
   const float cell = (at - layout.lower[axis]) * layout.per_edge[axis];
   const float last = static_cast<float>(layout.cells[axis] - 1);
   return static_cast<int>(cell < 0.0f ? 0.0f : cell > last ? last : cell);
 }
 
-/// One of `lanes` spheres from j on may be near sphere i.
-[[gnu::noinline]] void note_near(const Strips& strips, std::uint32_t i, std::uint32_t j, std::uint32_t end,
-                                 std::vector<SpherePair>& near) {
-  for (; j < end; ++j) {
-    const float x = strips.x[j] - strips.x[i];
-    const float y = strips.y[j] - strips.y[i];
-    const float z = strips.z[j] - strips.z[i];
-    const float reach = strips.radius[j] + strips.radius[i];
-    if (!(x * x + y * y + z * z < reach * reach)) continue;
-    const bool equal = strips.radius[j] == strips.radius[i];
-    if (!strips.forward && (strips.radius[j] > strips.radius[i] || (equal && j <= i))) continue;
-    near.push_back({strips.body[i], strips.body[j]});
-  }
-}
-
+/// Notes the spheres of [begin, end) that are near sphere i and belong to it.
 KINESPHERE_INLINE void find_in_range(const Strips& strips, std::uint32_t i, std::uint32_t begin,
                                      std::uint32_t end, std::vector<SpherePair>& near) {
   const float at_x = strips.x[i], at_y = strips.y[i], at_z = strips.z[i], radius = strips.radius[i];
   for (std::uint32_t j = begin; j < end; j += lanes) {
-    int any = 0;
+    std::uint32_t hits = 0;  // bit by bit
     for (std::uint32_t lane = 0; lane < lanes; ++lane) {
       const float x = strips.x[j + lane] - at_x;
       const float y = strips.y[j + lane] - at_y;
       const float z = strips.z[j + lane] - at_z;
       const float reach = strips.radius[j + lane] + radius;
-      any |= x * x + y * y + z * z < reach * reach ? 1 : 0;
+      hits |= x * x + y * y + z * z < reach * reach ? 1u << lane : 0u;
     }
-    if (any != 0) [[unlikely]]
-      note_near(strips, i, j, std::min(j + lanes, end), near);
+    if (i - j < lanes) hits &= ~(1u << (i - j));
+    if (hits != 0) [[unlikely]]
+      note_near(strips, i, j, end, hits, near);
   }
 }
 
@@ -79,7 +77,8 @@ KINESPHERE_INLINE void find_near_of(const Strips& strips, std::uint32_t i, int r
   const int last_z = cell_along(strips.layout, 2, strips.z[i] + reach);
   for (int z = first_z; z <= last_z; ++z) {
     for (int y = strips.forward && z == row_z ? row_y : first_y; y <= last_y; ++y) {
-      const std::uint32_t* const row = strips.starts + (z * strips.layout.cells[1] + y) * strips.layout.cells[0];
+      const std::uint32_t* const row =
+          strips.starts + (z * strips.layout.cells[1] + y) * strips.layout.cells[0];
       const bool own = strips.forward && z == row_z && y == row_y;
       find_in_range(strips, i, own ? i + 1 : row[first_x], row[last_x + 1], near);
     }
@@ -89,8 +88,10 @@ KINESPHERE_INLINE void find_near_of(const Strips& strips, std::uint32_t i, int r
 KINESPHERE_INLINE void find_all_generic(const Strips& strips, std::vector<SpherePair>& near) {
   for (int z = 0; z < strips.layout.cells[2]; ++z) {
     for (int y = 0; y < strips.layout.cells[1]; ++y) {
-      const std::uint32_t* const row = strips.starts + (z * strips.layout.cells[1] + y) * strips.layout.cells[0];
-      for (std::uint32_t i = row[0]; i < row[strips.layout.cells[0]]; ++i) find_near_of(strips, i, y, z, near);
+      const std::uint32_t* const row =
+          strips.starts + (z * strips.layout.cells[1] + y) * strips.layout.cells[0];
+      for (std::uint32_t i = row[0]; i < row[strips.layout.cells[0]]; ++i)
+        find_near_of(strips, i, y, z, near);
     }
   }
 }
@@ -122,8 +123,8 @@ KINESPHERE_INLINE void range_of_generic(const float* values, std::size_t size, R
 KINESPHERE_VERSIONS(range_of, (const float* values, std::size_t size, Range& range), (values, size, range))
 
 /// The cell that each sphere lies in. Only at the upper end can one lie outside.
-KINESPHERE_INLINE void number_cells_generic(const Frame& centres, const StripLayout& layout,
-                                            std::size_t size, std::uint32_t* cell_of) {
+KINESPHERE_INLINE void number_cells_generic(const Frame& centres, const StripLayout& layout, std::size_t size,
+                                            std::uint32_t* cell_of) {
   const int last_x = layout.cells[0] - 1, last_y = layout.cells[1] - 1, last_z = layout.cells[2] - 1;
   for (std::size_t at = 0; at < size; ++at) {
     const int x = static_cast<int>((centres.x[at] - layout.lower[0]) * layout.per_edge[0]);

@@ -1,4 +1,5 @@
-// Which spheres are near each other? Sorted into strips: rows of cells along x, each row contiguous in memory.
+// Which spheres are near each other? Sorted into strips: rows of cells along x, each row contiguous in
+// memory.
 #pragma once
 
 #include <array>
@@ -33,8 +34,8 @@ class StripGrid {
  public:
   explicit StripGrid(const StripSettings& settings) : settings_(settings) {}
 
-  /// Replaces `near` by the pairs whose centres are nearer than the sum of their `radii`. Cost: a counting sort,
-  /// then for each sphere the strips it may reach, eight spheres at a time.
+  /// Replaces `near` by the pairs whose centres are nearer than the sum of their `radii`. Cost: a counting
+  /// sort, then for each sphere the strips it may reach, eight spheres at a time.
   void find(const Frame& centres, const std::vector<float>& radii, std::vector<SpherePair>& near);
   std::size_t bytes() const;
 

@@ -1,4 +1,5 @@
-// The last test of a pair, in single precision. All fixed-step detectors share it, so all find the same pairs.
+// The last test of a pair, in single precision. All fixed-step detectors share it, so all find the same
+// pairs.
 #pragma once
 
 #include <algorithm>

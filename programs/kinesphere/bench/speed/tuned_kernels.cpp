@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "bench/speed/touch.hpp"
-#include "bench/speed/verlet_list.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -74,10 +73,11 @@ class GridKernel final : public StepKernel {
 
 class VerletKernel final : public StepKernel {
  public:
-  VerletKernel(std::vector<float> radii, const StripSettings& settings, float skin, SphereTest test)
-      : name_(fmt::format("Verlet, skin {:.3g}, grid {}", skin, text_of(settings))),
+  VerletKernel(std::vector<float> radii, const VerletSettings& settings, SphereTest test)
+      : name_(fmt::format("Verlet, skin {:.3g} + {} steps, grid {}", settings.skin, settings.steps,
+                          text_of(settings.grid))),
         radii_(std::move(radii)),
-        list_(settings, skin),
+        list_(settings),
         test_(test) {}
 
   std::string name() const override { return name_; }
@@ -85,9 +85,8 @@ class VerletKernel final : public StepKernel {
   void look(const Frame& before, const Frame& now, std::vector<SpherePair>& touching) override {
     list_.follow(before, now, radii_);
     if (test_ == SphereTest::at_steps) {
-      sift(list_.pairs(), touching, [&](std::uint32_t a, std::uint32_t b) {
-        return touch_at(now, radii_[a] + radii_[b], a, b);
-      });
+      sift(list_.pairs(), touching,
+           [&](std::uint32_t a, std::uint32_t b) { return touch_at(now, radii_[a] + radii_[b], a, b); });
     } else {
       sift(list_.pairs(), touching, [&](std::uint32_t a, std::uint32_t b) {
         return touch_between(before, now, radii_[a] + radii_[b], a, b);
@@ -111,9 +110,9 @@ std::unique_ptr<StepKernel> make_grid_kernel(std::vector<float> radii, const Str
   return std::make_unique<GridKernel>(std::move(radii), settings, test);
 }
 
-std::unique_ptr<StepKernel> make_verlet_kernel(std::vector<float> radii, const StripSettings& settings,
-                                               float skin, SphereTest test) {
-  return std::make_unique<VerletKernel>(std::move(radii), settings, skin, test);
+std::unique_ptr<StepKernel> make_verlet_kernel(std::vector<float> radii, const VerletSettings& settings,
+                                               SphereTest test) {
+  return std::make_unique<VerletKernel>(std::move(radii), settings, test);
 }
 
 }  // namespace kinesphere::program

@@ -3,14 +3,15 @@
 
 #include "bench/speed/step_kernel.hpp"
 #include "bench/speed/strip_grid.hpp"
+#include "bench/speed/verlet_list.hpp"
 
 namespace kinesphere::program {
 
 /// Sorts all spheres anew at each step.
 std::unique_ptr<StepKernel> make_grid_kernel(std::vector<float> radii, const StripSettings& settings,
                                              SphereTest test);
-/// Keeps a list of the pairs that are nearer than `skin` > 0 (length).
-std::unique_ptr<StepKernel> make_verlet_kernel(std::vector<float> radii, const StripSettings& settings,
-                                               float skin, SphereTest test);
+/// Keeps a list of the pairs that are near.
+std::unique_ptr<StepKernel> make_verlet_kernel(std::vector<float> radii, const VerletSettings& settings,
+                                               SphereTest test);
 
 }  // namespace kinesphere::program

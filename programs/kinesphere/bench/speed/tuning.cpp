@@ -12,8 +12,9 @@ namespace {
 
 /// Edges of strips and skins that are tried, as parts of the mean distance of spheres.
 constexpr double row_edges[] = {0.8, 1.25, 2.0, 3.2};
-constexpr double skins[] = {0.0125, 0.025, 0.05, 0.1, 0.2, 0.4};
-constexpr double column_part = 0.4;  ///< of the edge of a row
+constexpr double skins[] = {0.003, 0.01, 0.03, 0.1, 0.2, 0.4};
+constexpr float steps_ahead[] = {0.0f, 5.0f, 10.0f, 20.0f, 40.0f};  ///< VerletSettings::steps
+constexpr double column_part = 0.2;                                 ///< of the edge of a row
 
 /// Steps of a trial: enough for a few rebuilds of a list.
 constexpr std::size_t least_trial = 40;
@@ -60,10 +61,9 @@ double mean_distance(const std::vector<State>& states) {
   double volume = 1.0;
   int axes = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto [least, largest] =
-        std::minmax_element(states.begin(), states.end(), [axis](const State& a, const State& b) {
-          return a.position[axis] < b.position[axis];
-        });
+    const auto [least, largest] = std::minmax_element(
+        states.begin(), states.end(),
+        [axis](const State& a, const State& b) { return a.position[axis] < b.position[axis]; });
     const double extent = largest->position[axis] - least->position[axis];
     if (!(extent > 0.0)) continue;
     volume *= extent;
@@ -87,9 +87,8 @@ StepTiming time_steps(const StepRecording& recording, StepKernel& kernel, std::s
     pair_ends.push_back(touching.size());
     wall_ends.push_back(at_walls.size());
   }
-  StepTiming timing{.seconds = cpu_seconds() - begin,
-                    .found = touching.size() + at_walls.size(),
-                    .bytes = kernel.bytes()};
+  StepTiming timing{
+      .seconds = cpu_seconds() - begin, .found = touching.size() + at_walls.size(), .bytes = kernel.bytes()};
   std::size_t pair = 0, wall = 0;
   for (std::size_t step = 0; step < steps; ++step) {
     for (; pair < pair_ends[step]; ++pair)
@@ -109,12 +108,15 @@ KernelMaker tuned_kernel(const StepRecording& recording) {
   for (const double edge : row_edges) {
     for (const StripOrder order : {StripOrder::smaller, StripOrder::forward}) {
       const StripSettings settings = strips(edge * distance, order);
-      if (candidates.try_out([=, &radii] { return make_grid_kernel(radii, settings, test); })) best = settings;
+      if (candidates.try_out([=, &radii] { return make_grid_kernel(radii, settings, test); }))
+        best = settings;
     }
   }
   for (const double part : skins) {
-    const auto skin = static_cast<float>(part * distance);
-    candidates.try_out([=, &radii] { return make_verlet_kernel(radii, best, skin, test); });
+    for (const float ahead : steps_ahead) {
+      const VerletSettings settings{best, static_cast<float>(part * distance), ahead};
+      candidates.try_out([=, &radii] { return make_verlet_kernel(radii, settings, test); });
+    }
   }
   return candidates.best;
 }

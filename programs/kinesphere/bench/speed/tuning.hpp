@@ -20,9 +20,9 @@ using KernelMaker = std::function<std::unique_ptr<StepKernel>()>;
 
 /// What a kernel took for recorded steps.
 struct StepTiming {
-  double seconds = 0.0;      ///< CPU time
-  std::uint64_t found = 0;   ///< pairs, and bodies at walls, summed over steps
-  std::uint64_t hash = 0;    ///< of these and their steps, in any order
+  double seconds = 0.0;     ///< CPU time
+  std::uint64_t found = 0;  ///< pairs, and bodies at walls, summed over steps
+  std::uint64_t hash = 0;   ///< of these and their steps, in any order
   std::size_t bytes = 0;
 };
 

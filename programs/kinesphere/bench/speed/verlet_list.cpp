@@ -10,60 +10,64 @@ namespace {
 
 constexpr std::size_t lanes = 16;
 
-/// The largest squared distance between two frames.
-KINESPHERE_INLINE void largest_move_generic(const Frame& a, const Frame& b, std::size_t size, float& largest) {
-  float most[lanes] = {};
-  std::size_t at = 0;
-  for (; at + lanes <= size; at += lanes) {
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const float x = a.x[at + lane] - b.x[at + lane];
-      const float y = a.y[at + lane] - b.y[at + lane];
-      const float z = a.z[at + lane] - b.z[at + lane];
-      const float moved = x * x + y * y + z * z;
-      most[lane] = moved > most[lane] ? moved : most[lane];
-    }
-  }
-  for (; at < size; ++at) {
-    const float x = a.x[at] - b.x[at];
-    const float y = a.y[at] - b.y[at];
-    const float z = a.z[at] - b.z[at];
-    most[0] = std::max(most[0], x * x + y * y + z * z);
-  }
-  largest = *std::max_element(most, most + lanes);
+struct Skins {
+  Frame centres;
+  const float* radii_squared;
+  std::size_t size;
+};
+
+KINESPHERE_INLINE int has_left(const Skins& skins, const Frame& now, std::size_t at) {
+  const float x = now.x[at] - skins.centres.x[at];
+  const float y = now.y[at] - skins.centres.y[at];
+  const float z = now.z[at] - skins.centres.z[at];
+  return x * x + y * y + z * z < skins.radii_squared[at] ? 0 : 1;
 }
-KINESPHERE_VERSIONS(largest_move, (const Frame& a, const Frame& b, std::size_t size, float& largest),
-                    (a, b, size, largest))
+
+KINESPHERE_INLINE void find_leaving_generic(const Skins& skins, const Frame& now, bool& any_has) {
+  std::size_t at = 0;
+  int any = 0;
+  for (; any == 0 && at + lanes <= skins.size; at += lanes)
+    for (std::size_t lane = 0; lane < lanes; ++lane) any |= has_left(skins, now, at + lane);
+  for (; at < skins.size; ++at) any |= has_left(skins, now, at);
+  any_has = any != 0;
+}
+KINESPHERE_VERSIONS(find_leaving, (const Skins& skins, const Frame& now, bool& any_has),
+                    (skins, now, any_has))
 
 }  // namespace
 
 void VerletList::follow(const Frame& before, const Frame& now, const std::vector<float>& radii) {
-  if (reach_ < 0.0f || !serves(now)) rebuild(before, now, radii);
+  if (x_.empty() || !serves(now)) rebuild(before, now, radii);
 }
 
 bool VerletList::serves(const Frame& now) const {
-  float moved = 0.0f;
-  largest_move({x_.data(), y_.data(), z_.data()}, now, x_.size(), moved);
-  return moved < reach_ * reach_;
+  bool any_has_left = false;
+  find_leaving({{x_.data(), y_.data(), z_.data()}, skins_squared_.data(), x_.size()}, now, any_has_left);
+  return !any_has_left;
 }
 
-/// The list is made for `now`. It must also serve the way that has led there, which a sphere that is very
-/// fast widens.
+/// The list is made for `now`. It must also serve the way that has led there.
 void VerletList::rebuild(const Frame& before, const Frame& now, const std::vector<float>& radii) {
   const std::size_t size = radii.size();
-  float moved = 0.0f;
-  largest_move(before, now, size, moved);
-  reach_ = std::max(0.5f * skin_, 1.001f * std::sqrt(moved));
   x_.assign(now.x, now.x + size);
   y_.assign(now.y, now.y + size);
   z_.assign(now.z, now.z + size);
+  skins_squared_.resize(size);
   wide_radii_.resize(size);
-  std::transform(radii.begin(), radii.end(), wide_radii_.begin(),
-                 [this](float radius) { return 1.0001f * (radius + reach_); });
+  const float steps = std::max(1.001f, settings_.steps);
+  for (std::size_t at = 0; at < size; ++at) {
+    const float x = now.x[at] - before.x[at];
+    const float y = now.y[at] - before.y[at];
+    const float z = now.z[at] - before.z[at];
+    const float skin = settings_.skin + steps * std::sqrt(x * x + y * y + z * z);
+    skins_squared_[at] = skin * skin;
+    wide_radii_[at] = 1.0001f * (radii[at] + skin);
+  }
   grid_.find(now, wide_radii_, pairs_);
 }
 
 std::size_t VerletList::bytes() const {
-  return grid_.bytes() + sizeof(float) * (4 * x_.capacity()) + sizeof(SpherePair) * pairs_.capacity();
+  return grid_.bytes() + sizeof(float) * (5 * x_.capacity()) + sizeof(SpherePair) * pairs_.capacity();
 }
 
 }  // namespace kinesphere::program

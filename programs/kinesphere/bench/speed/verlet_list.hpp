@@ -1,5 +1,5 @@
-// Verlet lists: pairs that are nearer than a skin are listed, and the list serves until a sphere has moved
-// half the skin.
+// Verlet lists: pairs that are nearer than the skins of both are listed, and the list serves until a sphere
+// has left its skin.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,16 @@
 
 namespace kinesphere::program {
 
+struct VerletSettings {
+  StripSettings grid;
+  /// How far each sphere may move from its place in the list: so far, and so many steps as long as the last.
+  float skin;
+  float steps;
+};
+
 class VerletList {
  public:
-  /// `skin` > 0 (length).
-  VerletList(const StripSettings& settings, float skin) : grid_(settings), skin_(skin) {}
+  explicit VerletList(const VerletSettings& settings) : grid_(settings.grid), settings_(settings) {}
 
   /// Makes the list hold all pairs that touch anywhere on the way from `before` to `now`.
   void follow(const Frame& before, const Frame& now, const std::vector<float>& radii);
@@ -25,9 +31,9 @@ class VerletList {
   void rebuild(const Frame& before, const Frame& now, const std::vector<float>& radii);
 
   StripGrid grid_;
-  float skin_;
-  float reach_ = -1.0f;  ///< how far a sphere may be from its place in the list
-  std::vector<float> x_, y_, z_;  ///< places that the list was made for
+  VerletSettings settings_;
+  std::vector<float> x_, y_, z_;      ///< places that the list was made for
+  std::vector<float> skins_squared_;  ///< around them
   std::vector<float> wide_radii_;
   std::vector<SpherePair> pairs_;
 };

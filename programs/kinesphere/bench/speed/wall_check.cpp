@@ -39,8 +39,7 @@ KINESPHERE_INLINE void find_outside_generic(const Spheres& spheres, const FloatW
     for (std::size_t lane = 0; lane < lanes; ++lane) any |= reaches_out(spheres, walls, at + lane);
     if (any == 0) continue;
     for (std::size_t lane = 0; lane < lanes; ++lane)
-      if (reaches_out(spheres, walls, at + lane) != 0)
-        found.push_back(static_cast<std::uint32_t>(at + lane));
+      if (reaches_out(spheres, walls, at + lane) != 0) found.push_back(static_cast<std::uint32_t>(at + lane));
   }
   for (; at < spheres.size; ++at)
     if (reaches_out(spheres, walls, at) != 0) found.push_back(static_cast<std::uint32_t>(at));
