@@ -2,8 +2,6 @@
 // its bodies took, bounces included. No gap may ever have fallen below the tolerance.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <string>
 #include <tuple>
 
@@ -11,52 +9,12 @@
 #include "detector/gap_course.hpp"
 #include "kinesphere/detector_table.hpp"
 #include "scene/differential_scenes.hpp"
+#include "scene/flight.hpp"
 
 namespace kinesphere::testing {
 namespace {
 
 constexpr std::uint64_t scenes_per_family = 25;
-
-/// Notes the paths of all bodies while a scene runs, piece by piece from bounce to bounce.
-class FlightRecorder {
- public:
-  FlightRecorder(const Scene& scene, const DetectorMaker& make)
-      : paths_(scene.bodies.size()), since_(scene.bodies.size(), scene.world.start_time) {
-    SimulationObserver observer;
-    observer.on_event = [this](const Event& event) {
-      ++events_[static_cast<std::size_t>(event.kind)];
-      note(event.first.index, event.time);
-      if (event.second != no_body) note(event.second.index, event.time);
-    };
-    const auto make_and_keep = [&](const WorldDefinition& world, const Motion& motion) {
-      motion_ = &motion;
-      return make(world, motion);
-    };
-    observer.on_frame = [&](const Detector&, const Motion&, double time) {
-      if (time != scene.end_time) return;
-      for (std::uint32_t body = 0; body < paths_.size(); ++body) note(body, time);
-    };
-    EXPECT_TRUE(simulate(scene, make_and_keep, observer));
-  }
-
-  const Trajectory& path(std::uint32_t body) const { return paths_[body]; }
-  std::uint64_t count(EventKind kind) const { return events_[static_cast<std::size_t>(kind)]; }
-
- private:
-  void note(std::uint32_t body, double until) {
-    if (until <= since_[body]) return;
-    for (Segment piece : motion_->trajectory(body, since_[body], until)) {
-      piece.end = std::min(piece.end, until);
-      paths_[body].push_back(piece);
-    }
-    since_[body] = until;
-  }
-
-  const Motion* motion_ = nullptr;
-  std::vector<Trajectory> paths_;
-  std::vector<double> since_;
-  std::array<std::uint64_t, event_kind_count> events_{};
-};
 
 /// The first time at which the gap is deeper than the tolerance, from when it is first not negative.
 std::optional<double> first_overlap(const GapCourse& gap, const Scene& scene) {
@@ -75,18 +33,18 @@ TEST_P(Bouncing, nobody_overlaps) {
   Scene scene = differential_scene(family, seed);
   scene.response = Response::bounce;
   scene.world.contacts = ContactMode::impacts;
-  const FlightRecorder flight(scene, detector_maker(detector).value());
-  ASSERT_EQ(flight.count(EventKind::zeno_guard), 0u);
+  const Flight flight = record_flight(scene, detector_maker(detector).value()).value();
+  ASSERT_EQ(flight.result.counters.count(EventKind::zeno_guard), 0u);
   for (std::uint32_t a = 0; a < scene.bodies.size(); ++a) {
     for (std::uint32_t b = 0; b < a; ++b) {
-      const GapCourse gap(flight.path(a), flight.path(b), scene.bodies[a].radius + scene.bodies[b].radius);
+      const GapCourse gap(flight.paths[a], flight.paths[b], scene.bodies[a].radius + scene.bodies[b].radius);
       const auto overlap = first_overlap(gap, scene);
       ASSERT_FALSE(overlap) << "bodies " << a << " and " << b << " at time " << *overlap;
     }
     if (!scene.world.box) continue;
     for (const Wall wall : walls) {
       const HalfSpace inside = half_space(*scene.world.box, wall);
-      const auto overlap = first_overlap({flight.path(a), inside, scene.bodies[a].radius}, scene);
+      const auto overlap = first_overlap({flight.paths[a], inside, scene.bodies[a].radius}, scene);
       ASSERT_FALSE(overlap) << "body " << a << " and wall " << name_of(wall) << " at time " << *overlap;
     }
   }
