@@ -96,7 +96,8 @@ class Player {
 
   void go_to(double until) {
     while (require(detector_.advance(until))) {
-      if (event_ == transcript_.kicks_after.size()) throw ProgramError("bench: a detector found more contacts when it ran again");
+      if (event_ == transcript_.kicks_after.size())
+        throw ProgramError("bench: a detector found more contacts when it ran again");
       for (std::uint32_t k = 0; k < transcript_.kicks_after[event_]; ++k, ++kick_)
         require(detector_.kick(transcript_.kicks[kick_].body, transcript_.kicks[kick_].velocity));
       ++event_;
