@@ -32,13 +32,13 @@ int main(int argc, char** argv) {
   ReplayOptions replay_options;
   VerifyOptions verify_options;
   TracksOptions tracks_options;
-  BenchOptions bench_options;
+  BenchCommands bench_commands;
   const CLI::App* const run_command = add_run_command(app, run_options);
   const CLI::App* const replay_command = add_replay_command(app, replay_options);
   const CLI::App* const tracks_command = add_tracks_command(app, tracks_options);
   const CLI::App* const verify_command = add_verify_command(app, verify_options);
   const CLI::App* const scenes_command = add_scenes_command(app);
-  const CLI::App* const bench_command = add_bench_command(app, bench_options);
+  const CLI::App* const bench_command = add_bench_command(app, bench_commands);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
   if (*tracks_command) return tracks(tracks_options);
   if (*verify_command) return verify(verify_options);
   if (*scenes_command) return list_scenes();
-  if (*bench_command) return bench_paper(bench_options);
+  if (*bench_command) return bench(*bench_command, bench_commands);
   throw ProgramError("expected a command: run, replay, tracks, verify, scenes or bench (see --help)");
 }
 

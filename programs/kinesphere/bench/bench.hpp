@@ -2,21 +2,19 @@
 #pragma once
 
 #include <CLI/App.hpp>
-#include <string>
-#include <vector>
+
+#include "bench/options.hpp"
 
 namespace kinesphere::program {
 
-struct BenchOptions {
-  std::string output = "bench-paper";
-  std::vector<std::string> only;  ///< names of sections; all when empty
-  bool full = false;
-  bool quick = false;
+struct BenchCommands {
+  BenchOptions paper{.output = "bench-paper", .only = {}};
+  BenchOptions speed{.output = "bench-speed", .only = {}};
 };
 
-/// `options` must live until the command line has been parsed.
-CLI::App* add_bench_command(CLI::App& program, BenchOptions& options);
-/// `kinesphere bench paper`. Returns the exit code. Throws ProgramError.
-int bench_paper(const BenchOptions& options);
+/// `commands` must live until the command line has been parsed.
+CLI::App* add_bench_command(CLI::App& program, BenchCommands& commands);
+/// Runs what the command line asked for. Returns the exit code. Throws ProgramError.
+int bench(const CLI::App& command, const BenchCommands& commands);
 
 }  // namespace kinesphere::program

@@ -80,11 +80,10 @@ void add_case(Tables& tables, const Case& what, const BenchSettings& settings) {
 
 }  // namespace
 
-void bench_cells(const Report& report) {
+void bench_cells(const Report& report, const BenchSettings& settings) {
   Tables tables;
-  for (const std::uint32_t bodies : report.settings().cell_bodies) {
-    for (const double speed : report.settings().cell_speeds)
-      add_case(tables, {bodies, speed}, report.settings());
+  for (const std::uint32_t bodies : settings.cell_bodies) {
+    for (const double speed : settings.cell_speeds) add_case(tables, {bodies, speed}, settings);
   }
   report.note(
       "The first experiment with edges of the finest grid around the model's choice; speed: factor of the "

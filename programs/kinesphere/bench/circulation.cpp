@@ -35,8 +35,8 @@ void watch(const Scene& scene, double interval, Show show) {
   require(simulate(scene, paper_engine().make, observer));
 }
 
-void draw_figure7(const Report& report, const Scene& scene) {
-  const double shown = report.settings().snapshot_time;
+void draw_figure7(const Report& report, const BenchSettings& settings, const Scene& scene) {
+  const double shown = settings.snapshot_time;
   watch(scene, shown, [&](const Detector& detector, const Motion& motion, double time) {
     if (time == 0.0) report.file("figure7a.svg", picture(scene, detector, motion, time, SphereStyle::bodies));
     if (time != shown) return;
@@ -45,21 +45,19 @@ void draw_figure7(const Report& report, const Scene& scene) {
   });
 }
 
-void draw_figure8(const Report& report, const Scene& scene) {
+void draw_figure8(const Report& report, const BenchSettings& settings, const Scene& scene) {
   int shown = 0;
-  watch(scene, report.settings().sequence_interval,
-        [&](const Detector& detector, const Motion& motion, double time) {
-          report.file(fmt::format("figure8_{}.svg", shown++),
-                      picture(scene, detector, motion, time, SphereStyle::bodies));
-        });
+  watch(scene, settings.sequence_interval, [&](const Detector& detector, const Motion& motion, double time) {
+    report.file(fmt::format("figure8_{}.svg", shown++),
+                picture(scene, detector, motion, time, SphereStyle::bodies));
+  });
   report.note(fmt::format(
       "Pictures: figure7a.svg, figure7b.svg, figure7c.svg, figure8_0.svg ... figure8_{}.svg", shown - 1));
 }
 
 }  // namespace
 
-void bench_circulation(const Report& report) {
-  const BenchSettings& settings = report.settings();
+void bench_circulation(const Report& report, const BenchSettings& settings) {
   const auto scenes =
       seeded_scenes(second_experiment(settings.circulation_bodies, settings.circulation_seconds), 1);
   const auto series = measure({paper_engine(), world_engine()}, scenes, settings.repetitions);
@@ -75,8 +73,8 @@ void bench_circulation(const Report& report) {
                static_cast<double>(one->result().counters.probes) / one->result().body_time, one->hash()});
   }
   report.table("circulation", table);
-  draw_figure7(report, scenes.front());
-  draw_figure8(report, scenes.front());
+  draw_figure7(report, settings, scenes.front());
+  draw_figure8(report, settings, scenes.front());
 }
 
 }  // namespace kinesphere::program

@@ -9,8 +9,7 @@
 
 namespace kinesphere::program {
 
-void bench_figure5(const Report& report) {
-  const BenchSettings& settings = report.settings();
+void bench_figure5(const Report& report, const BenchSettings& settings) {
   report.note(fmt::format("{} s of the first experiment each.", settings.figure_seconds));
   ResultTable table({"n", "seed", "contacts", "paper_ms", "world_ms", "paper_to_world", "published_ms",
                      "speedup", "paper_hash", "world_hash"});

@@ -9,8 +9,7 @@
 
 namespace kinesphere::program {
 
-void bench_figure6(const Report& report) {
-  const BenchSettings& settings = report.settings();
+void bench_figure6(const Report& report, const BenchSettings& settings) {
   report.note(
       fmt::format("{} s of the first experiment each, with the paper's algorithm.", settings.figure_seconds));
   ResultTable table({"n", "seed", "entering", "leaving", "resetting", "colliding", "each_below", "sum_below",

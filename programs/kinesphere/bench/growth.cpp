@@ -40,8 +40,7 @@ Cost cost_of(const Series& series, const std::vector<std::uint64_t Counters::*>&
 
 }  // namespace
 
-void bench_growth(const Report& report) {
-  const BenchSettings& settings = report.settings();
+void bench_growth(const Report& report, const BenchSettings& settings) {
   report.note(fmt::format("{} s of the first experiment, in boxes as dense as that of 1000 spheres.",
                           settings.growth_seconds));
   ResultTable table({"n", "seeds", "paper_events", "tests_per_event", "paper_ns", "paper_ns_per_log2_n",

@@ -21,10 +21,10 @@ double per_rebuild(const Run& run) {
 
 }  // namespace
 
-void bench_intervals(const Report& report) {
+void bench_intervals(const Report& report, const BenchSettings& settings) {
   ResultTable table({"n", "seconds", "interval", "crossings", "rebuilds_per_s", "crossings_per_rebuild",
                      "hubbard_s", "paper_s", "ratio", "published_ratio", "hash"});
-  for (const Trial& trial : report.settings().intervals) {
+  for (const Trial& trial : settings.intervals) {
     const auto published = published_times(trial.bodies);
     for (const HubbardOptions& options : intervals) {
       const SceneParameters parameters = first_experiment(trial.bodies, trial.seconds);

@@ -29,8 +29,7 @@ std::string wrapped(std::string_view text) {
 
 }  // namespace
 
-Report::Report(std::string folder, const BenchSettings& settings)
-    : folder_(std::move(folder)), settings_(settings), draws_(has_gnuplot()) {
+Report::Report(std::string folder) : folder_(std::move(folder)), draws_(has_gnuplot()) {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error || !std::filesystem::is_directory(folder_))
@@ -48,9 +47,13 @@ void Report::note(std::string_view text) const {
 }
 
 void Report::table(const std::string& name, const ResultTable& table) const {
-  table.save(fmt::format("{}/{}.csv", folder_, name));
+  save(name, table);
   fmt::print("{}\n", table.text());
   std::fflush(stdout);
+}
+
+void Report::save(const std::string& name, const ResultTable& table) const {
+  table.save(fmt::format("{}/{}.csv", folder_, name));
 }
 
 void Report::plot(const Plot& plot) const {

@@ -6,16 +6,14 @@
 
 #include "bench/plot.hpp"
 #include "bench/result_table.hpp"
-#include "bench/settings.hpp"
 
 namespace kinesphere::program {
 
 class Report {
  public:
   /// Makes the folder if need be. Throws ProgramError, as do all others here.
-  Report(std::string folder, const BenchSettings& settings);
+  explicit Report(std::string folder);
 
-  const BenchSettings& settings() const { return settings_; }
   bool draws() const { return draws_; }
 
   void heading(std::string_view title) const;
@@ -23,13 +21,14 @@ class Report {
   void note(std::string_view text) const;
   /// Printed, and saved as NAME.csv.
   void table(const std::string& name, const ResultTable& table) const;
+  /// Saved alone.
+  void save(const std::string& name, const ResultTable& table) const;
   /// Saved as a script; drawn where gnuplot is installed.
   void plot(const Plot& plot) const;
   void file(const std::string& name, std::string_view text) const;
 
  private:
   std::string folder_;
-  const BenchSettings& settings_;
   bool draws_;
 };
 

@@ -5,23 +5,24 @@
 #include <string_view>
 
 #include "bench/report.hpp"
+#include "bench/settings.hpp"
 
 namespace kinesphere::program {
 
-void bench_figure5(const Report& report);
-void bench_figure6(const Report& report);
-void bench_table1(const Report& report);
-void bench_intervals(const Report& report);
-void bench_circulation(const Report& report);
-void bench_growth(const Report& report);
-void bench_trimming(const Report& report);
-void bench_cells(const Report& report);
-void bench_solvers(const Report& report);
+void bench_figure5(const Report& report, const BenchSettings& settings);
+void bench_figure6(const Report& report, const BenchSettings& settings);
+void bench_table1(const Report& report, const BenchSettings& settings);
+void bench_intervals(const Report& report, const BenchSettings& settings);
+void bench_circulation(const Report& report, const BenchSettings& settings);
+void bench_growth(const Report& report, const BenchSettings& settings);
+void bench_trimming(const Report& report, const BenchSettings& settings);
+void bench_cells(const Report& report, const BenchSettings& settings);
+void bench_solvers(const Report& report, const BenchSettings& settings);
 
 struct Section {
   std::string_view name;  ///< for --only
   std::string_view title;
-  void (*run)(const Report& report);
+  void (*run)(const Report& report, const BenchSettings& settings);
 };
 
 /// All of them, in the order of the paper.

@@ -1,41 +1,13 @@
 // Table 1: the paper's algorithm against Hubbard's broad phase, with others beside them.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
-#include <tuple>
-
+#include "bench/contact_counts.hpp"
 #include "bench/measurement.hpp"
 #include "bench/published.hpp"
 #include "bench/sections.hpp"
-#include "program_error.hpp"
 
 namespace kinesphere::program {
 namespace {
-
-using ContactCounts = std::map<std::tuple<std::uint32_t, std::uint32_t, Wall>, std::uint64_t>;
-
-/// How often each pair, or body and wall, came into contact.
-ContactCounts count_contacts(const Scene& scene, const DetectorMaker& make) {
-  ContactCounts counts;
-  SimulationObserver observer;
-  observer.on_event = [&](const Event& event) {
-    if (event.kind != EventKind::contact_begin && event.kind != EventKind::wall_begin) return;
-    ++counts[{event.first.index, event.second.index, event.wall}];
-  };
-  require(simulate(scene, make, observer));
-  return counts;
-}
-
-/// How many of the contacts in `truth` are not in `seen`.
-std::uint64_t missed(const ContactCounts& truth, const ContactCounts& seen) {
-  std::uint64_t missed = 0;
-  for (const auto& [pair, count] : truth) {
-    const auto found = seen.find(pair);
-    missed += count - std::min(count, found == seen.end() ? 0 : found->second);
-  }
-  return missed;
-}
 
 struct Misses {
   std::uint64_t contacts = 0;
@@ -49,7 +21,7 @@ Misses count_misses(SceneParameters parameters, std::uint64_t seeds) {
   Misses misses;
   for (const Scene& scene : seeded_scenes(parameters, seeds)) {
     const ContactCounts truth = count_contacts(scene, make_oracle);
-    for (const auto& [pair, count] : truth) misses.contacts += count;
+    misses.contacts += total(truth);
     misses.with_game_steps += missed(truth, count_contacts(scene, fixed_step_engine(game_step).make));
     misses.with_long_steps += missed(truth, count_contacts(scene, fixed_step_engine(long_step).make));
   }
@@ -58,8 +30,7 @@ Misses count_misses(SceneParameters parameters, std::uint64_t seeds) {
 
 }  // namespace
 
-void bench_table1(const Report& report) {
-  const BenchSettings& settings = report.settings();
+void bench_table1(const Report& report, const BenchSettings& settings) {
   ResultTable ours({"n", "seconds", "seeds", "paper_s", "hubbard_s", "ratio", "published_paper_s",
                     "published_hubbard_s", "published_ratio", "contacts", "paper_hash", "hubbard_hash"});
   ResultTable others({"n", "seconds", "seeds", "paper_ms", "world_ms", "hayward_ms", "fixed_step_ms",

@@ -4,14 +4,14 @@
 
 namespace kinesphere::program {
 
-void bench_trimming(const Report& report) {
+void bench_trimming(const Report& report, const BenchSettings& settings) {
   ResultTable table({"n", "seconds", "trimming", "inserted", "removed", "largest_tree", "ms_per_second",
                      "time_ratio", "contacts", "hash"});
   bool same = true;
-  for (const Trial& trial : report.settings().trimming) {
+  for (const Trial& trial : settings.trimming) {
     const auto scenes = seeded_scenes(first_experiment(trial.bodies, trial.seconds), trial.seeds);
     const auto series =
-        measure({paper_engine(), paper_engine({.trimming = false})}, scenes, report.settings().repetitions);
+        measure({paper_engine(), paper_engine({.trimming = false})}, scenes, settings.repetitions);
     for (const bool trimming : {true, false}) {
       const Series& one = series[trimming ? 0 : 1];
       const Counters& c = one.result().counters;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "bench/measurement.hpp"
+#include "bench/speed/tree_kernels.hpp"
 #include "bench/speed/wall_check.hpp"
 
 namespace kinesphere::program {
@@ -14,7 +15,8 @@ namespace {
 constexpr double row_edges[] = {0.8, 1.25, 2.0, 3.2};
 constexpr double skins[] = {0.003, 0.01, 0.03, 0.1, 0.2, 0.4};
 constexpr float steps_ahead[] = {0.0f, 5.0f, 10.0f, 20.0f, 40.0f};  ///< VerletSettings::steps
-constexpr double column_part = 0.2;                                 ///< of the edge of a row
+constexpr double bullet_margins[] = {0.003, 0.01, 0.03, 0.1, 0.2};
+constexpr double column_part = 0.2;  ///< of the edge of a row
 
 /// Steps of a trial: enough for a few rebuilds of a list.
 constexpr std::size_t least_trial = 40;
@@ -38,6 +40,10 @@ struct Candidates {
   std::size_t steps;
   double least = std::numeric_limits<double>::infinity();
   KernelMaker best{};
+
+  explicit Candidates(const StepRecording& steps_to_try)
+      : recording(steps_to_try),
+        steps(std::min(recording.steps(), std::max(least_trial, recording.steps() / trial_part))) {}
 
   bool try_out(const KernelMaker& make) {
     const double seconds = time_steps(recording, *make(), steps).seconds;
@@ -99,8 +105,7 @@ StepTiming time_steps(const StepRecording& recording, StepKernel& kernel, std::s
 }
 
 KernelMaker tuned_kernel(const StepRecording& recording) {
-  Candidates candidates{recording,
-                        std::min(recording.steps(), std::max(least_trial, recording.steps() / trial_part))};
+  Candidates candidates(recording);
   const double distance = mean_distance_in(recording);
   const auto& radii = recording.radii;
   const SphereTest test = recording.test;
@@ -117,6 +122,17 @@ KernelMaker tuned_kernel(const StepRecording& recording) {
       const VerletSettings settings{best, static_cast<float>(part * distance), ahead};
       candidates.try_out([=, &radii] { return make_verlet_kernel(radii, settings, test); });
     }
+  }
+  return candidates.best;
+}
+
+KernelMaker tuned_bullet_kernel(const StepRecording& recording) {
+  const auto& radii = recording.radii;
+  if (!make_bullet_kernel({})) return {};
+  Candidates candidates(recording);
+  for (const double part : bullet_margins) {
+    const auto margin = static_cast<float>(part * mean_distance_in(recording));
+    candidates.try_out([=, &radii] { return make_bullet_kernel(radii, margin); });
   }
   return candidates.best;
 }

@@ -31,5 +31,7 @@ StepTiming time_steps(const StepRecording& recording, StepKernel& kernel, std::s
 
 /// The fastest of several grids and skins, each tried on the first steps of the recording.
 KernelMaker tuned_kernel(const StepRecording& recording);
+/// Bullet's trees with the fastest of several margins. Empty when there is no Bullet.
+KernelMaker tuned_bullet_kernel(const StepRecording& recording);
 
 }  // namespace kinesphere::program

@@ -1,0 +1,167 @@
+#include "bench/speed/contest.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "bench/contact_counts.hpp"
+#include "bench/detectors.hpp"
+#include "bench/measurement.hpp"
+#include "bench/speed/recall.hpp"
+#include "bench/speed/transcript.hpp"
+#include "bench/speed/tree_kernels.hpp"
+#include "bench/speed/tuning.hpp"
+#include "program_error.hpp"
+#include "scene/probe_floor.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+class Contest {
+ public:
+  Contest(const SpeedScene& entry, const SpeedSettings& settings)
+      : entry_(entry),
+        settings_(settings),
+        scene_(entry.make(entry.response)),
+        world_(event_driven(world_engine())) {
+    passing_ = entry.make(Response::pass_through);
+    truth_ = count_contacts(passing_, world_engine().make);
+    if (entry.floor) count_floor();
+  }
+
+  std::vector<SpeedRow> run() {
+    if (entry_.paper) run_event_driven(paper_engine());
+    if (entry_.hubbard) run_event_driven(hubbard_engine());
+    for (const double rate : entry_.rates)
+      for (const SphereTest test : {SphereTest::at_steps, SphereTest::swept}) run_steps(rate, test);
+    if (world_.costs.empty()) take_turns({});
+    settle(world_);
+    rows_.insert(rows_.begin(), world_.row);
+    return std::move(rows_);
+  }
+
+ private:
+  struct Contestant {
+    SpeedRow row;
+    std::function<double()> run;  ///< seconds for a body-second
+    std::vector<double> costs{};
+    std::vector<double> to_world{};
+  };
+
+  double duration() const { return scene_.end_time - scene_.world.start_time; }
+
+  Contestant event_driven(const NamedDetector& detector) const {
+    const auto transcript = std::make_shared<Transcript>(write_down(scene_, detector.make));
+    const double body_time = transcript->body_time();
+    SpeedRow row{.detector = detector.name,
+                 .moves = static_cast<double>(transcript->probes) / body_time,
+                 .contacts = static_cast<double>(transcript->contacts()) / body_time,
+                 .missed = 0.0,
+                 .building = play(*transcript, detector.make).building,
+                 .hash = transcript->result.contact_hash};
+    if (transcript->result.memory)
+      row.bytes =
+          static_cast<double>(transcript->result.memory->total()) / static_cast<double>(scene_.bodies.size());
+    const auto play_again = [transcript, make = detector.make, body_time] {
+      return play(*transcript, make).detecting / body_time;
+    };
+    return {std::move(row), play_again};
+  }
+
+  void count_floor() {
+    const Flight flight = require(record_flight(scene_, world_engine().make));
+    const auto floor = static_cast<double>(require(probe_floor(scene_, flight)).total());
+    if (floor > 0.0) floor_ = floor / flight.result.body_time;
+  }
+
+  /// Each in turn, and the default engine before them.
+  void take_turns(std::vector<Contestant> contestants) {
+    for (int repetition = 0; repetition < settings_.repetitions; ++repetition) {
+      world_.costs.push_back(world_.run());
+      for (Contestant& contestant : contestants) {
+        contestant.costs.push_back(contestant.run());
+        contestant.to_world.push_back(contestant.costs.back() / world_.costs.back());
+      }
+    }
+    for (Contestant& contestant : contestants) {
+      settle(contestant);
+      rows_.push_back(std::move(contestant.row));
+    }
+  }
+
+  void settle(Contestant& contestant) const {
+    contestant.row.detection = median(contestant.costs);
+    if (!contestant.to_world.empty()) contestant.row.to_world = median(contestant.to_world);
+    if (floor_ && !contestant.row.rate) contestant.row.to_floor = contestant.row.moves / *floor_;
+  }
+
+  void run_event_driven(const NamedDetector& detector) { take_turns({event_driven(detector)}); }
+
+  void run_steps(double rate, SphereTest test) {
+    const auto most = static_cast<double>(settings_.most_recorded / scene_.bodies.size());
+    const auto steps = static_cast<std::size_t>(std::max(1.0, std::min(std::round(rate * duration()), most)));
+    const StepRecording recording = record_steps(scene_, 1.0 / rate, steps, test);
+    const std::optional<double> missed_part = missed(rate, test);
+    std::vector<Contestant> contestants;
+    const auto enter = [&](const std::string& name, const KernelMaker& make) {
+      if (make) contestants.push_back(fixed_steps(name, recording, make, missed_part));
+    };
+    enter(test == SphereTest::swept ? "swept" : "tuned", tuned_kernel(recording));
+    if (entry_.trees && test == SphereTest::at_steps) {
+      const auto& radii = recording.radii;
+      if (make_bullet_kernel({})) enter("bullet", [&] { return make_bullet_kernel(radii); });
+      enter("bullet-best", tuned_bullet_kernel(recording));
+      if (make_fcl_kernel({})) enter("fcl", [&] { return make_fcl_kernel(radii); });
+    }
+    take_turns(std::move(contestants));
+  }
+
+  Contestant fixed_steps(const std::string& name, const StepRecording& recording, const KernelMaker& make,
+                         std::optional<double> missed_part) const {
+    const auto kernel = make();
+    const StepTiming timing = time_steps(recording, *kernel, recording.steps());
+    SpeedRow row{.detector = name,
+                 .settings = kernel->name(),
+                 .rate = 1.0 / recording.step,
+                 .moves = 1.0 / recording.step,
+                 .missed = missed_part,
+                 .bytes = static_cast<double>(timing.bytes) / static_cast<double>(recording.radii.size()),
+                 .hash = timing.hash};
+    if (entry_.response == Response::bounce)
+      row.contacts = static_cast<double>(recording.contacts) / recording.body_time();
+    const auto run = [&recording, make] {
+      return time_steps(recording, *make(), recording.steps()).seconds / recording.body_time();
+    };
+    return {std::move(row), run};
+  }
+
+  /// Part of the contacts that steps overlook; nothing when that would take too long to find out.
+  std::optional<double> missed(double rate, SphereTest test) const {
+    const double steps = std::floor(rate * duration());
+    if (steps * static_cast<double>(scene_.bodies.size()) > static_cast<double>(settings_.most_looked))
+      return std::nullopt;
+    const std::uint64_t contacts = total(truth_);
+    if (contacts == 0) return std::nullopt;
+    return static_cast<double>(
+               missed_by_steps(passing_, truth_, 1.0 / rate, static_cast<std::size_t>(steps), test)) /
+           static_cast<double>(contacts);
+  }
+
+  const SpeedScene& entry_;
+  const SpeedSettings& settings_;
+  Scene scene_;
+  Contestant world_;
+  Scene passing_;                ///< the same, where nobody bounces
+  ContactCounts truth_;          ///< its contacts
+  std::optional<double> floor_;  ///< probes in a body-second
+  std::vector<SpeedRow> rows_;
+};
+
+}  // namespace
+
+std::vector<SpeedRow> compare_speed(const SpeedScene& scene, const SpeedSettings& settings) {
+  return Contest(scene, settings).run();
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,42 @@
+// Scenes of several kinds of bodies in one box.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kinesphere/scene.hpp"
+
+namespace kinesphere::program {
+
+/// Drawn uniformly between least and largest.
+struct BodyKind {
+  std::uint32_t bodies;
+  double radius_min, radius_max;
+  double speed_min, speed_max;
+  double limit;  ///< acceleration
+};
+
+struct MixtureParameters {
+  Box box;
+  bool walls = true;
+  std::vector<BodyKind> kinds;
+  double redraw_interval = 0.2;  ///< of random forces
+  double seconds;
+  std::uint64_t seed = 1;
+};
+
+/// All are pushed around by random forces. Throws ProgramError when they do not fit into the box.
+Scene make_mixture(const MixtureParameters& parameters, Response response);
+
+/// People on a square: everyone walks towards a place of his own and now and then changes his mind. All
+/// stay in one plane.
+struct CrowdParameters {
+  std::uint32_t people;
+  double area_each;  ///< (length^2)
+  double seconds;
+  std::uint64_t seed = 1;
+};
+
+Scene make_crowd(const CrowdParameters& parameters, Response response);
+
+}  // namespace kinesphere::program

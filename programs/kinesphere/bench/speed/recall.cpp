@@ -1,0 +1,23 @@
+#include "bench/speed/recall.hpp"
+
+#include <tuple>
+
+#include "bench/speed/step_recording.hpp"
+
+namespace kinesphere::program {
+
+std::uint64_t missed_by_steps(const Scene& scene, const ContactCounts& truth, double step, std::size_t steps,
+                              SphereTest test) {
+  ContactCounts seen;
+  std::map<ContactCounts::key_type, std::size_t> last_touch;
+  record_steps(scene, step, steps, test,
+               [&](std::size_t number, std::uint32_t first, std::uint32_t second, Wall wall) {
+                 const ContactCounts::key_type pair{first, second, wall};
+                 const auto [last, is_new] = last_touch.try_emplace(pair, number);
+                 if (is_new || last->second + 1 < number) ++seen[pair];
+                 last->second = number;
+               });
+  return missed(truth, seen);
+}
+
+}  // namespace kinesphere::program

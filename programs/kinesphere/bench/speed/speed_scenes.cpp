@@ -1,0 +1,146 @@
+#include "bench/speed/speed_scenes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/measurement.hpp"
+#include "bench/speed/mixture.hpp"
+#include "program_error.hpp"
+#include "scene_file.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+const std::vector<double> game_rates{60.0, 240.0, 1000.0};
+
+/// Scenes of parameters, smaller and shorter as the settings say.
+class SceneList {
+ public:
+  explicit SceneList(const SpeedSettings& settings) : settings_(settings) {}
+
+  std::vector<SpeedScene> all() {
+    paper();
+    crowds();
+    extremes();
+    gases();
+    add({.name = "pile", .rates = game_rates, .floor = true}, find_scene("pile").parameters);
+    const auto too_large = [this](const SpeedScene& scene) { return scene.bodies > settings_.most_bodies; };
+    scenes_.erase(std::remove_if(scenes_.begin(), scenes_.end(), too_large), scenes_.end());
+    return std::move(scenes_);
+  }
+
+ private:
+  std::uint32_t fewer(std::uint32_t bodies) const { return std::max(bodies / settings_.divide, 10u); }
+  double shorter(double seconds) const { return seconds * settings_.shorten; }
+
+  /// As dense with `bodies` as the parameters are with theirs.
+  static SceneParameters with_box(SceneParameters parameters, std::uint32_t bodies) {
+    const double scale = std::cbrt(static_cast<double>(bodies) / parameters.bodies);
+    parameters.box.upper = parameters.box.lower + (parameters.box.upper - parameters.box.lower) * scale;
+    parameters.bodies = bodies;
+    return parameters;
+  }
+
+  void add(SpeedScene scene, SceneParameters parameters) {
+    parameters = with_box(parameters, fewer(parameters.bodies));
+    parameters.seconds = shorter(parameters.seconds);
+    scene.bodies = parameters.bodies;
+    scene.response = parameters.response;
+    scene.make = [parameters](Response response) mutable {
+      parameters.response = response;
+      return require(make_scene(parameters));
+    };
+    scenes_.push_back(std::move(scene));
+  }
+
+  void paper() {
+    for (const std::uint32_t bodies : {500u, 1000u, 2000u, 3500u}) {
+      add({.name = fmt::format("paper1-{}", bodies),
+           .rates = game_rates,
+           .trees = true,
+           .paper = true,
+           .hubbard = bodies <= 500,
+           .floor = true},
+          first_experiment(bodies, 2.0));
+    }
+    for (const std::uint32_t bodies : {10'000u, 100'000u, 1'000'000u}) {
+      add({.name = fmt::format("dense-{}", bodies), .rates = game_rates, .trees = bodies <= 10'000},
+          with_box(first_experiment(1000, bodies > 100'000 ? 0.2 : 0.5), bodies));
+    }
+    add({.name = "paper2", .rates = game_rates, .paper = true, .floor = true}, second_experiment(1000, 2.0));
+  }
+
+  void mixture(SpeedScene scene, const MixtureParameters& parameters) {
+    for (const BodyKind& kind : parameters.kinds) scene.bodies += kind.bodies;
+    scene.make = [parameters](Response response) { return make_mixture(parameters, response); };
+    scenes_.push_back(std::move(scene));
+  }
+
+  void crowds() {
+    // Alarm when two come within 10 m: each is 1 m across and has 5 m around it.
+    const std::uint32_t drones = fewer(100'000);
+    const double shrink = std::sqrt(drones / 100'000.0);
+    mixture({.name = "drones",
+             .response = Response::pass_through,
+             .rates = {1.0, 4.0, 15.0, 60.0, 240.0},
+             .floor = true},
+            {.box = {{0, 0, 0}, {20'000 * shrink, 20'000 * shrink, 300}},
+             .walls = false,
+             .kinds = {{drones, 5.5, 5.5, 15.0, 15.0, 5.0}},
+             .seconds = shorter(4.0)});
+    const CrowdParameters people{.people = fewer(20'000), .area_each = 4.0, .seconds = shorter(4.0)};
+    scenes_.push_back({.name = "crowd",
+                       .bodies = people.people,
+                       .response = Response::pass_through,
+                       .make = [people](Response response) { return make_crowd(people, response); },
+                       .rates = {10.0, 30.0, 60.0, 240.0},
+                       .floor = true});
+  }
+
+  void extremes() {
+    const std::uint32_t boulders = fewer(10'000);
+    const double edge = 200.0 * std::cbrt(boulders / 10'000.0);
+    mixture({.name = "bullets",
+             .response = Response::pass_through,
+             .rates = {60.0, 1000.0, 16'000.0, 64'000.0},
+             .floor = true},
+            {.box = {{0, 0, 0}, {edge, edge, edge}},
+             .kinds = {{boulders, 1.0, 3.0, 0.0, 1.0, 0.5}, {10, 0.01, 0.05, 1000.0, 1000.0, 1.0}},
+             .seconds = shorter(0.25)});
+    // Each kind twice as large as the one before, and half as many: 1 to 1024.
+    MixtureParameters sizes{.box = {{0, 0, 0}, {100, 100, 100}}, .kinds = {}, .seconds = shorter(2.0)};
+    for (std::uint32_t k = 0; k <= 10; ++k) {
+      const double radius = 0.01 * static_cast<double>(1u << k);
+      sizes.kinds.push_back({std::max(fewer(8192) >> k, 1u), radius, radius, 1.0, 10.0, 10.0});
+    }
+    mixture(
+        {.name = "sizes", .response = Response::bounce, .rates = game_rates, .trees = true, .floor = true},
+        sizes);
+  }
+
+  void gases() {
+    for (const std::uint32_t bodies : {4'000u, 108'000u}) {
+      for (const int percent : {25, 49}) {
+        SceneParameters gas = find_scene("gas").parameters;
+        gas.bodies = bodies;
+        const double volume = 4.0 / 3.0 * 3.14159265358979 * gas.radius_max * gas.radius_max * gas.radius_max;
+        const double edge = std::cbrt(volume * bodies * 100.0 / percent);
+        gas.box = {{0, 0, 0}, {edge, edge, edge}};
+        gas.seconds = bodies > 4'000 ? 0.5 : 2.0;
+        add({.name = fmt::format("gas{}-{}", percent, bodies), .rates = game_rates, .floor = bodies <= 4'000},
+            gas);
+      }
+    }
+  }
+
+  const SpeedSettings& settings_;
+  std::vector<SpeedScene> scenes_;
+};
+
+}  // namespace
+
+std::vector<SpeedScene> speed_scenes(const SpeedSettings& settings) { return SceneList(settings).all(); }
+
+}  // namespace kinesphere::program

@@ -1,0 +1,28 @@
+// The scenes of `kinesphere bench speed`.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/speed/speed_settings.hpp"
+#include "kinesphere/scene.hpp"
+
+namespace kinesphere::program {
+
+struct SpeedScene {
+  std::string name;  ///< without blanks; for --only
+  std::uint32_t bodies;
+  Response response;  ///< of the runs that are timed; missed contacts are counted where all pass through
+  std::function<Scene(Response)> make;
+  std::vector<double> rates;  ///< of fixed steps, per unit of time
+  bool trees = false;         ///< compare with Bullet's and FCL's
+  bool paper = false;         ///< and with the paper's algorithm
+  bool hubbard = false;
+  bool floor = false;  ///< count the probe floor
+};
+
+std::vector<SpeedScene> speed_scenes(const SpeedSettings& settings);
+
+}  // namespace kinesphere::program

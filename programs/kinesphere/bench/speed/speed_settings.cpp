@@ -1,0 +1,38 @@
+#include "bench/speed/speed_settings.hpp"
+
+namespace kinesphere::program {
+
+const SpeedSettings& speed_settings(Effort effort) {
+  static constexpr SpeedSettings quick{.name = "quick",
+                                       .repetitions = 1,
+                                       .divide = 20,
+                                       .shorten = 0.1,
+                                       .most_bodies = 1000,
+                                       .most_recorded = 100'000,
+                                       .most_looked = 100'000};
+  static constexpr SpeedSettings usual{.name = "usual",
+                                       .repetitions = 5,
+                                       .divide = 1,
+                                       .shorten = 1.0,
+                                       .most_bodies = 108'000,
+                                       .most_recorded = 15'000'000,
+                                       .most_looked = 30'000'000};
+  static constexpr SpeedSettings full{.name = "full",
+                                      .repetitions = 9,
+                                      .divide = 1,
+                                      .shorten = 1.0,
+                                      .most_bodies = 1'000'000,
+                                      .most_recorded = 60'000'000,
+                                      .most_looked = 400'000'000};
+  switch (effort) {
+    case Effort::quick:
+      return quick;
+    case Effort::full:
+      return full;
+    case Effort::usual:
+      break;
+  }
+  return usual;
+}
+
+}  // namespace kinesphere::program
