@@ -138,7 +138,7 @@ class Contest {
 
   /// Part of the contacts that steps overlook; nothing when that would take too long to find out.
   std::optional<double> missed(double rate, SphereTest test) const {
-    const double steps = std::floor(rate * duration());
+    const double steps = std::ceil(rate * duration());
     if (steps * static_cast<double>(scene_.bodies.size()) > static_cast<double>(settings_.most_looked))
       return std::nullopt;
     const std::uint64_t contacts = total(truth_);

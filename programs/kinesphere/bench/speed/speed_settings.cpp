@@ -5,11 +5,11 @@ namespace kinesphere::program {
 const SpeedSettings& speed_settings(Effort effort) {
   static constexpr SpeedSettings quick{.name = "quick",
                                        .repetitions = 1,
-                                       .divide = 20,
+                                       .divide = 100,
                                        .shorten = 0.1,
-                                       .most_bodies = 1000,
-                                       .most_recorded = 100'000,
-                                       .most_looked = 100'000};
+                                       .most_bodies = 2000,
+                                       .most_recorded = 50'000,
+                                       .most_looked = 200'000};
   static constexpr SpeedSettings usual{.name = "usual",
                                        .repetitions = 5,
                                        .divide = 1,
