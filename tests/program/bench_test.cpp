@@ -1,26 +1,15 @@
 // `kinesphere bench paper`, with tiny sizes: every section leaves its tables, scripts and pictures.
 #include <set>
-#include <sstream>
 
 #include "bench/plot.hpp"
 #include "bench/sections.hpp"
+#include "bench_table.hpp"
 #include "support.hpp"
 
 namespace kinesphere::program {
 namespace {
 
 using Row = std::vector<std::string>;
-
-std::vector<Row> rows_of(const std::string& csv) {
-  std::vector<Row> rows;
-  std::istringstream stream(csv);
-  for (std::string line; std::getline(stream, line);) {
-    rows.emplace_back();
-    std::istringstream fields(line + ',');
-    for (std::string field; std::getline(fields, field, ',');) rows.back().push_back(field);
-  }
-  return rows;
-}
 
 class BenchTest : public ProgramTest {
  protected:
@@ -42,7 +31,7 @@ class BenchTest : public ProgramTest {
   /// A table with as many rows, rectangular; empty cells only where nothing was published or nothing
   /// happened.
   std::vector<Row> table(const std::string& name, std::size_t rows) const {
-    std::vector<Row> found = rows_of(read(name));
+    std::vector<Row> found = csv_rows(read(name));
     EXPECT_EQ(found.size(), rows + 1) << name;
     for (const Row& row : found) {
       EXPECT_EQ(row.size(), found.front().size()) << name;
@@ -57,12 +46,6 @@ class BenchTest : public ProgramTest {
   }
 };
 
-std::string cell(const std::vector<Row>& table, std::size_t row, const std::string& column) {
-  const auto at = std::find(table[0].begin(), table[0].end(), column);
-  if (at == table[0].end()) return "no column " + column;
-  return table[row + 1][static_cast<std::size_t>(at - table[0].begin())];
-}
-
 TEST_F(BenchTest, EverySectionWritesItsTables) {
   const ProgramRun result = bench("");
   for (const Section& section : bench_sections())
@@ -73,26 +56,26 @@ TEST_F(BenchTest, EverySectionWritesItsTables) {
   }
 
   const auto figure5 = table("figure5.csv", 2);
-  EXPECT_EQ(cell(figure5, 0, "n"), "20");
-  EXPECT_EQ(cell(figure5, 1, "n"), "40");
-  EXPECT_EQ(cell(figure5, 0, "paper_hash").size(), 16u);
+  EXPECT_EQ(csv_cell(figure5, 0, "n"), "20");
+  EXPECT_EQ(csv_cell(figure5, 1, "n"), "40");
+  EXPECT_EQ(csv_cell(figure5, 0, "paper_hash").size(), 16u);
   const auto figure6 = table("figure6.csv", 2);
-  EXPECT_EQ(cell(figure6, 1, "hash"), cell(figure5, 1, "paper_hash"))
+  EXPECT_EQ(csv_cell(figure6, 1, "hash"), csv_cell(figure5, 1, "paper_hash"))
       << "figures 5 and 6 are about the same runs";
-  EXPECT_GT(std::stoi(cell(figure6, 1, "colliding")), 0);
+  EXPECT_GT(std::stoi(csv_cell(figure6, 1, "colliding")), 0);
   table("table1.csv", 2);
   table("table1_others.csv", 2);
   const auto circulation = table("circulation.csv", 2);
-  EXPECT_EQ(cell(circulation, 0, "detector"), "paper");
-  EXPECT_EQ(cell(circulation, 0, "ratio"), "1");
+  EXPECT_EQ(csv_cell(circulation, 0, "detector"), "paper");
+  EXPECT_EQ(csv_cell(circulation, 0, "ratio"), "1");
   table("growth.csv", 2);
   const auto trimming = table("trimming.csv", 2);
-  EXPECT_EQ(cell(trimming, 0, "hash"), cell(trimming, 1, "hash"));
-  EXPECT_LT(std::stoi(cell(trimming, 0, "inserted")), std::stoi(cell(trimming, 1, "inserted")));
+  EXPECT_EQ(csv_cell(trimming, 0, "hash"), csv_cell(trimming, 1, "hash"));
+  EXPECT_LT(std::stoi(csv_cell(trimming, 0, "inserted")), std::stoi(csv_cell(trimming, 1, "inserted")));
   table("cells_sweep.csv", 3);
   table("cells_choice.csv", 1);
   table("cells_rates.csv", 5);
-  EXPECT_GT(rows_of(read("solvers.csv")).size(), 3u);
+  EXPECT_GT(csv_rows(read("solvers.csv")).size(), 3u);
 }
 
 TEST_F(BenchTest, CurvesAreScriptsAndPictures) {

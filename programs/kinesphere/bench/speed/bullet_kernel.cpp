@@ -20,7 +20,7 @@ namespace {
 class BulletKernel final : public StepKernel {
  public:
   BulletKernel(std::vector<float> radii, float margin, bool is_default)
-      : name_(fmt::format("{}, margin {:.3g}", is_default ? "Bullet's own" : "best", margin)),
+      : name_(fmt::format("margin {:.3g}{}", margin, is_default ? " (the default)" : "")),
         radii_(std::move(radii)),
         margin_(margin) {}
 

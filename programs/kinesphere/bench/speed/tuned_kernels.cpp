@@ -12,7 +12,7 @@ namespace {
 
 std::string text_of(const StripSettings& settings) {
   return fmt::format("{:.3g} x {:.3g}{}", settings.row_edge, settings.column_edge,
-                     settings.order == StripOrder::forward ? "" : ", larger first");
+                     settings.order == StripOrder::forward ? "" : " larger first");
 }
 
 /// Adds those of the pairs that touch.
@@ -74,7 +74,7 @@ class GridKernel final : public StepKernel {
 class VerletKernel final : public StepKernel {
  public:
   VerletKernel(std::vector<float> radii, const VerletSettings& settings, SphereTest test)
-      : name_(fmt::format("Verlet, skin {:.3g} + {} steps, grid {}", settings.skin, settings.steps,
+      : name_(fmt::format("Verlet skin {:.3g} + {} steps on grid {}", settings.skin, settings.steps,
                           text_of(settings.grid))),
         radii_(std::move(radii)),
         list_(settings),

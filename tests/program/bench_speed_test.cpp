@@ -1,0 +1,82 @@
+// `kinesphere bench speed`, with tiny sizes: every scene leaves its rows, and all rivals at a rate have found
+// the same.
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "bench/plot.hpp"
+#include "bench/speed/speed_scenes.hpp"
+#include "bench_table.hpp"
+#include "support.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+class BenchSpeedTest : public ProgramTest {
+ protected:
+  ProgramRun bench(const std::string& options) const {
+    ProgramRun result = run("bench speed --quick --output '" + path("out") + "-bench' " + options);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    return result;
+  }
+  std::string read(const std::string& name) const { return read_text(path("out-bench/" + name)); }
+};
+
+std::vector<SpeedScene> quick_scenes() { return speed_scenes(speed_settings(Effort::quick)); }
+
+TEST_F(BenchSpeedTest, EverySceneHasItsRows) {
+  const ProgramRun result = bench("");
+  const auto table = csv_rows(read("speed.csv"));
+  std::map<std::string, std::set<std::string>> detectors;
+  for (std::size_t row = 0; row + 1 < table.size(); ++row) {
+    ASSERT_EQ(table[row + 1].size(), table[0].size());
+    detectors[csv_cell(table, row, "scene")].insert(csv_cell(table, row, "detector"));
+    EXPECT_GT(std::stod(csv_cell(table, row, "us")), 0.0);
+    EXPECT_GT(std::stod(csv_cell(table, row, "total_10us")), std::stod(csv_cell(table, row, "us")));
+    EXPECT_EQ(csv_cell(table, row, "hash").size(), 16u);
+  }
+  for (const SpeedScene& scene : quick_scenes()) {
+    EXPECT_NE(result.out.find(scene.name + ", "), std::string::npos) << scene.name;
+    for (const char* name : {"world", "tuned", "swept"})
+      EXPECT_EQ(detectors[scene.name].count(name), 1u) << scene.name << " " << name;
+    EXPECT_EQ(detectors[scene.name].count("paper") != 0, scene.paper) << scene.name;
+    EXPECT_EQ(detectors[scene.name].count("hubbard") != 0, scene.hubbard) << scene.name;
+  }
+  EXPECT_NE(result.out.find("compiler"), std::string::npos);
+  for (const std::string name : {"over_n", "over_rate", "over_price"}) {
+    EXPECT_NE(read(name + ".gp").find("'" + name + ".csv'"), std::string::npos);
+    EXPECT_EQ(std::filesystem::exists(path("out-bench/" + name + ".svg")), has_gnuplot());
+  }
+}
+
+TEST_F(BenchSpeedTest, RivalsAtTheSameRateFindTheSame) {
+  bench("--only sizes");
+  const auto table = csv_rows(read("speed.csv"));
+  std::map<std::string, std::set<std::string>> hashes;
+  for (std::size_t row = 0; row + 1 < table.size(); ++row) {
+    const std::string detector = csv_cell(table, row, "detector");
+    if (detector != "world" && detector != "swept")
+      hashes[csv_cell(table, row, "rate")].insert(csv_cell(table, row, "hash"));
+  }
+  EXPECT_EQ(hashes.size(), 3u);
+  for (const auto& [rate, found] : hashes) EXPECT_EQ(found.size(), 1u) << rate;
+}
+
+TEST_F(BenchSpeedTest, TheEngineIsNotBelowTheProbeFloor) {
+  bench("--only paper1-3500,drones");
+  const auto table = csv_rows(read("speed.csv"));
+  for (std::size_t row = 0; row + 1 < table.size(); ++row) {
+    if (csv_cell(table, row, "rate") != "") continue;
+    EXPECT_GE(std::stod(csv_cell(table, row, "to_floor")), 1.0) << csv_cell(table, row, "detector");
+    EXPECT_EQ(csv_cell(table, row, "missed_percent"), "0");
+  }
+}
+
+TEST_F(BenchSpeedTest, RefusesWrongOptions) {
+  expect_wrong_input("bench speed --only paper1-500,paper9", {"--only", "paper1-500, paper1-1000", "paper9"});
+  expect_wrong_input("bench speed --quick --full", {"--full", "--quick"});
+}
+
+}  // namespace
+}  // namespace kinesphere::program

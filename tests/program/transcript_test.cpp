@@ -1,0 +1,49 @@
+// Runs that are written down and played again.
+#include "bench/speed/transcript.hpp"
+
+#include <gtest/gtest.h>
+
+#include "bench/detectors.hpp"
+#include "bench/measurement.hpp"
+#include "bench/speed/recall.hpp"
+#include "support.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+Scene scene(Response response) {
+  SceneParameters parameters = first_experiment(400, 1.0);
+  parameters.response = response;
+  return require(make_scene(parameters));
+}
+
+TEST(Transcript, HoldsTheRunThatAnyoneElseSees) {
+  const Scene bouncing = scene(Response::bounce);
+  for (const NamedDetector& detector : {world_engine(), paper_engine()}) {
+    const Transcript transcript = write_down(bouncing, detector.make);
+    const SimulationResult plain = require(simulate(bouncing, detector.make));
+    EXPECT_EQ(transcript.result.contact_hash, plain.contact_hash);
+    EXPECT_EQ(transcript.result.counters.probes, plain.counters.probes);
+    EXPECT_EQ(transcript.bodies.size(), 400u);
+    EXPECT_GT(transcript.kicks.size(), 100u);
+    EXPECT_GT(play(transcript, detector.make).detecting, 0.0) << "or it would have thrown";
+  }
+}
+
+TEST(Transcript, IsForTheDetectorThatItWasWrittenFor) {
+  const Transcript transcript = write_down(scene(Response::bounce), world_engine().make);
+  EXPECT_THROW(play(transcript, paper_engine().make), ProgramError);
+}
+
+TEST(Recall, FineStepsMissLessAndSweptOnesNothing) {
+  const Scene passing = scene(Response::pass_through);
+  const ContactCounts truth = count_contacts(passing, world_engine().make);
+  ASSERT_GT(total(truth), 100u);
+  const std::uint64_t at_10 = missed_by_steps(passing, truth, 0.1, 10, SphereTest::at_steps);
+  const std::uint64_t at_100 = missed_by_steps(passing, truth, 0.01, 100, SphereTest::at_steps);
+  EXPECT_GT(at_10, at_100);
+  EXPECT_LT(missed_by_steps(passing, truth, 0.01, 100, SphereTest::swept), 1 + at_100);
+}
+
+}  // namespace
+}  // namespace kinesphere::program
