@@ -11,9 +11,6 @@
 
 #include "bench/speed/touch.hpp"
 
-// Bullet declares it in its source file alone.
-extern btScalar gDbvtMargin;
-
 namespace kinesphere::program {
 namespace {
 

@@ -18,6 +18,9 @@
 namespace kinesphere::program {
 namespace {
 
+/// Rivals that take longer than this (seconds) have one turn only.
+constexpr double slow = 2.0;
+
 class Contest {
  public:
   Contest(const SpeedScene& entry, const SpeedSettings& settings)
@@ -35,7 +38,7 @@ class Contest {
     if (entry_.hubbard) run_event_driven(hubbard_engine());
     for (const double rate : entry_.rates)
       for (const SphereTest test : {SphereTest::at_steps, SphereTest::swept}) run_steps(rate, test);
-    if (world_.costs.empty()) take_turns({});
+    if (world_.costs.empty()) take_turns({}, settings_.repetitions);
     settle(world_);
     rows_.insert(rows_.begin(), world_.row);
     return std::move(rows_);
@@ -49,6 +52,7 @@ class Contest {
     std::vector<double> to_world{};
   };
 
+  double body_time_of_all() const { return duration() * static_cast<double>(scene_.bodies.size()); }
   double duration() const { return scene_.end_time - scene_.world.start_time; }
 
   Contestant event_driven(const NamedDetector& detector) const {
@@ -76,8 +80,8 @@ class Contest {
   }
 
   /// Each in turn, and the default engine before them.
-  void take_turns(std::vector<Contestant> contestants) {
-    for (int repetition = 0; repetition < settings_.repetitions; ++repetition) {
+  void take_turns(std::vector<Contestant> contestants, int turns) {
+    for (int turn = 0; turn < turns; ++turn) {
       world_.costs.push_back(world_.run());
       for (Contestant& contestant : contestants) {
         contestant.costs.push_back(contestant.run());
@@ -96,11 +100,17 @@ class Contest {
     if (floor_ && !contestant.row.rate) contestant.row.to_floor = contestant.row.moves / *floor_;
   }
 
-  void run_event_driven(const NamedDetector& detector) { take_turns({event_driven(detector)}); }
+  void run_event_driven(const NamedDetector& detector) {
+    Contestant rival = event_driven(detector);
+    const bool is_slow = rival.run() * body_time_of_all() > slow;
+    take_turns({std::move(rival)}, is_slow ? 1 : settings_.repetitions);
+  }
 
   void run_steps(double rate, SphereTest test) {
-    const auto most = static_cast<double>(settings_.most_recorded / scene_.bodies.size());
-    const auto steps = static_cast<std::size_t>(std::max(1.0, std::min(std::round(rate * duration()), most)));
+    const double most =
+        static_cast<double>(settings_.most_recorded) / static_cast<double>(scene_.bodies.size());
+    const auto steps =
+        static_cast<std::size_t>(std::max(1.0, std::min(std::round(rate * duration()), std::floor(most))));
     const StepRecording recording = record_steps(scene_, 1.0 / rate, steps, test);
     const std::optional<double> missed_part = missed(rate, test);
     std::vector<Contestant> contestants;
@@ -114,7 +124,7 @@ class Contest {
       enter("bullet-best", tuned_bullet_kernel(recording));
       if (make_fcl_kernel({})) enter("fcl", [&] { return make_fcl_kernel(radii); });
     }
-    take_turns(std::move(contestants));
+    take_turns(std::move(contestants), settings_.repetitions);
   }
 
   Contestant fixed_steps(const std::string& name, const StepRecording& recording, const KernelMaker& make,

@@ -66,7 +66,8 @@ class Walkers final : public PiecewiseAcceleration {
 Vec3 place_in_square(std::uint32_t body, std::uint32_t squares, double edge, Random& random) {
   const double room = edge - 2.0 * people_radius_max;
   const auto column = static_cast<double>(body % squares);
-  const auto row = static_cast<double>(body / squares);
+  const std::uint32_t full_rows = body / squares;
+  const auto row = static_cast<double>(full_rows);
   return {column * edge + people_radius_max + room * random.uniform(),
           row * edge + people_radius_max + room * random.uniform(), 0.0};
 }

@@ -9,6 +9,8 @@
 
 #define KINESPHERE_INLINE [[gnu::always_inline]] inline
 
+// Parameter lists cannot stand in parentheses of their own.
+// NOLINTBEGIN(bugprone-macro-parentheses)
 #if defined(__x86_64__) && defined(__GNUC__)
 #define KINESPHERE_VERSION(name, generic, parameters, arguments, set) \
   [[gnu::noinline, gnu::target(set)]] void name parameters { generic arguments; }
@@ -24,3 +26,4 @@
 #define KINESPHERE_VERSIONS(name, parameters, arguments) \
   void name parameters { name##_generic arguments; }
 #endif
+// NOLINTEND(bugprone-macro-parentheses)

@@ -68,7 +68,7 @@ void save_verdicts(const Report& report, const std::vector<SpeedScene>& scenes, 
       if (safe == rows->second.end()) continue;
       std::vector<Cell> row{scene.name,       std::uint64_t{scene.bodies}, std::string(name),
                             cell(safe->rate), 1e6 * safe->detection,       1e6 * world.detection};
-      for (const double price : prices) row.push_back(safe->total(price) / world.total(price));
+      for (const double price : prices) row.emplace_back(safe->total(price) / world.total(price));
       table.row(std::move(row));
     }
   }
@@ -185,6 +185,7 @@ void plot_over_price(const Report& report, const std::vector<SpeedRow>& rows) {
 
 std::vector<std::string> names_of(const std::vector<SpeedScene>& scenes) {
   std::vector<std::string> names;
+  names.reserve(scenes.size());
   for (const SpeedScene& scene : scenes) names.push_back(scene.name);
   return names;
 }

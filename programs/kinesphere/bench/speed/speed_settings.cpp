@@ -11,14 +11,14 @@ const SpeedSettings& speed_settings(Effort effort) {
                                        .most_recorded = 50'000,
                                        .most_looked = 200'000};
   static constexpr SpeedSettings usual{.name = "usual",
-                                       .repetitions = 5,
+                                       .repetitions = 3,
                                        .divide = 1,
                                        .shorten = 1.0,
                                        .most_bodies = 108'000,
                                        .most_recorded = 15'000'000,
                                        .most_looked = 30'000'000};
   static constexpr SpeedSettings full{.name = "full",
-                                      .repetitions = 9,
+                                      .repetitions = 5,
                                       .divide = 1,
                                       .shorten = 1.0,
                                       .most_bodies = 1'000'000,

@@ -65,6 +65,12 @@ KINESPHERE_INLINE void find_in_range(const Strips& strips, std::uint32_t i, std:
   }
 }
 
+/// Where the cells of a strip begin, and the next strip.
+KINESPHERE_INLINE const std::uint32_t* strip_at(const Strips& strips, int y, int z) {
+  const int first_cell = (z * strips.layout.cells[1] + y) * strips.layout.cells[0];
+  return strips.starts + first_cell;
+}
+
 KINESPHERE_INLINE void find_near_of(const Strips& strips, std::uint32_t i, int row_y, int row_z,
                                     std::vector<SpherePair>& near) {
   const float radius = strips.radius[i];
@@ -77,8 +83,7 @@ KINESPHERE_INLINE void find_near_of(const Strips& strips, std::uint32_t i, int r
   const int last_z = cell_along(strips.layout, 2, strips.z[i] + reach);
   for (int z = first_z; z <= last_z; ++z) {
     for (int y = strips.forward && z == row_z ? row_y : first_y; y <= last_y; ++y) {
-      const std::uint32_t* const row =
-          strips.starts + (z * strips.layout.cells[1] + y) * strips.layout.cells[0];
+      const std::uint32_t* const row = strip_at(strips, y, z);
       const bool own = strips.forward && z == row_z && y == row_y;
       find_in_range(strips, i, own ? i + 1 : row[first_x], row[last_x + 1], near);
     }
@@ -88,8 +93,7 @@ KINESPHERE_INLINE void find_near_of(const Strips& strips, std::uint32_t i, int r
 KINESPHERE_INLINE void find_all_generic(const Strips& strips, std::vector<SpherePair>& near) {
   for (int z = 0; z < strips.layout.cells[2]; ++z) {
     for (int y = 0; y < strips.layout.cells[1]; ++y) {
-      const std::uint32_t* const row =
-          strips.starts + (z * strips.layout.cells[1] + y) * strips.layout.cells[0];
+      const std::uint32_t* const row = strip_at(strips, y, z);
       for (std::uint32_t i = row[0]; i < row[strips.layout.cells[0]]; ++i)
         find_near_of(strips, i, y, z, near);
     }
@@ -167,8 +171,8 @@ void StripGrid::sort(const Frame& centres, const std::vector<float>& radii) {
   const std::size_t size = radii.size();
   cell_of_.resize(size);
   number_cells(centres, layout_, size, cell_of_.data());
-  const auto cells = static_cast<std::size_t>(layout_.cells[0] * layout_.cells[1] * layout_.cells[2]);
-  starts_.assign(cells + 1, 0);
+  const int cells = layout_.cells[0] * layout_.cells[1] * layout_.cells[2];
+  starts_.assign(static_cast<std::size_t>(cells) + 1, 0);
   for (std::size_t at = 0; at < size; ++at) ++starts_[cell_of_[at]];
   std::uint32_t before = 0;
   for (std::uint32_t& start : starts_) {
