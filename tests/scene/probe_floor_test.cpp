@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "detector/gap_course.hpp"
 #include "kinesphere/detector_table.hpp"
 #include "kinesphere/motion/steered.hpp"
 #include "support/expect_error.hpp"
@@ -96,6 +97,13 @@ TEST(ProbeFloor, SideBySideByHand) {
   EXPECT_EQ(floor_of(scene).probes, (std::vector<std::uint64_t>{expected, expected}));
 }
 
+TEST(ProbeFloor, AlongAWallByHand) {
+  Scene scene = straight({{{-20, 0, 1.5}, {3, 0, 0}}}, 4.0, 10.0);
+  scene.world.box = Box{{-100, -100, 0}, {100, 100, 100}};
+  const double interval = std::sqrt(2.0 * (0.5 + scene.world.contact_tolerance) / 4.0);
+  EXPECT_EQ(floor_of(scene).total(), static_cast<std::uint64_t>(std::floor(10.0 / interval)));
+}
+
 TEST(ProbeFloor, BallisticBodiesAreAskedAtTheirContactsAlone) {
   const Scene scene = built_in(SceneParameters::MotionKind::ballistic, 0.0, Response::bounce);
   const Flight flight = record_flight(scene, make_world_detector).value();
@@ -107,6 +115,63 @@ TEST(ProbeFloor, BallisticBodiesAreAskedAtTheirContactsAlone) {
   const ProbeFloor floor = probe_floor(scene, flight).value();
   ASSERT_GT(floor.total(), 50u);
   for (std::size_t body = 0; body < times.size(); ++body) EXPECT_EQ(floor.probes[body], times[body].size());
+}
+
+/// The same count by looking at fixed times, so close that nobody gets through the tolerance in between.
+std::uint64_t sampled_floor(const Scene& scene, const Flight& flight, std::uint32_t body, double step) {
+  const auto state = [&](std::uint32_t number, double time) {
+    return segment_at(flight.paths[number], time).state_at(time);
+  };
+  BodyDefinition promise = scene.motion->promise(body, 0.0);
+  promise.radius = scene.bodies[body].radius;
+  std::vector<double> stops;
+  for (const FlightContact& contact : flight.contacts)
+    if (contact.first == body || contact.second == body) stops.push_back(contact.begin);
+  Bound bound = bound_of(promise, state(body, 0.0), 0.0);
+  std::uint64_t probes = 0;
+  std::size_t next_stop = 0;
+  for (double time = 0.0; time < scene.end_time; time += step) {
+    const bool stopped = next_stop < stops.size() && stops[next_stop] <= time;
+    while (next_stop < stops.size() && stops[next_stop] <= time) ++next_stop;
+    bool reached = false;
+    for (std::uint32_t other = 0; other < scene.bodies.size(); ++other) {
+      const double distance = norm(bound.centre_at(time) - state(other, time).position);
+      const double room = distance - bound.radius_at(time) - scene.bodies[other].radius;
+      reached = reached || (other != body && room < -scene.world.contact_tolerance);
+    }
+    if (!stopped && !reached) continue;
+    ++probes;
+    bound = bound_of(promise, state(body, time), time);
+  }
+  return probes;
+}
+
+TEST(ProbeFloor, AgreesWithFineSteps) {
+  SceneParameters parameters{.bodies = 12,
+                             .radius_min = 4.0,
+                             .radius_max = 6.0,
+                             .speed_min = 2.0,
+                             .speed_max = 5.0,
+                             .limit_min = 200.0,
+                             .limit_max = 200.0,
+                             .box = {{0, 0, 0}, {50, 50, 50}},
+                             .walls = false,
+                             .redraw_interval = 0.02,
+                             .contact_tolerance = 0.02,
+                             .seconds = 1.0};
+  std::uint64_t total = 0;
+  for (parameters.seed = 1; parameters.seed <= 5; ++parameters.seed) {
+    const Scene scene = make_scene(parameters).value();
+    const Flight flight = record_flight(scene, make_world_detector).value();
+    const ProbeFloor floor = probe_floor(scene, flight).value();
+    for (std::uint32_t body = 0; body < scene.bodies.size(); ++body) {
+      const std::uint64_t sampled = sampled_floor(scene, flight, body, 2e-4);
+      EXPECT_NEAR(static_cast<double>(floor.probes[body]), static_cast<double>(sampled), 1.0)
+          << "seed " << parameters.seed << ", body " << body;
+      total += sampled;
+    }
+  }
+  EXPECT_GT(total, 200u);
 }
 
 TEST(ProbeFloor, NoDetectorAsksLess) {
