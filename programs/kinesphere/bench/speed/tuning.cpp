@@ -34,6 +34,18 @@ double mean_distance_in(const StepRecording& recording) {
   return mean_distance(states);
 }
 
+/// How far spheres go in a step, on average.
+double mean_move_in(const StepRecording& recording) {
+  const Frame start = recording.frame(0), next = recording.frame(1);
+  double moved = 0.0;
+  for (std::size_t at = 0; at < recording.radii.size(); ++at) {
+    moved += std::hypot(static_cast<double>(next.x[at] - start.x[at]),
+                        static_cast<double>(next.y[at] - start.y[at]),
+                        static_cast<double>(next.z[at] - start.z[at]));
+  }
+  return moved / static_cast<double>(recording.radii.size());
+}
+
 /// Any of these may be asked to make a kernel again.
 struct Candidates {
   const StepRecording& recording;
@@ -107,6 +119,7 @@ StepTiming time_steps(const StepRecording& recording, StepKernel& kernel, std::s
 KernelMaker tuned_kernel(const StepRecording& recording) {
   Candidates candidates(recording);
   const double distance = mean_distance_in(recording);
+  const double move = mean_move_in(recording);
   const auto& radii = recording.radii;
   const SphereTest test = recording.test;
   StripSettings best = usual_strips(distance);
@@ -119,6 +132,8 @@ KernelMaker tuned_kernel(const StepRecording& recording) {
   }
   for (const double part : skins) {
     for (const float ahead : steps_ahead) {
+      // Lists of skins that reach beyond the next neighbours are long, and no use.
+      if (part * distance + static_cast<double>(ahead) * move > distance) continue;
       const VerletSettings settings{best, static_cast<float>(part * distance), ahead};
       candidates.try_out([=, &radii] { return make_verlet_kernel(radii, settings, test); });
     }
