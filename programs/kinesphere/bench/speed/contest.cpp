@@ -170,6 +170,14 @@ class Contest {
 
 }  // namespace
 
+const SpeedRow* find_row(const std::vector<SpeedRow>& rows, const std::string& detector,
+                         std::optional<double> rate) {
+  const auto row = std::find_if(rows.begin(), rows.end(), [&](const SpeedRow& one) {
+    return one.detector == detector && one.rate == rate;
+  });
+  return row == rows.end() ? nullptr : &*row;
+}
+
 std::vector<SpeedRow> compare_speed(const SpeedScene& scene, const SpeedSettings& settings) {
   return Contest(scene, settings).run();
 }

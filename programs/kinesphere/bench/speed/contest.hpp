@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,13 @@ struct SpeedRow {
   /// Seconds for a body-second when a move costs `price` seconds.
   double total(double price) const { return detection + price * moves; }
 };
+
+/// By scene.
+using SpeedResults = std::map<std::string, std::vector<SpeedRow>>;
+
+/// The row of this detector at this rate; null when it did not take part.
+const SpeedRow* find_row(const std::vector<SpeedRow>& rows, const std::string& detector,
+                         std::optional<double> rate = std::nullopt);
 
 /// The default engine first. Throws ProgramError.
 std::vector<SpeedRow> compare_speed(const SpeedScene& scene, const SpeedSettings& settings);
