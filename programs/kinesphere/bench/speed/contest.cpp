@@ -38,7 +38,7 @@ class Contest {
     if (entry_.hubbard) run_event_driven(hubbard_engine());
     for (const double rate : entry_.rates)
       for (const SphereTest test : {SphereTest::at_steps, SphereTest::swept}) run_steps(rate, test);
-    if (world_.costs.empty()) take_turns({}, settings_.repetitions);
+    if (world_.costs.empty()) take_turns({});
     settle(world_);
     rows_.insert(rows_.begin(), world_.row);
     return std::move(rows_);
@@ -48,6 +48,7 @@ class Contest {
   struct Contestant {
     SpeedRow row;
     std::function<double()> run;  ///< seconds for a body-second
+    bool is_slow = false;
     std::vector<double> costs{};
     std::vector<double> to_world{};
   };
@@ -80,10 +81,11 @@ class Contest {
   }
 
   /// Each in turn, and the default engine before them.
-  void take_turns(std::vector<Contestant> contestants, int turns) {
-    for (int turn = 0; turn < turns; ++turn) {
+  void take_turns(std::vector<Contestant> contestants) {
+    for (int turn = 0; turn < settings_.repetitions; ++turn) {
       world_.costs.push_back(world_.run());
       for (Contestant& contestant : contestants) {
+        if (turn > 0 && contestant.is_slow) continue;
         contestant.costs.push_back(contestant.run());
         contestant.to_world.push_back(contestant.costs.back() / world_.costs.back());
       }
@@ -102,8 +104,8 @@ class Contest {
 
   void run_event_driven(const NamedDetector& detector) {
     Contestant rival = event_driven(detector);
-    const bool is_slow = rival.run() * body_time_of_all() > slow;
-    take_turns({std::move(rival)}, is_slow ? 1 : settings_.repetitions);
+    rival.is_slow = rival.run() * body_time_of_all() > slow;
+    take_turns({std::move(rival)});
   }
 
   void run_steps(double rate, SphereTest test) {
@@ -124,7 +126,7 @@ class Contest {
       enter("bullet-best", tuned_bullet_kernel(recording));
       if (make_fcl_kernel({})) enter("fcl", [&] { return make_fcl_kernel(radii); });
     }
-    take_turns(std::move(contestants), settings_.repetitions);
+    take_turns(std::move(contestants));
   }
 
   Contestant fixed_steps(const std::string& name, const StepRecording& recording, const KernelMaker& make,
@@ -143,7 +145,7 @@ class Contest {
     const auto run = [&recording, make] {
       return time_steps(recording, *make(), recording.steps()).seconds / recording.body_time();
     };
-    return {std::move(row), run};
+    return {std::move(row), run, timing.seconds > slow};
   }
 
   /// Part of the contacts that steps overlook; nothing when that would take too long to find out.
