@@ -104,7 +104,7 @@ class SceneList {
     const double edge = 200.0 * std::cbrt(boulders / 10'000.0);
     mixture({.name = "bullets",
              .response = Response::pass_through,
-             .rates = {60.0, 1000.0, 16'000.0, 64'000.0},
+             .rates = {60.0, 240.0, 1000.0, 4000.0},
              .floor = true},
             {.box = {{0, 0, 0}, {edge, edge, edge}},
              .kinds = {{boulders, 1.0, 3.0, 0.0, 1.0, 0.5}, {10, 0.01, 0.05, 1000.0, 1000.0, 1.0}},
