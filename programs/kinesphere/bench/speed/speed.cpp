@@ -98,7 +98,8 @@ void explain(const Report& report, const SpeedSettings& settings) {
 }  // namespace
 
 void add_bench_speed_command(CLI::App& bench, BenchOptions& options) {
-  CLI::App* speed = bench.add_subcommand("speed", "Compare with fixed steps and others; takes a quarter of an hour");
+  CLI::App* speed =
+      bench.add_subcommand("speed", "Compare with fixed steps and others; takes a quarter of an hour");
   add_bench_options(*speed, options, names_of(speed_scenes(speed_settings(Effort::full))),
                     "Up to a million bodies; takes an hour");
 }
