@@ -23,6 +23,15 @@ float rounded_up(double value) { return -rounded_down(-value); }
 constexpr int exponent_step = 2;
 /// The finest cells are 2^this as large as the typical box.
 constexpr int finest_above_mean = 1;
+/// No box is larger than this part of the cells on its level: half of them, and what rounding may hide.
+constexpr double largest_in_cells = 0.5 + 0x1p-20;
+
+/// floor() of what fits 32 bits.
+std::int32_t whole(double value) {
+  const auto towards_zero = static_cast<std::int32_t>(value);
+  return towards_zero - static_cast<std::int32_t>(value < towards_zero);
+}
+
 }  // namespace
 
 FloatBox::FloatBox(const Box& box)
@@ -38,55 +47,59 @@ double HashGrid::CellRange::count() const {
   return length(first.x, last.x) * length(first.y, last.y) * length(first.z, last.z);
 }
 
-HashGrid::CellRange HashGrid::Level::range_of(const FloatBox& box) const {
-  const auto coordinate = [this](float position) {
-    return static_cast<std::int32_t>(std::floor(in_cells(position)));
-  };
-  const auto index = [&](const std::array<float, 3>& corner) {
-    return CellIndex{coordinate(corner[0]), coordinate(corner[1]), coordinate(corner[2])};
-  };
-  return {index(box.lower), index(box.upper)};
+HashGrid::CellIndex HashGrid::Level::cell_of(const FloatBox& box) const {
+  return {whole(in_cells(box.lower[0])), whole(in_cells(box.lower[1])), whole(in_cells(box.lower[2]))};
 }
 
-std::size_t HashGrid::hash(const CellIndex& index) {
-  std::uint64_t h = static_cast<std::uint32_t>(index.x) * 0x9e3779b97f4a7c15u;
-  h = (h ^ static_cast<std::uint32_t>(index.y)) * 0xc2b2ae3d27d4eb4fu;
-  h = (h ^ (h >> 29) ^ static_cast<std::uint32_t>(index.z)) * 0x165667b19e3779f9u;
-  return static_cast<std::size_t>(h ^ (h >> 32));
+HashGrid::CellRange HashGrid::Level::cells_around(const FloatBox& box) const {
+  const auto first = [&](std::size_t axis) { return whole(in_cells(box.lower[axis]) - largest_in_cells); };
+  const auto last = [&](std::size_t axis) { return whole(in_cells(box.upper[axis])); };
+  return {{first(0), first(1), first(2)}, {last(0), last(1), last(2)}};
 }
 
-const HashGrid::Cell* HashGrid::Level::find(const CellIndex& index) const {
-  const std::size_t mask = slots.size() - 1;
-  for (std::size_t slot = hash(index) & mask; slots[slot] != 0; slot = (slot + 1) & mask) {
-    const Cell& cell = cells[slots[slot] - 1];
-    if (cell.index == index) return &cell;
-  }
-  return nullptr;
+void HashGrid::Cell::push(const FloatBox& box, std::uint32_t body) {
+  if (size == blocks.size() * BoxBlock::width) blocks.emplace_back();
+  blocks[size / BoxBlock::width].put(size % BoxBlock::width, box, body);
+  ++size;
+}
+
+void HashGrid::Cell::erase(std::uint32_t body) {
+  std::size_t place = 0;
+  while (blocks[place / BoxBlock::width].body(place % BoxBlock::width) != body) ++place;
+  --size;
+  BoxBlock& last = blocks.back();
+  const std::size_t last_place = size % BoxBlock::width;
+  blocks[place / BoxBlock::width].put(place % BoxBlock::width, last.box(last_place), last.body(last_place));
+  last.clear(last_place);
+  if (last_place == 0) blocks.pop_back();
 }
 
 HashGrid::Cell& HashGrid::Level::find_or_create(const CellIndex& index) {
   if (const Cell* cell = find(index)) return const_cast<Cell&>(*cell);
   if (2 * (cells.size() + 1) > slots.size()) rehash();
-  cells.push_back({index, {}});
+  cells.push_back({index, 0, {}});
   ++empty_cells;
+  slots[free_slot(index)] = {index, static_cast<std::uint32_t>(cells.size())};
+  return cells.back();
+}
+
+std::size_t HashGrid::Level::free_slot(const CellIndex& index) const {
   const std::size_t mask = slots.size() - 1;
   std::size_t slot = hash(index) & mask;
-  while (slots[slot] != 0) slot = (slot + 1) & mask;
-  slots[slot] = static_cast<std::uint32_t>(cells.size());
-  return cells.back();
+  while (slots[slot].cell != 0) slot = (slot + 1) & mask;
+  return slot;
 }
 
 /// Drops the empty cells and makes room for twice as many as remain.
 void HashGrid::Level::rehash() {
-  std::erase_if(cells, [](const Cell& cell) { return cell.entries.empty(); });
+  std::erase_if(cells, [](const Cell& cell) { return cell.size == 0; });
   empty_cells = 0;
   std::size_t capacity = 64;
   while (capacity < 4 * (cells.size() + 1)) capacity *= 2;
-  slots.assign(capacity, 0);
+  slots.assign(capacity, {});
   for (std::size_t number = 0; number < cells.size(); ++number) {
-    std::size_t slot = hash(cells[number].index) & (capacity - 1);
-    while (slots[slot] != 0) slot = (slot + 1) & (capacity - 1);
-    slots[slot] = static_cast<std::uint32_t>(number + 1);
+    const CellIndex& index = cells[number].index;
+    slots[free_slot(index)] = {index, static_cast<std::uint32_t>(number + 1)};
   }
 }
 
@@ -100,7 +113,7 @@ int HashGrid::exponent_of(float extent) {
 }
 
 int HashGrid::level_for(float extent) const {
-  const int above = exponent_of(extent) - finest_exponent_;
+  const int above = exponent_of(extent) + 1 - finest_exponent_;
   return above <= 0 ? 0 : (above + exponent_step - 1) / exponent_step;
 }
 
@@ -110,7 +123,7 @@ double HashGrid::cells_per_length(std::size_t level) const {
 
 double HashGrid::largest_extent() const {
   for (std::size_t level = levels_.size(); level-- > 0;)
-    if (levels_[level].bodies > 0) return 1.0 / cells_per_length(level);
+    if (levels_[level].bodies > 0) return largest_in_cells / cells_per_length(level);
   return 0.0;
 }
 
@@ -123,14 +136,9 @@ void HashGrid::insert(std::uint32_t body, const FloatBox& box) {
     levels_.push_back(std::move(level));
   }
   Level& level = levels_[static_cast<std::size_t>(number)];
-  const CellRange range = level.range_of(box);
-  for (std::int32_t z = range.first.z; z <= range.last.z; ++z)
-    for (std::int32_t y = range.first.y; y <= range.last.y; ++y)
-      for (std::int32_t x = range.first.x; x <= range.last.x; ++x) {
-        Cell& cell = level.find_or_create({x, y, z});
-        if (cell.entries.empty()) --level.empty_cells;
-        cell.entries.push_back({box, body});
-      }
+  Cell& cell = level.find_or_create(level.cell_of(box));
+  if (cell.size == 0) --level.empty_cells;
+  cell.push(box, body);
   ++level.bodies;
   places_[body] = {number, box};
 }
@@ -138,17 +146,9 @@ void HashGrid::insert(std::uint32_t body, const FloatBox& box) {
 void HashGrid::erase(std::uint32_t body) {
   Place& place = places_[body];
   Level& level = levels_[static_cast<std::size_t>(place.level)];
-  const CellRange range = level.range_of(place.box);
-  for (std::int32_t z = range.first.z; z <= range.last.z; ++z)
-    for (std::int32_t y = range.first.y; y <= range.last.y; ++y)
-      for (std::int32_t x = range.first.x; x <= range.last.x; ++x) {
-        Cell& cell = const_cast<Cell&>(*level.find({x, y, z}));
-        const auto entry = std::find_if(cell.entries.begin(), cell.entries.end(),
-                                        [body](const Entry& e) { return e.body == body; });
-        *entry = cell.entries.back();
-        cell.entries.pop_back();
-        if (cell.entries.empty()) ++level.empty_cells;
-      }
+  Cell& cell = level.find_or_create(level.cell_of(place.box));
+  cell.erase(body);
+  if (cell.size == 0) ++level.empty_cells;
   --level.bodies;
   place.level = -1;
   if (level.empty_cells > 64 && level.empty_cells > level.cells.size() / 2) level.rehash();
@@ -194,32 +194,42 @@ std::optional<std::string> HashGrid::check(std::uint32_t body, const Box& box) c
   const Place& place = places_[body];
   if (place.box.lower != rounded.lower || place.box.upper != rounded.upper)
     return "is registered with another box";
+  bool found = false;
+  std::optional<std::string> wrong;
   for (std::size_t number = 0; number < levels_.size(); ++number) {
     const Level& level = levels_[number];
-    const CellRange range = level.range_of(rounded);
-    double found = 0.0;
     for (const Cell& cell : level.cells)
-      for (const Entry& entry : cell.entries) {
-        if (entry.body != body) continue;
-        if (!range.contains(cell.index) || static_cast<int>(number) != place.level)
-          return "stands in a cell that its box does not meet";
-        if (level.find(cell.index) != &cell) return "stands in a cell that the table does not find";
-        ++found;
-      }
-    if (static_cast<int>(number) == place.level && found != range.count())
-      return "is missing from a cell that its box meets";
+      cell.for_each([&](const FloatBox& there, std::uint32_t other) {
+        if (other != body) return;
+        if (found) wrong = "is registered twice";
+        if (static_cast<int>(number) != place.level || cell.index != level.cell_of(rounded))
+          wrong = "stands in another cell than that of its lower corner";
+        if (level.find(cell.index) != &cell) wrong = "stands in a cell that the table does not find";
+        if (there != rounded) wrong = "stands in its cell with another box";
+        found = true;
+      });
   }
-  return std::nullopt;
+  if (!found) wrong = "is missing from its cell";
+  return wrong;
 }
 
 bool HashGrid::Level::table_is_sound() const {
   if (!std::has_single_bit(slots.size()) || 2 * cells.size() > slots.size()) return false;
-  if (std::any_of(slots.begin(), slots.end(), [this](std::uint32_t s) { return s > cells.size(); }))
-    return false;
+  for (const Slot& slot : slots)
+    if (slot.cell > cells.size() || (slot.cell != 0 && cells[slot.cell - 1].index != slot.index)) return false;
   // The search for a cell ends at a free slot.
-  const auto free = static_cast<std::size_t>(std::count(slots.begin(), slots.end(), 0u));
+  const auto is_free = [](const Slot& slot) { return slot.cell == 0; };
+  const auto free = static_cast<std::size_t>(std::count_if(slots.begin(), slots.end(), is_free));
   return free + cells.size() == slots.size() && free > 0 &&
          std::all_of(cells.begin(), cells.end(), [this](const Cell& c) { return find(c.index) == &c; });
+}
+
+/// As many blocks as needed, and nothing in the places behind the last body.
+bool HashGrid::Cell::is_sound() const {
+  if (blocks.size() != (std::size_t{size} + BoxBlock::width - 1) / BoxBlock::width) return false;
+  for (std::size_t place = size; place < blocks.size() * BoxBlock::width; ++place)
+    if (!blocks[place / BoxBlock::width].is_free(place % BoxBlock::width)) return false;
+  return true;
 }
 
 bool HashGrid::places_are_sound() const {
@@ -243,34 +253,31 @@ bool HashGrid::is_sound() const {
   constexpr int exponent_limit = 300;
   if (std::abs(finest_exponent_) > exponent_limit || levels_.size() > exponent_limit) return false;
   if (!places_are_sound()) return false;
-  std::vector<double> missing(places_.size(), 0.0);
-  std::vector<const Cell*> latest(places_.size(), nullptr);
-  std::vector<std::size_t> bodies(levels_.size(), 0);
-  for (std::uint32_t body = 0; body < places_.size(); ++body) {
-    if (!contains(body)) continue;
-    const auto number = static_cast<std::size_t>(places_[body].level);
-    missing[body] = levels_[number].range_of(places_[body].box).count();
-    ++bodies[number];
-  }
+  std::vector<bool> found(places_.size(), false);
+  std::size_t standing = 0;
   for (std::size_t number = 0; number < levels_.size(); ++number) {
     const Level& level = levels_[number];
-    if (level.cells_per_length != cells_per_length(number) || level.bodies != bodies[number]) return false;
-    if (!level.table_is_sound()) return false;
+    if (level.cells_per_length != cells_per_length(number) || !level.table_is_sound()) return false;
     std::size_t empty = 0;
+    std::size_t bodies = 0;
     for (const Cell& cell : level.cells) {
-      if (cell.entries.empty()) ++empty;
-      for (const Entry& entry : cell.entries) {
-        if (!contains(entry.body) || latest[entry.body] == &cell) return false;
-        const Place& place = places_[entry.body];
-        if (place.level != static_cast<int>(number) || !(place.box == entry.box)) return false;
-        if (!level.range_of(place.box).contains(cell.index)) return false;
-        latest[entry.body] = &cell;
-        --missing[entry.body];
-      }
+      if (!cell.is_sound()) return false;
+      if (cell.size == 0) ++empty;
+      bodies += cell.size;
+      bool sound = true;
+      cell.for_each([&](const FloatBox& box, std::uint32_t body) {
+        sound = sound && contains(body) && !found[body];
+        if (!sound) return;
+        const Place& place = places_[body];
+        sound = place.level == static_cast<int>(number) && place.box == box && level.cell_of(box) == cell.index;
+        found[body] = true;
+      });
+      if (!sound) return false;
     }
-    if (empty != level.empty_cells) return false;
+    if (empty != level.empty_cells || bodies != level.bodies) return false;
+    standing += bodies;
   }
-  return std::all_of(missing.begin(), missing.end(), [](double cells) { return cells == 0.0; });
+  return standing == size_;
 }
 
 }  // namespace kinesphere

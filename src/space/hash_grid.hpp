@@ -1,8 +1,9 @@
 // A hierarchical hash grid: which registered boxes overlap a given one?
 //
 // Unbounded space: only cells that hold something exist. Each level has cells four times as large as the one
-// below; a box lies on the finest level whose cells are as large as the box, so it stands in at most eight of
-// them, and radii may differ by any ratio. Boxes are kept as floats, rounded outward.
+// below. A box lies on the finest level whose cells are at least twice as large as the box, in the one cell
+// where its lower corner is; a search looks half a cell farther down for those that reach up to it. So radii
+// may differ by any ratio, and a box is moved in O(1). Boxes are kept as floats, rounded outward.
 #pragma once
 
 #include <algorithm>
@@ -15,30 +16,9 @@
 #include <vector>
 
 #include "kinesphere/vec3.hpp"
+#include "space/box_block.hpp"
 
 namespace kinesphere {
-
-/// A box in single precision that contains the double one it was made from.
-struct FloatBox {
-  std::array<float, 3> lower;
-  std::array<float, 3> upper;
-
-  FloatBox() = default;
-  explicit FloatBox(const Box& box);
-
-  bool overlaps(const FloatBox& other) const {
-    return lower[0] <= other.upper[0] && other.lower[0] <= upper[0] && lower[1] <= other.upper[1] &&
-           other.lower[1] <= upper[1] && lower[2] <= other.upper[2] && other.lower[2] <= upper[2];
-  }
-  float extent() const;
-
-  template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
-    auto& [low, high] = self;
-    archive(low, high);
-  }
-  friend bool operator==(const FloatBox&, const FloatBox&) = default;
-};
 
 class HashGrid {
  public:
@@ -47,7 +27,7 @@ class HashGrid {
   void remove(std::uint32_t body);
   bool contains(std::uint32_t body) const { return body < places_.size() && places_[body].level >= 0; }
   std::size_t size() const { return size_; }
-  /// Of the cells on the finest level in use: about twice the typical box (length).
+  /// Of the cells on the finest level in use: about twice to four times the typical box (length).
   double finest_edge() const { return std::ldexp(1.0, finest_exponent_); }
 
   /// No registered box is wider on any axis (length).
@@ -58,12 +38,13 @@ class HashGrid {
   template <class Visit>
   void for_each_overlap(const Box& box, Visit visit) const;
 
-  /// Calls visit(Box, number of bodies) for each cell that holds something, level by level.
+  /// Calls visit(Box, number of bodies) for each cell that holds something, level by level. The boxes of its
+  /// bodies begin in it.
   template <class Visit>
   void for_each_cell(Visit visit) const;
 
-  /// What is wrong with the body's registration, if anything: it must stand, as `box`, in every cell that the
-  /// box meets and in no other. Cost: all cells.
+  /// What is wrong with the body's registration, if anything: it must stand, as `box`, in the cell of its lower
+  /// corner and in no other. Cost: all cells.
   std::optional<std::string> check(std::uint32_t body, const Box& box) const;
 
   /// Everything as it is, for a search visits bodies in the order in which cells and entries stand, and when
@@ -99,22 +80,36 @@ class HashGrid {
              at.z <= last.z;
     }
   };
-  struct Entry {
-    FloatBox box;
-    std::uint32_t body;
-    template <class Self, class Archive>
-    static void transfer(Self& self, Archive& archive) {
-      auto& [where, who] = self;
-      archive(where, who);
-    }
-  };
   struct Cell {
     CellIndex index;
-    std::vector<Entry> entries;
+    std::uint32_t size;  ///< the bodies, in the first places of the blocks
+    std::vector<BoxBlock> blocks;
+
+    void push(const FloatBox& box, std::uint32_t body);
+    /// The last one takes its place.
+    void erase(std::uint32_t body);
+    bool is_sound() const;
+    template <class Visit>
+    void for_each(Visit visit) const {
+      for (std::uint32_t k = 0; k < size; ++k) {
+        const BoxBlock& block = blocks[k / BoxBlock::width];
+        visit(block.box(k % BoxBlock::width), block.body(k % BoxBlock::width));
+      }
+    }
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
-      auto& [at, held] = self;
-      archive(at, held);
+      auto& [at, count, held] = self;
+      archive(at, count, held);
+    }
+  };
+  /// Of the table of cells.
+  struct Slot {
+    CellIndex index{};
+    std::uint32_t cell = 0;  ///< its number + 1; 0 is free
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+      auto& [at, number] = self;
+      archive(at, number);
     }
   };
   struct Level {
@@ -122,24 +117,24 @@ class HashGrid {
     std::size_t bodies = 0;
     std::size_t empty_cells = 0;
     std::vector<Cell> cells;
-    std::vector<std::uint32_t> slots;  ///< open addressing; cell number + 1, 0 is free
+    std::vector<Slot> slots;  ///< open addressing
 
-    CellRange range_of(const FloatBox& box) const;
+    /// Where a box is registered.
+    CellIndex cell_of(const FloatBox& box) const;
+    /// Where boxes that overlap this one are registered.
+    CellRange cells_around(const FloatBox& box) const;
     /// A position in units of cells, within what cell coordinates can hold.
     double in_cells(float position) const {
       constexpr float limit = std::numeric_limits<float>::max();
       const double finite = std::clamp(position, -limit, limit);
       return std::clamp(finite * cells_per_length, -coordinate_limit, coordinate_limit);
     }
-    /// Two overlapping boxes may share several cells: they count in the one where their overlap begins. For a
-    /// cell that both meet.
-    bool overlap_begins_in(const CellIndex& cell, const FloatBox& a, const FloatBox& b) const {
-      const auto reaches = [&](std::size_t axis, std::int32_t coordinate) {
-        return in_cells(std::max(a.lower[axis], b.lower[axis])) >= coordinate;
-      };
-      return reaches(0, cell.x) && reaches(1, cell.y) && reaches(2, cell.z);
+    const Cell* find(const CellIndex& index) const {
+      const std::size_t mask = slots.size() - 1;
+      for (std::size_t slot = hash(index) & mask; slots[slot].cell != 0; slot = (slot + 1) & mask)
+        if (slots[slot].index == index) return &cells[slots[slot].cell - 1];
+      return nullptr;
     }
-    const Cell* find(const CellIndex& index) const;
     Cell& find_or_create(const CellIndex& index);
     void rehash();
 
@@ -150,6 +145,9 @@ class HashGrid {
     }
     /// True when the table finds each cell.
     bool table_is_sound() const;
+
+   private:
+    std::size_t free_slot(const CellIndex& index) const;
   };
   struct Place {
     int level = -1;
@@ -168,7 +166,12 @@ class HashGrid {
   void erase(std::uint32_t body);
   void retune_if_worthwhile();
 
-  static std::size_t hash(const CellIndex& index);
+  static std::size_t hash(const CellIndex& index) {
+    std::uint64_t h = static_cast<std::uint32_t>(index.x) * 0x9e3779b97f4a7c15u;
+    h = (h ^ static_cast<std::uint32_t>(index.y)) * 0xc2b2ae3d27d4eb4fu;
+    h = (h ^ (h >> 29) ^ static_cast<std::uint32_t>(index.z)) * 0x165667b19e3779f9u;
+    return static_cast<std::size_t>(h ^ (h >> 32));
+  }
   static int exponent_of(float extent);
 
   std::vector<Level> levels_;
@@ -184,11 +187,9 @@ void HashGrid::for_each_overlap(const Box& box, Visit visit) const {
   const FloatBox query(box);
   for (const Level& level : levels_) {
     if (level.bodies == 0) continue;
-    const CellRange range = level.range_of(query);
+    const CellRange range = level.cells_around(query);
     const auto visit_cell = [&](const Cell& cell) {
-      for (const Entry& entry : cell.entries)
-        if (entry.box.overlaps(query) && level.overlap_begins_in(cell.index, entry.box, query))
-          visit(entry.body);
+      for (const BoxBlock& block : cell.blocks) block.visit_bodies(block.overlapping(query), visit);
     };
     if (range.count() > static_cast<double>(level.cells.size())) {
       for (const Cell& cell : level.cells)
@@ -209,7 +210,7 @@ void HashGrid::for_each_cell(Visit visit) const {
     for (const Cell& cell : level.cells) {
       const auto [x, y, z] = cell.index;
       const Vec3 lower = Vec3{1.0 * x, 1.0 * y, 1.0 * z} * edge;
-      if (!cell.entries.empty()) visit(Box{lower, lower + Vec3{edge, edge, edge}}, cell.entries.size());
+      if (cell.size > 0) visit(Box{lower, lower + Vec3{edge, edge, edge}}, std::size_t{cell.size});
     }
   }
 }
