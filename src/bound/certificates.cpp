@@ -14,7 +14,7 @@ constexpr double margin = rounding::margin;
 /// Any number of rounds is safe; more are only nearer to the truth.
 constexpr int max_rounds = 16;
 /// A round that gains less than this part of the whole is the last.
-constexpr double negligible_gain = 0x1p-24;
+constexpr double negligible_gain = 0x1p-12;
 
 /// Adds up the safe steps that `step(d)` offers at d after `from`.
 template <class Step>
@@ -73,11 +73,26 @@ struct Projection {
         growth_speed(bound.growth_speed + bound.growth_acceleration * elapsed) {}
 };
 
+/// Neither bound grows or turns: the distance squared is a quadratic, lowered here by what it may be wrong.
+double ballistic_meeting(const RelativeMotion& motion, double reach, double size, double from,
+                         double horizon) {
+  constexpr double wrong = 4.0 * margin;
+  const double length = norm(motion.offset) - margin * size;
+  const double c = (length - reach) * (length + reach);
+  const double speed = norm_one(motion.velocity);
+  const double b =
+      dot(motion.offset, motion.velocity) - wrong * (speed * size + norm_one(motion.offset) * motion.velocity_size);
+  const double a = norm_squared(motion.velocity) - wrong * speed * motion.velocity_size;
+  return time_of_crossing(from, horizon, c - std::abs(c) * margin, 2.0 * b, 2.0 * a);
+}
+
 }  // namespace
 
 double earliest_meeting(const Bound& a, const Bound& b, double from, double horizon, double distance) {
   const RelativeMotion motion(a, b, from);
   const double reach = motion.radii + distance;
+  if (motion.is_ballistic() && reach > 0.0)
+    return ballistic_meeting(motion, reach, motion.offset_size + std::abs(distance), from, horizon);
   return advance_by_safe_steps(from, horizon, [&](double d) {
     const Vec3 centre = motion.centre_at(d);
     const double length = norm(centre);
@@ -165,6 +180,7 @@ double earliest_separation(const Bound& bound, const HalfSpace& wall, double fro
 }
 
 double earliest_exit(const Bound& bound, const Box& box, double from, double horizon) {
+  const double span = horizon - from;
   double first = infinity;
   for (int axis = 0; axis < 3; ++axis) {
     if (box.upper[axis] == infinity) continue;
@@ -173,7 +189,12 @@ double earliest_exit(const Bound& bound, const Box& box, double from, double hor
     const double acceleration_margin = bound.growth_acceleration + margin * p.acceleration_size;
     const auto crossing = [&](double room, double wall, double velocity, double acceleration) {
       const double c = room - bound.radius - p.growth - margin * (p.position_size + std::abs(wall));
-      return rounding::first_crossing(c, velocity - speed_margin, acceleration - acceleration_margin);
+      const double b = velocity - speed_margin;
+      const double a = acceleration - acceleration_margin;
+      // Where it bends down it is least at the ends.
+      const double left = c + (b + 0.5 * a * span) * span;
+      if (a <= 0.0 && c > 0.0 && left > margin * (c + (std::abs(b) - a * span) * span)) return infinity;
+      return rounding::first_crossing(c, b, a);
     };
     first = std::min(first,
                      crossing(box.upper[axis] - p.position, box.upper[axis], -p.velocity, -p.acceleration));

@@ -1,7 +1,9 @@
 #include "contact/outlook.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace kinesphere {
 namespace {
@@ -10,7 +12,12 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-double just_after(double time) { return std::nextafter(time, infinity); }
+double just_after(double time) {
+  if (time == 0.0) return std::numeric_limits<double>::denorm_min();
+  if (!(time < infinity)) return time;
+  const auto bits = std::bit_cast<std::int64_t>(time);
+  return std::bit_cast<double>(time > 0.0 ? bits + 1 : bits - 1);
+}
 
 EventKind kind_of(ContactRule::Change change, bool sensed, Wall wall) {
   if (sensed) return change == ContactRule::Change::begin ? EventKind::sensor_enter : EventKind::sensor_leave;

@@ -30,7 +30,9 @@ struct FloatBox {
     return lower[0] <= other.upper[0] && other.lower[0] <= upper[0] && lower[1] <= other.upper[1] &&
            other.lower[1] <= upper[1] && lower[2] <= other.upper[2] && other.lower[2] <= upper[2];
   }
-  float extent() const;
+  float extent() const {
+    return std::max({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]});
+  }
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
@@ -74,32 +76,50 @@ class alignas(16) BoxBlock {
   }
   std::uint32_t body(std::size_t place) const { return bodies_[place]; }
 
-  /// Those whose boxes overlap `query`, touching included.
-  Places overlapping(const FloatBox& query) const {
+  /// A box that others are compared with.
+  class Query {
+   public:
+    explicit Query(const FloatBox& box) : box_(box) {
 #if defined(__SSE2__)
-    __m128 all = _mm_castsi128_ps(_mm_set1_epi32(-1));
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const __m128 begins = _mm_cmple_ps(_mm_load_ps(lower_[axis].data()), _mm_set1_ps(query.upper[axis]));
-      const __m128 ends = _mm_cmple_ps(_mm_set1_ps(query.lower[axis]), _mm_load_ps(upper_[axis].data()));
-      all = _mm_and_ps(all, _mm_and_ps(begins, ends));
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        lower_[axis] = _mm_set1_ps(box.lower[axis]);
+        upper_[axis] = _mm_set1_ps(box.upper[axis]);
+      }
+#endif
     }
-    return static_cast<Places>(_mm_movemask_ps(all));
+
+   private:
+    friend class BoxBlock;
+    FloatBox box_;
+#if defined(__SSE2__)
+    __m128 lower_[3], upper_[3];
+#endif
+  };
+
+  /// Those whose boxes overlap, touching included.
+  Places overlapping(const Query& query) const {
+#if defined(__SSE2__)
+    const auto on_axis = [&](std::size_t axis) {
+      return _mm_and_ps(_mm_cmple_ps(_mm_load_ps(lower_[axis].data()), query.upper_[axis]),
+                        _mm_cmple_ps(query.lower_[axis], _mm_load_ps(upper_[axis].data())));
+    };
+    return static_cast<Places>(_mm_movemask_ps(_mm_and_ps(_mm_and_ps(on_axis(0), on_axis(1)), on_axis(2))));
 #else
     return overlapping_one_by_one(query);
 #endif
   }
   /// The same without vector instructions.
-  Places overlapping_one_by_one(const FloatBox& query) const {
+  Places overlapping_one_by_one(const Query& query) const {
     Places places = 0;
     for (std::size_t place = 0; place < width; ++place)
-      if (box(place).overlaps(query)) places |= 1u << place;
+      if (box(place).overlaps(query.box_)) places |= 1u << place;
     return places;
   }
 
-  /// Calls visit(body) for each of these places.
+  /// Calls visit(place) for each of them.
   template <class Visit>
-  void visit_bodies(Places places, Visit visit) const {
-    for (; places != 0; places &= places - 1) visit(bodies_[static_cast<std::size_t>(std::countr_zero(places))]);
+  static void for_each(Places places, Visit visit) {
+    for (; places != 0; places &= places - 1) visit(static_cast<std::size_t>(std::countr_zero(places)));
   }
 
   template <class Self, class Archive>

@@ -10,11 +10,16 @@
 namespace kinesphere {
 namespace {
 
-constexpr float float_infinity = std::numeric_limits<float>::infinity();
+/// The next float below one that is not -infinity.
+float just_below(float value) {
+  if (value == 0.0f) return -std::numeric_limits<float>::denorm_min();
+  const auto bits = std::bit_cast<std::int32_t>(value);
+  return std::bit_cast<float>(value > 0.0f ? bits - 1 : bits + 1);
+}
 
 float rounded_down(double value) {
   const float nearest = static_cast<float>(value);
-  return static_cast<double>(nearest) <= value ? nearest : std::nextafter(nearest, -float_infinity);
+  return static_cast<double>(nearest) <= value ? nearest : just_below(nearest);
 }
 
 float rounded_up(double value) { return -rounded_down(-value); }
@@ -23,8 +28,6 @@ float rounded_up(double value) { return -rounded_down(-value); }
 constexpr int exponent_step = 2;
 /// The finest cells are 2^this as large as the typical box.
 constexpr int finest_above_mean = 1;
-/// No box is larger than this part of the cells on its level: half of them, and what rounding may hide.
-constexpr double largest_in_cells = 0.5 + 0x1p-20;
 
 /// floor() of what fits 32 bits.
 std::int32_t whole(double value) {
@@ -38,10 +41,6 @@ FloatBox::FloatBox(const Box& box)
     : lower{rounded_down(box.lower.x), rounded_down(box.lower.y), rounded_down(box.lower.z)},
       upper{rounded_up(box.upper.x), rounded_up(box.upper.y), rounded_up(box.upper.z)} {}
 
-float FloatBox::extent() const {
-  return std::max({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]});
-}
-
 double HashGrid::CellRange::count() const {
   const auto length = [](std::int32_t a, std::int32_t b) { return static_cast<double>(b) - a + 1.0; };
   return length(first.x, last.x) * length(first.y, last.y) * length(first.z, last.z);
@@ -51,8 +50,14 @@ HashGrid::CellIndex HashGrid::Level::cell_of(const FloatBox& box) const {
   return {whole(in_cells(box.lower[0])), whole(in_cells(box.lower[1])), whole(in_cells(box.lower[2]))};
 }
 
+/// The extent of a box in cells, with room for rounding, here and where a search takes it off.
+double HashGrid::Level::reach_of(const FloatBox& box) const {
+  constexpr float limit = std::numeric_limits<float>::max();
+  return std::min(box.extent(), limit) * cells_per_length * (1.0 + 0x1p-20) + 0x1p-20;
+}
+
 HashGrid::CellRange HashGrid::Level::cells_around(const FloatBox& box) const {
-  const auto first = [&](std::size_t axis) { return whole(in_cells(box.lower[axis]) - largest_in_cells); };
+  const auto first = [&](std::size_t axis) { return whole(in_cells(box.lower[axis]) - reach); };
   const auto last = [&](std::size_t axis) { return whole(in_cells(box.upper[axis])); };
   return {{first(0), first(1), first(2)}, {last(0), last(1), last(2)}};
 }
@@ -85,7 +90,7 @@ HashGrid::Cell& HashGrid::Level::find_or_create(const CellIndex& index) {
 
 std::size_t HashGrid::Level::free_slot(const CellIndex& index) const {
   const std::size_t mask = slots.size() - 1;
-  std::size_t slot = hash(index) & mask;
+  std::size_t slot = first_slot(hash(index));
   while (slots[slot].cell != 0) slot = (slot + 1) & mask;
   return slot;
 }
@@ -112,8 +117,15 @@ int HashGrid::exponent_of(float extent) {
   return fraction == 0.5f ? exponent - 1 : exponent;
 }
 
+/// About octave * log2 of an extent: linear between powers of two.
+std::int64_t HashGrid::size_of(float extent) {
+  const int exponent = exponent_of(extent);
+  const double part = std::ldexp(static_cast<double>(extent), -exponent);  // in (1/2, 1], but for the extremes
+  return octave * exponent + static_cast<std::int64_t>(2 * octave * (std::clamp(part, 0.5, 1.0) - 1.0));
+}
+
 int HashGrid::level_for(float extent) const {
-  const int above = exponent_of(extent) + 1 - finest_exponent_;
+  const int above = exponent_of(extent) - finest_exponent_;
   return above <= 0 ? 0 : (above + exponent_step - 1) / exponent_step;
 }
 
@@ -123,7 +135,7 @@ double HashGrid::cells_per_length(std::size_t level) const {
 
 double HashGrid::largest_extent() const {
   for (std::size_t level = levels_.size(); level-- > 0;)
-    if (levels_[level].bodies > 0) return largest_in_cells / cells_per_length(level);
+    if (levels_[level].bodies > 0) return levels_[level].reach / cells_per_length(level);
   return 0.0;
 }
 
@@ -139,6 +151,7 @@ void HashGrid::insert(std::uint32_t body, const FloatBox& box) {
   Cell& cell = level.find_or_create(level.cell_of(box));
   if (cell.size == 0) --level.empty_cells;
   cell.push(box, body);
+  level.reach = std::max(level.reach, level.reach_of(box));
   ++level.bodies;
   places_[body] = {number, box};
 }
@@ -158,19 +171,19 @@ void HashGrid::set(std::uint32_t body, const Box& box) {
   if (body >= places_.size()) places_.resize(body + 1);
   const FloatBox rounded(box);
   if (contains(body)) {
-    exponent_sum_ -= exponent_of(places_[body].box.extent());
+    size_sum_ -= size_of(places_[body].box.extent());
     erase(body);
   } else {
     ++size_;
   }
-  exponent_sum_ += exponent_of(rounded.extent());
+  size_sum_ += size_of(rounded.extent());
   insert(body, rounded);
   retune_if_worthwhile();
 }
 
 void HashGrid::remove(std::uint32_t body) {
   if (!contains(body)) return;
-  exponent_sum_ -= exponent_of(places_[body].box.extent());
+  size_sum_ -= size_of(places_[body].box.extent());
   erase(body);
   --size_;
 }
@@ -179,7 +192,7 @@ void HashGrid::remove(std::uint32_t body) {
 void HashGrid::retune_if_worthwhile() {
   if (++changes_since_tuning_ < size_) return;
   changes_since_tuning_ = 0;
-  const double mean = static_cast<double>(exponent_sum_) / static_cast<double>(size_);
+  const double mean = static_cast<double>(size_sum_) / (octave * static_cast<double>(size_));
   const int wanted = static_cast<int>(std::floor(mean + 0.5)) + finest_above_mean;
   if (std::abs(mean + finest_above_mean - finest_exponent_) < 0.75) return;
   finest_exponent_ = wanted;
@@ -234,7 +247,7 @@ bool HashGrid::Cell::is_sound() const {
 
 bool HashGrid::places_are_sound() const {
   std::size_t found = 0;
-  std::int64_t exponents = 0;
+  std::int64_t sizes = 0;
   for (const Place& place : places_) {
     if (place.level < 0) continue;
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -243,9 +256,9 @@ bool HashGrid::places_are_sound() const {
     if (std::isnan(extent) || place.level != level_for(extent)) return false;
     if (static_cast<std::size_t>(place.level) >= levels_.size()) return false;
     ++found;
-    exponents += exponent_of(extent);
+    sizes += size_of(extent);
   }
-  return found == size_ && exponents == exponent_sum_;
+  return found == size_ && sizes == size_sum_;
 }
 
 bool HashGrid::is_sound() const {
@@ -258,6 +271,7 @@ bool HashGrid::is_sound() const {
   for (std::size_t number = 0; number < levels_.size(); ++number) {
     const Level& level = levels_[number];
     if (level.cells_per_length != cells_per_length(number) || !level.table_is_sound()) return false;
+    if (!(level.reach <= 2.0)) return false;
     std::size_t empty = 0;
     std::size_t bodies = 0;
     for (const Cell& cell : level.cells) {
@@ -269,7 +283,8 @@ bool HashGrid::is_sound() const {
         sound = sound && contains(body) && !found[body];
         if (!sound) return;
         const Place& place = places_[body];
-        sound = place.level == static_cast<int>(number) && place.box == box && level.cell_of(box) == cell.index;
+        sound = place.level == static_cast<int>(number) && place.box == box && level.cell_of(box) == cell.index &&
+                level.reach_of(box) <= level.reach;
         found[body] = true;
       });
       if (!sound) return false;

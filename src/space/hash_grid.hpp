@@ -1,9 +1,9 @@
 // A hierarchical hash grid: which registered boxes overlap a given one?
 //
 // Unbounded space: only cells that hold something exist. Each level has cells four times as large as the one
-// below. A box lies on the finest level whose cells are at least twice as large as the box, in the one cell
-// where its lower corner is; a search looks half a cell farther down for those that reach up to it. So radii
-// may differ by any ratio, and a box is moved in O(1). Boxes are kept as floats, rounded outward.
+// below. A box lies on the finest level whose cells are at least as large as the box, in the one cell where its
+// lower corner is; a search looks farther down by the largest box of the level, for those that reach up to it.
+// So radii may differ by any ratio, and a box is moved in O(1). Boxes are kept as floats, rounded outward.
 #pragma once
 
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "kinesphere/vec3.hpp"
@@ -27,14 +28,14 @@ class HashGrid {
   void remove(std::uint32_t body);
   bool contains(std::uint32_t body) const { return body < places_.size() && places_[body].level >= 0; }
   std::size_t size() const { return size_; }
-  /// Of the cells on the finest level in use: about twice to four times the typical box (length).
+  /// Of the cells on the finest level in use: about twice the typical box (length).
   double finest_edge() const { return std::ldexp(1.0, finest_exponent_); }
 
   /// No registered box is wider on any axis (length).
   double largest_extent() const;
 
-  /// Calls visit(body) once for each registered body whose box overlaps `box`, touching included. `visit` may
-  /// not change the grid. Cost: the cells that the box meets, on each level in use, and what they hold.
+  /// Calls visit(body) or visit(body, FloatBox of it) once for each registered body whose box overlaps `box`,
+  /// touching included. `visit` may not change the grid. Cost: the cells that the box meets, on each level in use, and what they hold.
   template <class Visit>
   void for_each_overlap(const Box& box, Visit visit) const;
 
@@ -51,8 +52,8 @@ class HashGrid {
   /// cells are dropped depends on how many are empty and on the size of the table.
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [levels, places, size, finest_exponent, exponent_sum, changes] = self;
-    archive(levels, places, size, finest_exponent, exponent_sum, changes);
+    auto& [levels, places, size, finest_exponent, size_sum, changes] = self;
+    archive(levels, places, size, finest_exponent, size_sum, changes);
   }
   /// For one that was read: true when it could have come about by registrations. Cost: all cells.
   bool is_sound() const;
@@ -114,6 +115,7 @@ class HashGrid {
   };
   struct Level {
     double cells_per_length = 0.0;  ///< 1 / edge, a power of two
+    double reach = 0.0;             ///< no box has been larger since the level was made, in cells
     std::size_t bodies = 0;
     std::size_t empty_cells = 0;
     std::vector<Cell> cells;
@@ -123,25 +125,38 @@ class HashGrid {
     CellIndex cell_of(const FloatBox& box) const;
     /// Where boxes that overlap this one are registered.
     CellRange cells_around(const FloatBox& box) const;
+    double reach_of(const FloatBox& box) const;
     /// A position in units of cells, within what cell coordinates can hold.
     double in_cells(float position) const {
       constexpr float limit = std::numeric_limits<float>::max();
       const double finite = std::clamp(position, -limit, limit);
       return std::clamp(finite * cells_per_length, -coordinate_limit, coordinate_limit);
     }
-    const Cell* find(const CellIndex& index) const {
-      const std::size_t mask = slots.size() - 1;
-      for (std::size_t slot = hash(index) & mask; slots[slot].cell != 0; slot = (slot + 1) & mask)
-        if (slots[slot].index == index) return &cells[slots[slot].cell - 1];
-      return nullptr;
+    /// Fibonacci hashing: the high bits of a sum of products, so that the next cell costs one addition.
+    static constexpr std::uint64_t step_x = 0x9e3779b97f4a7c15u;
+    static constexpr std::uint64_t step_y = 0xc2b2ae3d27d4eb4fu;
+    static constexpr std::uint64_t step_z = 0x165667b19e3779f9u;
+    static std::uint64_t hash(const CellIndex& index) {
+      return static_cast<std::uint64_t>(index.x) * step_x + static_cast<std::uint64_t>(index.y) * step_y +
+             static_cast<std::uint64_t>(index.z) * step_z;
     }
+    std::size_t first_slot(std::uint64_t hashed) const {
+      return static_cast<std::size_t>(hashed >> (64 - std::countr_zero(slots.size())));
+    }
+    const Cell* find(const CellIndex& index, std::uint64_t hashed) const {
+      for (std::size_t slot = first_slot(hashed);; slot = (slot + 1) & (slots.size() - 1)) {
+        if (slots[slot].cell == 0) return nullptr;
+        if (slots[slot].index == index) return &cells[slots[slot].cell - 1];
+      }
+    }
+    const Cell* find(const CellIndex& index) const { return find(index, hash(index)); }
     Cell& find_or_create(const CellIndex& index);
     void rehash();
 
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
-      auto& [scale, body_count, empty_count, all_cells, table] = self;
-      archive(scale, body_count, empty_count, all_cells, table);
+      auto& [scale, largest, body_count, empty_count, all_cells, table] = self;
+      archive(scale, largest, body_count, empty_count, all_cells, table);
     }
     /// True when the table finds each cell.
     bool table_is_sound() const;
@@ -166,30 +181,36 @@ class HashGrid {
   void erase(std::uint32_t body);
   void retune_if_worthwhile();
 
-  static std::size_t hash(const CellIndex& index) {
-    std::uint64_t h = static_cast<std::uint32_t>(index.x) * 0x9e3779b97f4a7c15u;
-    h = (h ^ static_cast<std::uint32_t>(index.y)) * 0xc2b2ae3d27d4eb4fu;
-    h = (h ^ (h >> 29) ^ static_cast<std::uint32_t>(index.z)) * 0x165667b19e3779f9u;
-    return static_cast<std::size_t>(h ^ (h >> 32));
-  }
   static int exponent_of(float extent);
+  static std::int64_t size_of(float extent);
+  /// In size_of() an octave counts as this.
+  static constexpr int octave = 16;
 
   std::vector<Level> levels_;
   std::vector<Place> places_;
   std::size_t size_ = 0;
   int finest_exponent_ = 0;        ///< log2 of the edge on level 0
-  std::int64_t exponent_sum_ = 0;  ///< of the extents of all registered boxes
+  std::int64_t size_sum_ = 0;      ///< of size_of() of all registered boxes
   std::size_t changes_since_tuning_ = 0;
 };
 
 template <class Visit>
 void HashGrid::for_each_overlap(const Box& box, Visit visit) const {
   const FloatBox query(box);
+  const BoxBlock::Query wanted(query);
   for (const Level& level : levels_) {
     if (level.bodies == 0) continue;
     const CellRange range = level.cells_around(query);
     const auto visit_cell = [&](const Cell& cell) {
-      for (const BoxBlock& block : cell.blocks) block.visit_bodies(block.overlapping(query), visit);
+      for (const BoxBlock& block : cell.blocks) {
+        BoxBlock::for_each(block.overlapping(wanted), [&](std::size_t place) {
+          if constexpr (std::is_invocable_v<Visit, std::uint32_t, FloatBox>) {
+            visit(block.body(place), block.box(place));
+          } else {
+            visit(block.body(place));
+          }
+        });
+      }
     };
     if (range.count() > static_cast<double>(level.cells.size())) {
       for (const Cell& cell : level.cells)
@@ -197,9 +218,11 @@ void HashGrid::for_each_overlap(const Box& box, Visit visit) const {
       continue;
     }
     for (std::int32_t z = range.first.z; z <= range.last.z; ++z)
-      for (std::int32_t y = range.first.y; y <= range.last.y; ++y)
-        for (std::int32_t x = range.first.x; x <= range.last.x; ++x)
-          if (const Cell* cell = level.find({x, y, z})) visit_cell(*cell);
+      for (std::int32_t y = range.first.y; y <= range.last.y; ++y) {
+        std::uint64_t hashed = Level::hash({range.first.x, y, z});
+        for (std::int32_t x = range.first.x; x <= range.last.x; ++x, hashed += Level::step_x)
+          if (const Cell* cell = level.find({x, y, z}, hashed)) visit_cell(*cell);
+      }
   }
 }
 

@@ -47,12 +47,9 @@ bool World::Engine::Answers::settled(std::uint32_t a, std::uint32_t b) const {
 /// The engine looks at the pair no sooner than this, so it tells of no begin before.
 double World::Engine::Answers::recorded(std::uint32_t a, std::uint32_t b) const {
   if (!settled(a, b)) return now_;
-  double watched = -infinity;
-  for (const auto& [watcher, partner] : {std::pair(a, b), std::pair(b, a)})
-    for (const Watch& watch : body(watcher).watches)
-      if (watch.partner == partner && watch.epoch == body(partner).epoch)
-        watched = std::max(watched, watch.time);
-  if (watched == -infinity) watched = std::min(body(a).box_end, body(b).box_end);
+  const auto place = engine_.neighbours_.find(a, b);
+  double watched = place ? engine_.neighbours_.watched_until(a, *place) : infinity;
+  if (watched == infinity) watched = std::min(body(a).box_end, body(b).box_end);
   return std::max(watched, now_);
 }
 
@@ -146,9 +143,8 @@ Onset World::Engine::Answers::of_body(std::uint32_t number) const {
   consider_touching(number, first);
   if (first.touching) return first;
   consider_walls(number, first);
-  // Those that it watches are near: they leave little to compute of the others.
-  for (const Watch& watch : body(number).watches)
-    if (body(watch.partner).present()) consider(number, watch.partner, first);
+  // Those that are near leave little to compute of the others.
+  for (const Neighbour& one : engine_.neighbours_.of(number)) consider(number, one.partner, first);
   for (std::uint32_t other = 0; other < engine_.bodies_.size(); ++other)
     if (other != number && body(other).present()) consider(number, other, first);
   return first;
@@ -164,8 +160,8 @@ Onset World::Engine::Answers::of_world() const {
   // Any pair limits the answer; those at hand limit it well.
   for (std::size_t k = 0; k < present.size(); ++k) {
     consider_walls(present[k], first);
-    for (const Watch& watch : body(present[k]).watches)
-      if (body(watch.partner).present()) consider(present[k], watch.partner, first);
+    for (const Neighbour& one : engine_.neighbours_.of(present[k]))
+      if (one.watch < infinity) consider(present[k], one.partner, first);
     if (k > 0) consider(present[k - 1], present[k], first);
   }
   consider_all_within(present, first);

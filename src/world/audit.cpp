@@ -90,7 +90,8 @@ class World::Engine::Audit {
     const Body& b = body(number);
     if (!(b.box == engine_.box_of(b)) || b.box_end != infinity)
       find("registration", name(number) + " is fixed but not registered where its shape is");
-    if (!b.watches.empty()) find("certificate", name(number) + " is fixed but watches another");
+    for (const Neighbour& one : engine_.neighbours_.of(number))
+      if (one.watch < infinity) find("certificate", name(number) + " is fixed but watches another");
   }
 
   void check_schedule(std::uint32_t number) {
@@ -98,7 +99,7 @@ class World::Engine::Audit {
     if (!engine_.schedule_.contains(number)) return find("queue", name(number) + " is not scheduled");
     if (b.dirty) return;
     double wanted = std::min(b.box_end, b.wall_time);
-    for (const Watch& watch : b.watches) wanted = std::min(wanted, watch.time);
+    for (const Neighbour& one : engine_.neighbours_.of(number)) wanted = std::min(wanted, one.watch);
     const double found = engine_.schedule_.time_of(number);
     if (found > wanted) find("queue", name(number) + " is scheduled too late" + times(found, wanted));
     if (found < now_) find("queue", name(number) + " is scheduled in the past" + times(now_, found));
@@ -156,19 +157,16 @@ class World::Engine::Audit {
   void check_threshold(std::uint32_t a, std::uint32_t b, const Threshold& threshold) {
     if (!checkable(a, b, threshold)) return;
     const double change = earliest_change(a, b, threshold);
-    bool watched = false;
-    for (const auto& [watcher, partner] : {std::pair(a, b), std::pair(b, a)}) {
-      for (const Watch& watch : body(watcher).watches) {
-        if (watch.partner != partner || watch.epoch != body(partner).epoch) continue;
-        watched = true;
-        // Then the two may meet in another image.
-        if (engine_.space_.repeats() && watch.time > std::min(body(a).box_end, body(b).box_end))
-          find("certificate", pair(a, b) + " are watched beyond the end of a box");
-        if (too_late(watch.time, change, now_))
-          find("certificate", pair(a, b) + " may change unseen" + times(watch.time, change));
-      }
+    const auto place = engine_.neighbours_.find(a, b);
+    const double watched = place ? engine_.neighbours_.watched_until(a, *place) : infinity;
+    if (watched < infinity) {
+      // Else the two may meet in another image.
+      if (engine_.space_.repeats() && watched > std::min(body(a).box_end, body(b).box_end))
+        find("certificate", pair(a, b) + " are watched beyond the end of a box");
+      if (too_late(watched, change, now_))
+        find("certificate", pair(a, b) + " may change unseen" + times(watched, change));
+      return;
     }
-    if (watched) return;
     const bool for_ever = threshold.within && !engine_.facts_end_with_boxes();
     const double until = for_ever ? infinity : std::min(body(a).box_end, body(b).box_end);
     if (!threshold.within && !boxes_overlap(a, b)) return;

@@ -67,8 +67,6 @@ void World::Engine::set_promise(BodyId id, const MotionPromise& promise) {
 void World::Engine::disable(BodyId id) {
   Body& body = bodies_[id.index];
   withdraw(id.index);
-  ++body.epoch;
-  body.watches.clear();
   body.kicked_since_report = false;
   body.enabled = false;
 }

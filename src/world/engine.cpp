@@ -5,6 +5,11 @@
 #include <cmath>
 
 namespace kinesphere {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
 
 World::Engine::Engine(const WorldDefinition& definition)
     : definition_(definition),
@@ -19,6 +24,7 @@ std::uint32_t World::Engine::take_number() {
   if (free_.empty()) {
     number = static_cast<std::uint32_t>(bodies_.size());
     bodies_.emplace_back();
+    neighbours_.make_room(bodies_.size());
   } else {
     number = free_.back();
     free_.pop_back();
@@ -59,6 +65,7 @@ void World::Engine::withdraw(std::uint32_t number) {
   book_.depart(
       number, time_, [this](std::uint32_t other) { return sphere(other); }, walls_);
   grid_.remove(number);
+  neighbours_.remove_all(number);
   schedule_.remove(number);
   bodies_[number].dirty = false;
 }
@@ -69,10 +76,8 @@ void World::Engine::remove(BodyId id) {
   withdraw(number);
   if (body.is_fixed()) free_shapes_.push_back(body.shape_number);
   const std::uint32_t generation = body.generation + 1;
-  const std::uint32_t epoch = body.epoch + 1;
   body = Body{};
   body.generation = generation;
-  body.epoch = epoch;
   free_.push_back(number);
   --size_;
 }
@@ -129,6 +134,7 @@ std::optional<BodyId> World::Engine::certain_overlap(BodyId id, const Extent& ex
 void World::Engine::kick(BodyId id, const Vec3& velocity) {
   Body& body = bodies_[id.index];
   body.definition.velocity = velocity;
+  body.turned = true;
   if (body.fresh(time_)) {
     body.bound.velocity = velocity;
   } else {
@@ -176,10 +182,15 @@ Result<void> World::Engine::gather() {
 }
 
 Result<void> World::Engine::wake(std::uint32_t number) {
+  if (bodies_[number].dirty) {
+    schedule_.set(number, infinity);
+    return {};
+  }
   ++counters_.wakes;
   if (bodies_[number].box_end <= time_) {
     ++counters_.box_ends;
     mark_dirty(number);
+    schedule_.set(number, infinity);
     return {};
   }
   const std::uint64_t checks_before = counters_.pair_checks + counters_.wall_checks;
@@ -188,20 +199,27 @@ Result<void> World::Engine::wake(std::uint32_t number) {
     if (auto settled = settle_walls(number); !settled) return settled;
   }
   for (;;) {
-    auto& watches = bodies_[number].watches;
+    const auto& all = neighbours_.of(number);
     const auto due =
-        std::find_if(watches.begin(), watches.end(), [this](const Watch& w) { return w.time <= time_; });
-    if (due == watches.end()) break;
+        std::find_if(all.begin(), all.end(), [this](const Neighbour& one) { return one.watch <= time_; });
+    if (due == all.end()) break;
     const std::uint32_t partner = due->partner;
-    if (due->epoch != bodies_[partner].epoch || bodies_[partner].dirty) {
-      unwatch(number, partner);
+    const auto place = static_cast<Neighbours::Place>(due - all.begin());
+    if (bodies_[partner].dirty) {
+      neighbours_.unwatch(number, place);
       continue;
+    }
+    if (only_contacts_of_spheres() && !book_.touch(number, partner)) {
+      if (const double until = Lookout(*this, number).apart_until(bodies_[partner]); until > time_) {
+        neighbours_.watch(number, place, until);
+        continue;
+      }
     }
     ++counters_.pair_checks;
     if (!bodies_[number].fresh(time_) && !bodies_[partner].fresh(time_)) {
       if (auto probed = probe_staler(number, partner); !probed) return probed;
     }
-    if (auto settled = settle_pair(number, partner); !settled) return settled;
+    if (auto settled = settle_pair(number, place); !settled) return settled;
   }
   if (counters_.pair_checks + counters_.wall_checks == checks_before) ++counters_.stale_wakes;
   if (!bodies_[number].dirty) reschedule(number);
@@ -211,7 +229,7 @@ Result<void> World::Engine::wake(std::uint32_t number) {
 void World::Engine::reschedule(std::uint32_t number) {
   const Body& body = bodies_[number];
   double first = std::min(body.box_end, body.wall_time);
-  for (const Watch& watch : body.watches) first = std::min(first, watch.time);
+  for (const Neighbour& one : neighbours_.of(number)) first = std::min(first, one.watch);
   schedule_.set(number, first);
 }
 

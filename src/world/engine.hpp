@@ -2,17 +2,18 @@
 //
 // For every pair of living bodies one of these facts is recorded whenever time moves on:
 //   - their boxes do not overlap, and each body stays in its box until its box_end; or
-//   - one of the two watches the other: whether they touch, and which sensor distances they are within,
-//   cannot
-//     change before the watch's time; or
-//   - both are apart and cross no sensor distance until the earlier of the two box ends; or
+//   - they are neighbours and one of the two watches the other: whether they touch, and which sensor distances
+//     they are within, cannot change before the watch's time; or
+//   - they are neighbours, both apart, and cross no sensor distance until the earlier of the two box ends; or
 //   - the filters keep them from touching and sensing each other.
-// A box has room for all that its body can sense around it.
+// A box has room for all that its body can sense around it. Neighbours are those whose boxes overlap, and those
+// that touch or sense each other.
 // A fact is about the true bodies, so later probes leave it true. Only a discontinuity (a kick, a broken
-// promise, a change that the caller makes) ends it: it raises the body's epoch, which voids the watches that
-// others keep of it, and makes the body dirty. A dirty body gets a new box and looks for its neighbours again
-// before time moves on (a disabled one is out of the grid and the schedule instead); so does a body whose box
-// has run out, which renews the first and the last kind of fact. Each body is scheduled at the earliest of
+// promise, a change that the caller makes) ends it: it takes away all watches of the body from both sides, and
+// makes the body dirty. A dirty body settles all its pairs again before time moves on (a disabled one is out of
+// the grid and the schedule instead), in its old box if that still holds it for a good while, or in a new one
+// after it has looked for its neighbours; so does a body whose box has run out, which renews the first and the
+// third kind of fact. Each body is scheduled at the earliest of
 // its box end, its wall time and its watches. A fixed body has a shape in a table of its own and a box for
 // ever. It is never probed and watches nobody: its partners, which move, watch it.
 //
@@ -32,6 +33,8 @@
 #include <utility>
 #include <vector>
 
+#include "bound/encounter.hpp"
+#include "bound/rounding.hpp"
 #include "contact/contact_book.hpp"
 #include "contact/outlook.hpp"
 #include "contact/sensor_table.hpp"
@@ -41,54 +44,43 @@
 #include "space/space.hpp"
 #include "world/extent.hpp"
 #include "world/horizon.hpp"
+#include "world/neighbours.hpp"
 
 namespace kinesphere {
-
-/// Whether the two touch or sense each other cannot change before `time`, as long as the partner's epoch is
-/// still `epoch`.
-struct Watch {
-  double time;
-  std::uint32_t partner;
-  std::uint32_t epoch;
-
-  template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
-    auto& [when, whom, whose_epoch] = self;
-    archive(when, whom, whose_epoch);
-  }
-};
 
 /// Of a body that moves.
 inline constexpr std::uint32_t no_shape = std::numeric_limits<std::uint32_t>::max();
 
-struct Body {
-  BodyDefinition definition;  ///< with the state of the last report
-  Bound bound;                ///< since the last report
-  Box box;                    ///< contains the body, and all that it senses, until box_end
-  /// Whole numbers: bound.position + image * period is on the path since the caller placed the body.
-  Vec3 image{};
-  double box_end = 0.0;
+/// What others need to know of a body to settle a pair comes first, in two cache lines.
+struct alignas(64) Body {
+  Bound bound;           ///< since the last report
+  double box_end = 0.0;  ///< the body stays in its box until then
   double wall_time = 0.0;  ///< no wall contact begins or ends before this or, if it is infinite, box_end
-  std::optional<Horizon> horizon;
-  std::vector<Watch> watches;
-  std::uint32_t generation = 0;
-  std::uint32_t epoch = 0;
-  std::uint32_t shape_number = no_shape;  ///< in the table of the shapes of fixed bodies
   bool alive = false;
   bool enabled = true;
-  bool dirty = false;     ///< in the list of those to settle before time moves on
-  bool searched = false;  ///< settled in the present round
+  bool dirty = false;    ///< in the list of those to settle before time moves on
+  bool settled = false;  ///< in the present round
   bool kicked_since_report = false;
+  bool turned = false;  ///< kicked since its box was made
+  bool voided = false;  ///< no fact about it is left since it was settled
+
+  std::uint32_t shape_number = no_shape;  ///< in the table of the shapes of fixed bodies
+  std::uint32_t generation = 0;
+  BodyDefinition definition;  ///< with the state of the last report
+  Box box;                    ///< contains the body, and all that it senses
+  /// Whole numbers: bound.position + image * period is on the path since the caller placed the body.
+  Vec3 image{};
+  std::optional<Horizon> horizon;
 
   bool present() const { return alive && enabled; }
   bool is_fixed() const { return shape_number != no_shape; }
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [promised, since_report, place, images, place_end, walls_until, ahead, watched, own_generation,
-           own_epoch, own_shape, lives, takes_part, unsettled, has_searched, kicked] = self;
-    archive(promised, since_report, place, images, place_end, walls_until, ahead, watched, own_generation,
-            own_epoch, own_shape, lives, takes_part, unsettled, has_searched, kicked);
+    auto& [since_report, place_end, walls_until, lives, takes_part, unsettled, is_settled, kicked, turns,
+           forgotten, own_shape, own_generation, promised, place, images, ahead] = self;
+    archive(since_report, place_end, walls_until, lives, takes_part, unsettled, is_settled, kicked, turns,
+            forgotten, own_shape, own_generation, promised, place, images, ahead);
   }
 
   /// The world knows its present state.
@@ -230,29 +222,44 @@ class World::Engine {
   /// The limits of the gap of the two now, in the image in which they are nearest.
   GapLimits gap_now(const Extent& a, const Extent& b) const;
 
+  // boxes.cpp: registrations.
+  void choose_first_horizons(const std::vector<std::uint32_t>& round);
+  Bound reach(const Body& body) const;
+  double box_length(const Body& body) const;
+  bool keep_box(std::uint32_t number);
+  void register_box(std::uint32_t number);
+  void find_neighbours(std::uint32_t number);
+  void bring_home(Body& body) const;
+  double longest_in_period(const Body& body) const;
+
   // settling.cpp: facts.
   void mark_dirty(std::uint32_t number);
   void void_facts(std::uint32_t number);
   Result<void> settle_all();
   Result<void> settle_round(const std::vector<std::uint32_t>& round);
-  void choose_first_horizons(const std::vector<std::uint32_t>& round);
-  Bound reach(const Body& body) const;
-  void register_box(std::uint32_t number);
-  void bring_home(Body& body) const;
-  double longest_in_period(const Body& body) const;
   Vec3 shift_to_meet(std::uint32_t a, std::uint32_t b) const;
   Bound seen_from(std::uint32_t a, std::uint32_t b) const;
   /// Whether the facts about a pair hold no longer than its boxes, also while it touches: one watch stands
   /// for all its thresholds, or for one image.
   bool facts_end_with_boxes() const { return sensors_.any() || space_.repeats(); }
-  Result<void> search(std::uint32_t number);
-  Result<void> settle_pair(std::uint32_t number, std::uint32_t partner);
+  Result<void> settle_changed(std::uint32_t a, std::uint32_t b);
+  Result<void> settle_neighbours(std::uint32_t number);
+  Result<void> settle_each_neighbour(std::uint32_t number);
+  Result<void> settle_spheres(std::uint32_t number);
+  class Lookout;
+  /// A dirty partner will settle the pair itself; one that has been settled in this round has done so.
+  bool settles_itself(std::uint32_t partner) const {
+    return bodies_[partner].dirty || bodies_[partner].settled;
+  }
+  /// Nothing else can happen between two bodies, and their bounds are all there is to know.
+  bool only_contacts_of_spheres() const {
+    return !sensors_.any() && !filtering_ && shapes_.empty() && !space_.repeats();
+  }
+  Result<void> settle_pair(std::uint32_t number, Neighbours::Place place);
   template <class Partner>
-  bool look_at_pair(std::uint32_t number, std::uint32_t partner, const Bound& bound, const Partner& other);
+  bool look_at_pair(std::uint32_t number, Neighbours::Place place, const Bound& bound, const Partner& other);
   Result<void> settle_walls(std::uint32_t number);
-  bool has_watch(std::uint32_t number, std::uint32_t partner) const;
-  void watch(std::uint32_t number, std::uint32_t partner, double time);
-  void unwatch(std::uint32_t number, std::uint32_t partner);
+  bool is_watched(std::uint32_t number, Neighbours::Place place) const;
   template <class Visit>
   void for_each_threshold(std::uint32_t a, std::uint32_t b, Visit visit) const;
   template <class Partner>
@@ -276,6 +283,7 @@ class World::Engine {
   const char* contradiction() const;
   bool bodies_are_sound() const;
   bool shapes_are_sound() const;
+  bool neighbours_are_sound() const;
   bool is_sound(const Body& body) const;
   bool contacts_of_fixed_are_sound() const;
   bool is_sound_fixed(const Body& body) const;
@@ -293,6 +301,7 @@ class World::Engine {
   std::vector<Shape> shapes_;  ///< of fixed bodies
   std::vector<std::uint32_t> free_shapes_;
   HashGrid grid_;
+  Neighbours neighbours_;
   HeapSchedule schedule_;
   std::vector<std::uint32_t> dirty_;
   Counters counters_;
@@ -307,6 +316,57 @@ class World::Engine {
   std::vector<BodyId> probe_ids_;
   std::vector<State> probe_states_;
   std::vector<std::uint32_t> partners_;
+  std::vector<std::uint32_t> round_;
+  std::vector<std::uint32_t> chosen_;
+};
+
+/// A body from whom one neighbour after the other is looked at. It and they touch nothing.
+class World::Engine::Lookout {
+ public:
+  Lookout(const Engine& engine, std::uint32_t number)
+      : body_(engine.bodies_[number]),
+        own_(body_.bound, engine.time_),
+        now_(engine.time_),
+        tolerance_(engine.definition_.contact_tolerance) {
+    look_at(std::min(body_.box_end, body_.wall_time));
+  }
+
+  /// The body will be looked at at this time. Pairs that come into question only much later can wait for then.
+  void look_at(double time) {
+    if (time < first_) {
+      first_ = time;
+      enough_ = now_ + beyond_first * (first_ - now_);
+    }
+  }
+
+  /// The two certainly stay apart until this time: for a while beyond the next look, or longer; +infinity: until
+  /// their boxes end. Now, if only fresh reports can tell, and one of them is not.
+  [[gnu::always_inline]] double apart_until(const Body& other) const {
+    const double boxes_end = std::min(body_.box_end, other.box_end);
+    const double until = std::min(boxes_end, enough_);
+    const Encounter encounter(own_, MovedBound(other.bound, now_));
+    if (encounter.stay_apart(until - now_, tolerance_)) return until < boxes_end ? until : infinity;
+    return meeting(encounter, boxes_end);
+  }
+
+ private:
+  static constexpr double beyond_first = 2.0;
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  double meeting(const Encounter& encounter, double boxes_end) const {
+    // Coordinates and ways are at most 2^45 tolerances: this covers all rounding, and a certificate for two that are
+    // not near spans most of a tolerance.
+    const double room = 0.0625 * tolerance_;
+    if (encounter.is_near(tolerance_)) return now_;
+    return rounding::sum_down(now_, encounter.meeting(boxes_end - now_, room));
+  }
+
+  const Body& body_;
+  const MovedBound own_;
+  const double now_;
+  const double tolerance_;
+  double first_ = infinity;
+  double enough_ = infinity;
 };
 
 /// What comes next between two bodies that may meet: their contact, the next sensor distance inward, and the

@@ -31,8 +31,8 @@ class Stopwatch {
 
 Memory World::Engine::memory() const {
   Memory memory;
-  for (const Body& body : bodies_) memory.watches += heap_bytes(body.watches);
-  memory.bodies = heap_bytes(bodies_) - memory.watches;
+  memory.watches = heap_bytes(neighbours_);
+  memory.bodies = heap_bytes(bodies_);
   memory.contacts = heap_bytes(book_);
   memory.grid = heap_bytes(grid_);
   memory.schedule = heap_bytes(schedule_);
@@ -43,10 +43,10 @@ Memory World::Engine::memory() const {
 std::vector<Certificate> World::Engine::certificates() const {
   std::vector<Certificate> all;
   for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
-    for (const Watch& watch : bodies_[number].watches) {
-      if (watch.epoch != bodies_[watch.partner].epoch) continue;
-      const auto [first, second] = std::minmax({id_of(number), id_of(watch.partner)});
-      all.push_back({first, second, watch.time});
+    for (const Neighbour& one : neighbours_.of(number)) {
+      if (one.watch == std::numeric_limits<double>::infinity()) continue;
+      const auto [first, second] = std::minmax({id_of(number), id_of(one.partner)});
+      all.push_back({first, second, one.watch});
     }
   }
   return all;

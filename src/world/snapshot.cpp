@@ -62,10 +62,11 @@ template <class Self, class Archive>
 void World::Engine::transfer(Self& self, Archive& archive) {
   // The definition comes first, as an engine is made from it, space and walls too; the last matter only
   // during advance().
-  auto& [definition, space, enclosure, book, time, size, bodies, free, shapes, free_shapes, grid, schedule,
-         dirty, counters, sensors, pair_filter, filtering, gathering, probe, probing_call, probing, probe_ids,
-         probe_states, partners] = self;
-  archive(book, time, size, bodies, free, shapes, free_shapes, grid, schedule, dirty, counters, sensors,
+  auto& [definition, space, enclosure, book, time, size, bodies, free, shapes, free_shapes, grid,
+         neighbours, schedule, dirty, counters, sensors, pair_filter, filtering, gathering, probe, probing_call, probing, probe_ids,
+         probe_states, partners, round,
+         chosen] = self;
+  archive(book, time, size, bodies, free, shapes, free_shapes, grid, neighbours, schedule, dirty, counters, sensors,
           filtering, gathering);
 }
 
@@ -112,6 +113,7 @@ const char* World::Engine::contradiction() const {
   const auto present = static_cast<std::size_t>(
       std::count_if(bodies_.begin(), bodies_.end(), [](const Body& body) { return body.present(); }));
   if (!grid_.is_sound() || grid_.size() != present) return "grid";
+  if (!neighbours_.is_sound(bodies_.size()) || !neighbours_are_sound()) return "neighbours";
   if (!schedule_.is_sound() || schedule_.size() != present) return "schedule";
   if (!schedule_.empty() && schedule_.earliest().time < time_) return "schedule";
   for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
@@ -123,6 +125,21 @@ const char* World::Engine::contradiction() const {
       return "contacts";
   }
   return nullptr;
+}
+
+/// All of them take part, fixed ones leave it to others to watch, and who touches or senses is a neighbour.
+bool World::Engine::neighbours_are_sound() const {
+  for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
+    for (const Neighbour& one : neighbours_.of(number))
+      if (!bodies_[number].present() || (bodies_[number].is_fixed() && one.watch < infinity)) return false;
+    const auto is_neighbour = [&](std::uint32_t other) { return neighbours_.find(number, other).has_value(); };
+    const auto& touched = book_.partners_of(number);
+    const auto& crossed = book_.crossings_of(number);
+    if (!std::all_of(touched.begin(), touched.end(), is_neighbour) ||
+        !std::all_of(crossed.begin(), crossed.end(), [&](const Crossing& c) { return is_neighbour(c.partner); }))
+      return false;
+  }
+  return true;
 }
 
 /// Each shape belongs to one body or is free.
@@ -173,8 +190,8 @@ bool World::Engine::is_sound_fixed(const Body& body) const {
   return same(body.definition, made) &&
          same(body.bound, bound_of(made, {made.position, {}}, body.bound.time)) && body.bound.time <= time_ &&
          std::isfinite(body.bound.time) && (!body.enabled || same(body.box, box_of(body))) &&
-         body.box_end == infinity && body.wall_time == infinity && body.watches.empty() && !body.horizon &&
-         !body.searched && !body.kicked_since_report && !(body.dirty && !body.enabled);
+         body.box_end == infinity && body.wall_time == infinity && !body.horizon &&
+         !body.settled && !body.kicked_since_report && !(body.dirty && !body.enabled);
 }
 
 bool World::Engine::bodies_are_sound() const {
@@ -192,17 +209,15 @@ bool World::Engine::bodies_are_sound() const {
   for (std::size_t number = 0; number < count; ++number) {
     const Body& body = bodies_[number];
     if (body.alive == is_free[number] || (body.dirty && !is_listed[number]) || !is_sound(body)) return false;
-    const auto watches_itself = [&](const Watch& w) { return w.partner == number; };
-    if (std::any_of(body.watches.begin(), body.watches.end(), watches_itself)) return false;
   }
   return size_ + free_.size() == count;
 }
 
 bool World::Engine::is_sound(const Body& body) const {
   if (body.is_fixed()) return is_sound_fixed(body);
-  if (body.searched) return false;
+  if (body.settled) return false;
   // An index that is free is as its next body will find it.
-  if (!body.alive) return !body.dirty && !body.kicked_since_report && !body.horizon && body.watches.empty();
+  if (!body.alive) return !body.dirty && !body.kicked_since_report && !body.horizon;
   WorldDefinition unbounded = definition_;
   unbounded.box.reset();
   if (!check_body(body.definition, unbounded, "restore") ||
@@ -210,14 +225,9 @@ bool World::Engine::is_sound(const Body& body) const {
       !kinesphere::is_sound(body.bound, time_, unbounded) || !kinesphere::is_sound(body.box) ||
       !image_is_sound(body))
     return false;
-  if (!body.enabled) return !body.dirty && !body.kicked_since_report && body.watches.empty();
+  if (!body.enabled) return !body.dirty && !body.kicked_since_report;
   if (!std::isfinite(body.box_end) || body.box_end < time_ || std::isnan(body.wall_time)) return false;
-  if (body.horizon ? !body.horizon->is_sound(definition_.contact_tolerance) : !body.dirty) return false;
-  return std::all_of(body.watches.begin(), body.watches.end(), [this](const Watch& w) {
-    if (std::isnan(w.time) || w.partner >= bodies_.size()) return false;
-    const Body& partner = bodies_[w.partner];
-    return w.epoch < partner.epoch || (w.epoch == partner.epoch && partner.present());
-  });
+  return body.horizon ? body.horizon->is_sound(definition_.contact_tolerance) : body.dirty;
 }
 
 /// Whole numbers, and none on axes that do not repeat.

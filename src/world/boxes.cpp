@@ -1,0 +1,162 @@
+// Boxes: how large and how long, and whose they overlap.
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "world/engine.hpp"
+
+namespace kinesphere {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// A box is kept when it will last for this part of what a new one would.
+const double least_part_kept = getenv("LPK") ? atof(getenv("LPK")) : 0.25;
+const double turned_part = getenv("TP") ? atof(getenv("TP")) : 0.5;
+
+}  // namespace
+
+/// New bodies begin with a horizon that lets them go about a quarter of the distance between them.
+void World::Engine::choose_first_horizons(const std::vector<std::uint32_t>& round) {
+  Vec3 lower{infinity, infinity, infinity};
+  Vec3 upper = -lower;
+  int count = 0;
+  for (const std::uint32_t number : round) {
+    if (bodies_[number].horizon || bodies_[number].is_fixed()) continue;
+    ++count;
+    for (int axis = 0; axis < 3; ++axis) {
+      lower[axis] = std::min(lower[axis], bodies_[number].box.lower[axis]);
+      upper[axis] = std::max(upper[axis], bodies_[number].box.upper[axis]);
+    }
+  }
+  if (count == 0) return;
+  const Vec3 size = upper - lower;
+  const double spacing =
+      std::ldexp(std::max({size.x, size.y, size.z}), -std::ilogb(count) / definition_.dimensions);
+  const double way = spacing > 0.0 ? 0.25 * spacing : definition_.contact_tolerance;
+  for (const std::uint32_t number : round)
+    if (!bodies_[number].horizon && !bodies_[number].is_fixed())
+      bodies_[number].horizon = Horizon::of_new_body(way, definition_.contact_tolerance);
+}
+
+/// Contains all that the body can touch or sense.
+Bound World::Engine::reach(const Body& body) const {
+  Bound bound = body.bound;
+  if (sensors_.any()) bound.radius += sensors_.reach(body.definition.sensor_class);
+  return bound;
+}
+
+/// How long a new box of the body would last.
+double World::Engine::box_length(const Body& body) const {
+  const double speed = norm(body.bound.velocity) + body.definition.velocity_error;
+  const double length = body.horizon->length(speed, body.largest_acceleration());
+  return space_.repeats() ? std::min(length, longest_in_period(body)) : length;
+}
+
+/// After a kick the body may stay in its box for a good while yet: then its neighbours are still those that it has.
+/// It stays in the box that holds both ends of its way, with the radius that it has at the end.
+bool World::Engine::keep_box(std::uint32_t number) {
+  Body& body = bodies_[number];
+  if (body.is_fixed() || body.box_end <= time_) return false;
+  const MovedBound moved(reach(body), time_);
+  const int axes = space_.is_flat() ? 2 : 3;
+  for (double length = box_length(body), shortest = least_part_kept * length; length >= shortest;
+       length *= 0.75) {
+    const Vec3 end = moved.centre + moved.velocity * length;
+    const double radius = moved.radius_after(length) + definition_.contact_tolerance / 16.0;  // for rounding
+    bool inside = true;
+    for (int axis = 0; axis < axes; ++axis) {
+      inside = inside && body.box.lower[axis] <= std::min(moved.centre[axis], end[axis]) - radius &&
+               std::max(moved.centre[axis], end[axis]) + radius <= body.box.upper[axis];
+    }
+    if (!inside) continue;
+    body.box_end = time_ + length;
+    return body.box_end > time_;
+  }
+  return false;
+}
+
+void World::Engine::register_box(std::uint32_t number) {
+  Body& body = bodies_[number];
+  if (body.is_fixed()) return register_shape(number);
+  const double length = (body.turned ? turned_part : 1.0) * box_length(body);
+  body.box_end = just_after(time_ + length);
+  body.box = swept_box(reach(body), time_, body.box_end);
+  if (body.turned) {
+    const Vec3 c = body.bound.centre_at(time_);
+    const double room = std::max({body.box.upper.x - c.x, body.box.upper.y - c.y, body.box.upper.z - c.z,
+                                  c.x - body.box.lower.x, c.y - body.box.lower.y, c.z - body.box.lower.z});
+    const Vec3 half = Vec3{1.0, 1.0, 1.0} * room;
+    body.box = {c - half, c + half};
+  }
+  body.box = space_.within(body.box);
+  body.turned = false;
+  bring_home(body);
+  grid_.set(number, body.box);
+}
+
+/// Moves the body to the image in which the centre of its box lies in the primary box.
+void World::Engine::bring_home(Body& body) const {
+  if (!space_.repeats()) return;
+  const Vec3 images = space_.wrapped(0.5 * (body.box.lower + body.box.upper)).images;
+  if (images == Vec3{}) return;
+  body.bound.position -= space_.shift_of(images);
+  body.image += images;
+  body.box = space_.within(swept_box(reach(body), time_, body.box_end));
+}
+
+/// How long a box of a body may last to be as narrow as space/space.hpp wants it (2): the box of a bound
+/// grows by at most (|v| + 2 e1) s + (|g| / 2 + A) s^2 on an axis.
+double World::Engine::longest_in_period(const Body& body) const {
+  const Bound& bound = body.bound;
+  const double reserve =
+      book_.rule().release_gap() + 4.0 * body.definition.position_error + 2.0 * reach(body).radius;
+  double longest = infinity;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!space_.repeats(axis)) continue;
+    const double period = space_.period()[axis];
+    // A little less than half, for rounding.
+    const double room = (0.5 - 0x1p-10) * period - reserve;
+    const double speed = std::abs(bound.velocity[axis]) + 2.0 * bound.growth_speed;
+    const double a = 0.5 * std::abs(bound.planned_acceleration[axis]) + bound.growth_acceleration;
+    const double way = std::max(room, 0.0);
+    const double divisor = speed + std::sqrt(speed * speed + 4.0 * a * way);
+    if (divisor > 0.0) longest = std::min(longest, 2.0 * way / divisor);
+  }
+  return longest;
+}
+
+/// What brings body b to the image in which body a may meet it while both boxes last: nearest by their boxes.
+Vec3 World::Engine::shift_to_meet(std::uint32_t a, std::uint32_t b) const {
+  const Box& box = bodies_[a].box;
+  const Box& other = bodies_[b].box;
+  return space_.shift_to_nearest(0.5 * (other.lower + other.upper), 0.5 * (box.lower + box.upper));
+}
+
+/// The bound of body b as body a has to reckon with it, where space repeats.
+Bound World::Engine::seen_from(std::uint32_t a, std::uint32_t b) const {
+  Bound bound = bodies_[b].bound;
+  bound.position += shift_to_meet(a, b);
+  return bound;
+}
+
+/// Those whose boxes overlap the body's new one, and those that it touches or senses.
+void World::Engine::find_neighbours(std::uint32_t number) {
+  ++counters_.searches;
+  Body& body = bodies_[number];
+  const double extent = body.box_extent();
+  std::size_t larger = 0;
+  partners_.clear();
+  space_.for_each_overlap(grid_, body.box, [&](std::uint32_t other, const FloatBox& box) {
+    if (other == number) return;
+    partners_.push_back(other);
+    if (Horizon::is_larger(static_cast<double>(box.extent()), extent)) ++larger;
+  });
+  counters_.candidates += partners_.size();
+  neighbours_.replace(number, partners_, [this, number](std::uint32_t partner) {
+    return book_.touch(number, partner) || book_.innermost(number, partner).has_value();
+  });
+  if (!body.is_fixed())
+    body.horizon->learn(partners_.size(), larger, extent, 2.0 * reach(body).radius, definition_.dimensions);
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,112 @@
+// Who is near whom: for each body the others whose boxes overlap its own, and until when each pair is settled.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace kinesphere {
+
+/// One side of a pair.
+struct Neighbour {
+  /// The watch: what holds between the two now cannot change before. +infinity: this side does not watch.
+  double watch = std::numeric_limits<double>::infinity();
+  std::uint32_t partner = 0;
+  std::uint32_t mirror = 0;  ///< the place of the pair in the partner's list
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [time, whom, there] = self;
+    archive(time, whom, there);
+  }
+};
+
+/// Every pair stands in the lists of both its bodies, and at most one side watches it.
+class Neighbours {
+ public:
+  using Place = std::uint32_t;
+
+  /// Bodies 0 to count - 1 have lists.
+  void make_room(std::size_t count) {
+    lists_.resize(count);
+    stamps_.resize(count, 0);
+  }
+  const std::vector<Neighbour>& of(std::uint32_t body) const { return lists_[body]; }
+  /// Where `partner` stands in the list of the body. Cost: O(length of the list).
+  std::optional<Place> find(std::uint32_t body, std::uint32_t partner) const;
+
+  /// The body's neighbours become `found` and those of the present ones for which keep(partner) is true; pairs
+  /// that stay keep their watches. Cost: O(old + new).
+  template <class Keep>
+  void replace(std::uint32_t body, std::span<const std::uint32_t> found, Keep keep);
+  void remove_all(std::uint32_t body);
+
+  /// The pair is watched from the body's side, until `time`, and not from the other.
+  void watch(std::uint32_t body, Place place, double time) {
+    Neighbour& here = lists_[body][place];
+    here.watch = time;
+    lists_[here.partner][here.mirror].watch = std::numeric_limits<double>::infinity();
+  }
+  /// The same for a pair that neither side watches.
+  void watch_unwatched(std::uint32_t body, Place place, double time) { lists_[body][place].watch = time; }
+  void unwatch(std::uint32_t body, Place place) {
+    watch(body, place, std::numeric_limits<double>::infinity());
+  }
+  void unwatch_all(std::uint32_t body) {
+    for (Place place = 0; place < lists_[body].size(); ++place) unwatch(body, place);
+  }
+  /// The time until which one of the sides watches the pair, or +infinity.
+  double watched_until(std::uint32_t body, Place place) const {
+    const Neighbour& here = lists_[body][place];
+    return std::min(here.watch, lists_[here.partner][here.mirror].watch);
+  }
+
+  /// Marks serve within a call only.
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [lists, stamps, stamp] = self;
+    archive(lists);
+    if constexpr (!std::is_const_v<Self>) stamps.assign(lists.size(), 0);
+  }
+  /// For those that were read: true when both sides of each pair know of each other, no pair is there twice, and
+  /// no more than one side watches it.
+  bool is_sound(std::size_t bodies) const;
+
+ private:
+  void link(std::uint32_t a, std::uint32_t b);
+  void unlink(std::uint32_t body, Place place);
+  void take_out(std::uint32_t body, Place place);
+
+  std::vector<std::vector<Neighbour>> lists_;
+  std::vector<std::uint32_t> stamps_;  ///< by body: stamp_ for those found and not yet in the list
+  std::uint32_t stamp_ = 0;
+};
+
+template <class Keep>
+void Neighbours::replace(std::uint32_t body, std::span<const std::uint32_t> found, Keep keep) {
+  constexpr std::uint32_t seen = 0;
+  if (++stamp_ == seen) {
+    stamps_.assign(stamps_.size(), seen);
+    ++stamp_;
+  }
+  for (const std::uint32_t partner : found) stamps_[partner] = stamp_;
+  for (auto place = static_cast<Place>(lists_[body].size()); place-- > 0;) {
+    const std::uint32_t partner = lists_[body][place].partner;
+    if (stamps_[partner] == stamp_) {
+      stamps_[partner] = seen;
+    } else if (!keep(partner)) {
+      unlink(body, place);
+    }
+  }
+  for (const std::uint32_t partner : found) {
+    if (stamps_[partner] == seen) continue;
+    stamps_[partner] = seen;
+    link(body, partner);
+  }
+}
+
+}  // namespace kinesphere
