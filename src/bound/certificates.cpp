@@ -14,7 +14,7 @@ constexpr double margin = rounding::margin;
 /// Any number of rounds is safe; more are only nearer to the truth.
 constexpr int max_rounds = 16;
 /// A round that gains less than this part of the whole is the last.
-constexpr double negligible_gain = 0x1p-12;
+constexpr double negligible_gain = 0x1p-24;
 
 /// Adds up the safe steps that `step(d)` offers at d after `from`.
 template <class Step>
@@ -73,26 +73,11 @@ struct Projection {
         growth_speed(bound.growth_speed + bound.growth_acceleration * elapsed) {}
 };
 
-/// Neither bound grows or turns: the distance squared is a quadratic, lowered here by what it may be wrong.
-double ballistic_meeting(const RelativeMotion& motion, double reach, double size, double from,
-                         double horizon) {
-  constexpr double wrong = 4.0 * margin;
-  const double length = norm(motion.offset) - margin * size;
-  const double c = (length - reach) * (length + reach);
-  const double speed = norm_one(motion.velocity);
-  const double b =
-      dot(motion.offset, motion.velocity) - wrong * (speed * size + norm_one(motion.offset) * motion.velocity_size);
-  const double a = norm_squared(motion.velocity) - wrong * speed * motion.velocity_size;
-  return time_of_crossing(from, horizon, c - std::abs(c) * margin, 2.0 * b, 2.0 * a);
-}
-
 }  // namespace
 
 double earliest_meeting(const Bound& a, const Bound& b, double from, double horizon, double distance) {
   const RelativeMotion motion(a, b, from);
   const double reach = motion.radii + distance;
-  if (motion.is_ballistic() && reach > 0.0)
-    return ballistic_meeting(motion, reach, motion.offset_size + std::abs(distance), from, horizon);
   return advance_by_safe_steps(from, horizon, [&](double d) {
     const Vec3 centre = motion.centre_at(d);
     const double length = norm(centre);

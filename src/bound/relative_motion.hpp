@@ -20,9 +20,6 @@ struct RelativeMotion {
   RelativeMotion(const Bound& a, const Bound& b, double from)
       : RelativeMotion(Part(a, from), Part(b, from)) {}
 
-  bool is_ballistic() const {
-    return growth == 0.0 && growth_speed == 0.0 && growth_acceleration == 0.0 && acceleration == Vec3{};
-  }
   Vec3 centre_at(double d) const { return offset + (velocity + acceleration * (0.5 * d)) * d; }
   Vec3 velocity_at(double d) const { return velocity + acceleration * d; }
   double growth_at(double d) const { return growth + (growth_speed + 0.5 * growth_acceleration * d) * d; }

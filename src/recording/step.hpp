@@ -125,7 +125,12 @@ struct Asking {
 /// The last one.
 struct End {
   double time = 0.0;
-  std::uint64_t checksum = 0;  ///< of the world's snapshot
+  std::uint64_t checksum = 0;  ///< checksum_of() the world's snapshot
+
+  /// A snapshot ends with its own checksum, which cancels that of all before: so its size is added first.
+  static std::uint64_t checksum_of(std::span<const std::byte> snapshot) {
+    return Checksum().add(std::uint64_t{snapshot.size()}).add(snapshot).value();
+  }
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {

@@ -178,7 +178,7 @@ TEST(Divergence, IsNamedWithStepAndTime) {
   const auto expect = [&](const std::string& parts, auto change) {
     const std::string message = divergence(altered(bytes, change));
     EXPECT_TRUE(message.starts_with("Replay::advance: recording, step ")) << message;
-    EXPECT_NE(message.find(parts), std::string::npos) << message;
+    EXPECT_NE(message.find(parts), std::string::npos) << message << " instead of " << parts;
   };
   expect("step 3 of ", [](auto& steps) { std::get<step::Add>(steps[0]).body.position.x = -2.5; });
   expect(", but found a probe of body ",
