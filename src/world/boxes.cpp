@@ -1,7 +1,6 @@
 // Boxes: how large and how long, and whose they overlap.
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "world/engine.hpp"
 
@@ -9,9 +8,10 @@ namespace kinesphere {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// A box is kept when it will last for this part of what a new one would.
-const double least_part_kept = getenv("LPK") ? atof(getenv("LPK")) : 0.25;
-const double turned_part = getenv("TP") ? atof(getenv("TP")) : 0.5;
+/// A box is kept when it will last for about a quarter of what a new one would.
+constexpr int most_lengths_tried = 5;
+/// A box with room on all sides is as large as one ahead of its body that lasts this part as long.
+constexpr double turned_part = 0.5;
 
 }  // namespace
 
@@ -52,19 +52,19 @@ double World::Engine::box_length(const Body& body) const {
   return space_.repeats() ? std::min(length, longest_in_period(body)) : length;
 }
 
-/// After a kick the body may stay in its box for a good while yet: then its neighbours are still those that it has.
-/// It stays in the box that holds both ends of its way, with the radius that it has at the end.
+/// The body may stay in its box for a good while yet, after a kick for one: then its neighbours are still those that
+/// it has. It stays in the box that holds both ends of its way, with the radius that it has at the end.
 bool World::Engine::keep_box(std::uint32_t number) {
   Body& body = bodies_[number];
   if (body.is_fixed() || body.box_end <= time_) return false;
   const MovedBound moved(reach(body), time_);
-  const int axes = space_.is_flat() ? 2 : 3;
-  for (double length = box_length(body), shortest = least_part_kept * length; length >= shortest;
-       length *= 0.75) {
+  const double rounding = definition_.contact_tolerance / 16.0;
+  double length = box_length(body);
+  for (int attempt = 0; attempt < most_lengths_tried; ++attempt, length *= 0.75) {
     const Vec3 end = moved.centre + moved.velocity * length;
-    const double radius = moved.radius_after(length) + definition_.contact_tolerance / 16.0;  // for rounding
+    const double radius = moved.radius_after(length) + rounding;
     bool inside = true;
-    for (int axis = 0; axis < axes; ++axis) {
+    for (int axis = 0; axis < definition_.dimensions; ++axis) {
       inside = inside && body.box.lower[axis] <= std::min(moved.centre[axis], end[axis]) - radius &&
                std::max(moved.centre[axis], end[axis]) + radius <= body.box.upper[axis];
     }
@@ -78,20 +78,30 @@ bool World::Engine::keep_box(std::uint32_t number) {
 void World::Engine::register_box(std::uint32_t number) {
   Body& body = bodies_[number];
   if (body.is_fixed()) return register_shape(number);
-  const double length = (body.turned ? turned_part : 1.0) * box_length(body);
-  body.box_end = just_after(time_ + length);
-  body.box = swept_box(reach(body), time_, body.box_end);
-  if (body.turned) {
-    const Vec3 c = body.bound.centre_at(time_);
-    const double room = std::max({body.box.upper.x - c.x, body.box.upper.y - c.y, body.box.upper.z - c.z,
-                                  c.x - body.box.lower.x, c.y - body.box.lower.y, c.z - body.box.lower.z});
-    const Vec3 half = Vec3{1.0, 1.0, 1.0} * room;
-    body.box = {c - half, c + half};
-  }
-  body.box = space_.within(body.box);
-  body.turned = false;
+  body.box_end = just_after(time_ + (body.turned ? turned_part : 1.0) * box_length(body));
+  body.box = box_of_way(body);
   bring_home(body);
+  body.turned = false;
   grid_.set(number, body.box);
+}
+
+/// Contains the body until its box_end. One that was kicked lately may be kicked again, and go anywhere: it gets as
+/// much room on all sides as the longest way needs, but no more than makes the box as wide as it may be where space
+/// repeats.
+Box World::Engine::box_of_way(const Body& body) const {
+  Box box = swept_box(reach(body), time_, body.box_end);
+  if (body.turned) {
+    const Vec3 centre = body.bound.centre_at(time_);
+    const Vec3 up = box.upper - centre;
+    const Vec3 down = centre - box.lower;
+    const double room = std::max({up.x, up.y, up.z, down.x, down.y, down.z});
+    for (int axis = 0; axis < 3; ++axis) {
+      const double half = space_.repeats(axis) ? std::min(room, 0.5 * widest_in_period(body, axis)) : room;
+      box.lower[axis] = std::min(box.lower[axis], centre[axis] - half);
+      box.upper[axis] = std::max(box.upper[axis], centre[axis] + half);
+    }
+  }
+  return space_.within(box);
 }
 
 /// Moves the body to the image in which the centre of its box lies in the primary box.
@@ -101,24 +111,25 @@ void World::Engine::bring_home(Body& body) const {
   if (images == Vec3{}) return;
   body.bound.position -= space_.shift_of(images);
   body.image += images;
-  body.box = space_.within(swept_box(reach(body), time_, body.box_end));
+  body.box = box_of_way(body);
 }
 
-/// How long a box of a body may last to be as narrow as space/space.hpp wants it (2): the box of a bound
-/// grows by at most (|v| + 2 e1) s + (|g| / 2 + A) s^2 on an axis.
+/// How wide the box of a body may be on an axis that repeats, by space/space.hpp (2); a little less, for rounding.
+double World::Engine::widest_in_period(const Body& body, int axis) const {
+  return (0.5 - 0x1p-10) * space_.period()[axis] - book_.rule().release_gap() -
+         4.0 * body.definition.position_error;
+}
+
+/// How long a box of a body may last to be no wider than that: the box of a bound grows by at most (|v| + 2 e1) s + (|g| / 2 + A) s^2 on an axis.
 double World::Engine::longest_in_period(const Body& body) const {
   const Bound& bound = body.bound;
-  const double reserve =
-      book_.rule().release_gap() + 4.0 * body.definition.position_error + 2.0 * reach(body).radius;
+  const double radius = reach(body).radius;
   double longest = infinity;
   for (int axis = 0; axis < 3; ++axis) {
     if (!space_.repeats(axis)) continue;
-    const double period = space_.period()[axis];
-    // A little less than half, for rounding.
-    const double room = (0.5 - 0x1p-10) * period - reserve;
     const double speed = std::abs(bound.velocity[axis]) + 2.0 * bound.growth_speed;
     const double a = 0.5 * std::abs(bound.planned_acceleration[axis]) + bound.growth_acceleration;
-    const double way = std::max(room, 0.0);
+    const double way = std::max(widest_in_period(body, axis) - 2.0 * radius, 0.0);
     const double divisor = speed + std::sqrt(speed * speed + 4.0 * a * way);
     if (divisor > 0.0) longest = std::min(longest, 2.0 * way / divisor);
   }
@@ -145,18 +156,19 @@ void World::Engine::find_neighbours(std::uint32_t number) {
   Body& body = bodies_[number];
   const double extent = body.box_extent();
   std::size_t larger = 0;
-  partners_.clear();
+  partners_ = book_.partners_of(number);
+  for (const Crossing& crossing : book_.crossings_of(number)) partners_.push_back(crossing.partner);
+  const std::size_t known = partners_.size();
   space_.for_each_overlap(grid_, body.box, [&](std::uint32_t other, const FloatBox& box) {
     if (other == number) return;
     partners_.push_back(other);
     if (Horizon::is_larger(static_cast<double>(box.extent()), extent)) ++larger;
   });
-  counters_.candidates += partners_.size();
-  neighbours_.replace(number, partners_, [this, number](std::uint32_t partner) {
-    return book_.touch(number, partner) || book_.innermost(number, partner).has_value();
-  });
+  const std::size_t candidates = partners_.size() - known;
+  counters_.candidates += candidates;
+  neighbours_.replace(number, partners_);
   if (!body.is_fixed())
-    body.horizon->learn(partners_.size(), larger, extent, 2.0 * reach(body).radius, definition_.dimensions);
+    body.horizon->learn(candidates, larger, extent, 2.0 * reach(body).radius, definition_.dimensions);
 }
 
 }  // namespace kinesphere

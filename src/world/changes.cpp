@@ -119,11 +119,12 @@ void World::Engine::learn_filter(const BodyDefinition& definition) {
 /// Nothing is known any more of who may touch or sense the body.
 void World::Engine::refilter(BodyId id) {
   const std::uint32_t number = id.index;
+  // Also of one that is disabled: it may be enabled again before they are delivered.
+  book_.drop_pending(number, [this](const Event& event) { return may_hold(event); });
   if (!bodies_[number].present()) return;
   book_.end_contacts(
       number, time_, [this](std::uint32_t other) { return sphere(other); }, walls_,
       [this](const Event& end) { return !may_hold(end); });
-  book_.drop_pending(number, [this](const Event& event) { return may_hold(event); });
   if (bodies_[number].is_fixed()) register_shape(number);
   void_facts(number);
 }

@@ -230,6 +230,8 @@ class World::Engine {
   void register_box(std::uint32_t number);
   void find_neighbours(std::uint32_t number);
   void bring_home(Body& body) const;
+  Box box_of_way(const Body& body) const;
+  double widest_in_period(const Body& body, int axis) const;
   double longest_in_period(const Body& body) const;
 
   // settling.cpp: facts.

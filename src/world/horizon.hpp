@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 
 namespace kinesphere {
 
@@ -73,7 +72,7 @@ class Horizon {
   }
 
  private:
-  static inline const double registration_cost = getenv("RC") ? atof(getenv("RC")) : 4.0;
+  static constexpr double registration_cost = 4.0;
   static constexpr double learning_rate = 0.25;
   /// For a body at rest, in any unit of time: its horizon must be finite.
   static constexpr double longest = 0x1p100;

@@ -13,6 +13,28 @@ std::optional<Neighbours::Place> Neighbours::find(std::uint32_t body, std::uint3
   return static_cast<Place>(found - list.begin());
 }
 
+void Neighbours::replace(std::uint32_t body, std::span<const std::uint32_t> found) {
+  constexpr std::uint32_t seen = 0;
+  if (++stamp_ == seen) {
+    stamps_.assign(stamps_.size(), seen);
+    ++stamp_;
+  }
+  for (const std::uint32_t partner : found) stamps_[partner] = stamp_;
+  for (auto place = static_cast<Place>(lists_[body].size()); place-- > 0;) {
+    const std::uint32_t partner = lists_[body][place].partner;
+    if (stamps_[partner] == stamp_) {
+      stamps_[partner] = seen;
+    } else {
+      unlink(body, place);
+    }
+  }
+  for (const std::uint32_t partner : found) {
+    if (stamps_[partner] == seen) continue;
+    stamps_[partner] = seen;
+    link(body, partner);
+  }
+}
+
 void Neighbours::link(std::uint32_t a, std::uint32_t b) {
   const auto place_a = static_cast<Place>(lists_[a].size());
   const auto place_b = static_cast<Place>(lists_[b].size());

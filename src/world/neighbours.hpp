@@ -39,10 +39,9 @@ class Neighbours {
   /// Where `partner` stands in the list of the body. Cost: O(length of the list).
   std::optional<Place> find(std::uint32_t body, std::uint32_t partner) const;
 
-  /// The body's neighbours become `found` and those of the present ones for which keep(partner) is true; pairs
-  /// that stay keep their watches. Cost: O(old + new).
-  template <class Keep>
-  void replace(std::uint32_t body, std::span<const std::uint32_t> found, Keep keep);
+  /// The body's neighbours become `found`, where some may stand several times; pairs that stay keep their watches.
+  /// Cost: O(old + new).
+  void replace(std::uint32_t body, std::span<const std::uint32_t> found);
   void remove_all(std::uint32_t body);
 
   /// The pair is watched from the body's side, until `time`, and not from the other.
@@ -85,28 +84,5 @@ class Neighbours {
   std::vector<std::uint32_t> stamps_;  ///< by body: stamp_ for those found and not yet in the list
   std::uint32_t stamp_ = 0;
 };
-
-template <class Keep>
-void Neighbours::replace(std::uint32_t body, std::span<const std::uint32_t> found, Keep keep) {
-  constexpr std::uint32_t seen = 0;
-  if (++stamp_ == seen) {
-    stamps_.assign(stamps_.size(), seen);
-    ++stamp_;
-  }
-  for (const std::uint32_t partner : found) stamps_[partner] = stamp_;
-  for (auto place = static_cast<Place>(lists_[body].size()); place-- > 0;) {
-    const std::uint32_t partner = lists_[body][place].partner;
-    if (stamps_[partner] == stamp_) {
-      stamps_[partner] = seen;
-    } else if (!keep(partner)) {
-      unlink(body, place);
-    }
-  }
-  for (const std::uint32_t partner : found) {
-    if (stamps_[partner] == seen) continue;
-    stamps_[partner] = seen;
-    link(body, partner);
-  }
-}
 
 }  // namespace kinesphere

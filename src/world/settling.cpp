@@ -76,6 +76,7 @@ class World::Engine::RoundInProgress {
     if (done_) return;
     for (const std::uint32_t number : round_) {
       engine_.bodies_[number].dirty = false;
+      engine_.bodies_[number].voided = false;  // some of its pairs may be settled
       engine_.mark_dirty(number);
     }
   }
@@ -107,6 +108,7 @@ Result<void> World::Engine::settle_round(const std::vector<std::uint32_t>& round
   for (const std::uint32_t number : round) {
     if (auto settled = settle_neighbours(number); !settled) return settled;
     bodies_[number].settled = true;
+    if (!bodies_[number].dirty) bodies_[number].voided = false;
   }
   for (const std::uint32_t number : round)
     if (!bodies_[number].dirty) reschedule(number);
@@ -119,9 +121,7 @@ Result<void> World::Engine::settle_neighbours(std::uint32_t number) {
   if (bodies_[number].is_fixed()) return settle_each_neighbour(number);
   if (auto settled = settle_walls(number); !settled) return settled;
   const bool bare = only_contacts_of_spheres() && book_.partners_of(number).empty();
-  auto settled = bare ? settle_spheres(number) : settle_each_neighbour(number);
-  bodies_[number].voided = false;
-  return settled;
+  return bare ? settle_spheres(number) : settle_each_neighbour(number);
 }
 
 Result<void> World::Engine::settle_each_neighbour(std::uint32_t number) {

@@ -127,12 +127,15 @@ const char* World::Engine::contradiction() const {
   return nullptr;
 }
 
-/// All of them take part, fixed ones leave it to others to watch, and who touches or senses is a neighbour.
+/// All of them take part, fixed ones leave it to others to watch, and bodies that are settled and touch or sense each
+/// other are neighbours.
 bool World::Engine::neighbours_are_sound() const {
   for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
     for (const Neighbour& one : neighbours_.of(number))
       if (!bodies_[number].present() || (bodies_[number].is_fixed() && one.watch < infinity)) return false;
-    const auto is_neighbour = [&](std::uint32_t other) { return neighbours_.find(number, other).has_value(); };
+    const auto is_neighbour = [&](std::uint32_t other) {
+      return bodies_[number].dirty || bodies_[other].dirty || neighbours_.find(number, other).has_value();
+    };
     const auto& touched = book_.partners_of(number);
     const auto& crossed = book_.crossings_of(number);
     if (!std::all_of(touched.begin(), touched.end(), is_neighbour) ||
