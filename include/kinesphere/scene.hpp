@@ -94,7 +94,13 @@ struct SceneParameters {
   double limit_min = 10.0, limit_max = 20.0;                              ///< acceleration
   Vec3 gravity{};                                                         ///< planned acceleration
   Box box{{0, 0, 0}, {200, 200, 200}};
+  /// In [0, 1). When positive, the box is made larger or smaller, in proportion and from its lower corner,
+  /// until the bodies fill this part of it. Up to about 0.55 there is room for spheres of one size.
+  double packing = 0.0;
   bool walls = true;
+  /// Space repeats with the box on all three axes; there are no walls then, and the velocities at the start
+  /// are changed by as much as makes the total momentum zero.
+  bool periodic = false;
   double redraw_interval = 0.2;  ///< how long a random force lasts
   Response response = Response::bounce;
   double restitution = 1.0;

@@ -26,7 +26,9 @@ std::string comment_line(const Scene& scene, double time) {
     const Vec3 size = box->upper - box->lower;
     line += fmt::format("Lattice=\"{} 0 0 0 {} 0 0 0 {}\" ", size.x, size.y, size.z);
     line += fmt::format("Origin=\"{} {} {}\" ", box->lower.x, box->lower.y, box->lower.z);
-    line += "pbc=\"F F F\" ";
+    const auto flag = [](bool repeats) { return repeats ? 'T' : 'F'; };
+    const Axes& periodic = scene.world.periodic;
+    line += fmt::format("pbc=\"{} {} {}\" ", flag(periodic.x), flag(periodic.y), flag(periodic.z));
   }
   line += "Properties=species:S:1:id:I:1:pos:R:3:velo:R:3:radius:R:1:bound_radius:R:1 ";
   return line + fmt::format("Time={}\n", time);

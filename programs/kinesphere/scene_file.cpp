@@ -96,6 +96,8 @@ constexpr FieldKind field_kinds[] = {
     {"limit", [](SceneParameters& p, const Field& f) { f.range(p.limit_min, p.limit_max); }},
     {"gravity", [](SceneParameters& p, const Field& f) { p.gravity = f.vector(); }},
     {"box", [](SceneParameters& p, const Field& f) { p.box = f.box(); }},
+    {"packing", [](SceneParameters& p, const Field& f) { p.packing = f.number(); }},
+    {"periodic", [](SceneParameters& p, const Field& f) { p.periodic = f.flag(); }},
     {"walls", [](SceneParameters& p, const Field& f) { p.walls = f.flag(); }},
     {"redraw_interval", [](SceneParameters& p, const Field& f) { p.redraw_interval = f.number(); }},
     {"response", [](SceneParameters& p, const Field& f) { p.response = response_named(f.text(), f.where); }},

@@ -58,6 +58,10 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
                     [](SceneParameters& p, Range r) { std::tie(p.limit_min, p.limit_max) = r; })
       ->type_name("MIN MAX")
       ->check(finite_number());
+  add_change<double>(command, options, "--packing", "packing",
+                     "Scale the box until the bodies fill this part of it, 0 to 1",
+                     [](SceneParameters& p, double packing) { p.packing = packing; })
+      ->check(finite_number());
   add_change<double>(command, options, "--tolerance", "contact_tolerance", "Contact tolerance (length)",
                      [](SceneParameters& p, double tolerance) { p.contact_tolerance = tolerance; })
       ->check(finite_number());

@@ -36,6 +36,8 @@ Result<void> check(const SceneParameters& p) {
       .positive({"contact_tolerance"}, p.contact_tolerance)
       .not_negative({"resting_speed"}, p.resting_speed)
       .not_negative({"zeno_interval"}, p.zeno_interval)
+      .require(p.packing >= 0.0 && p.packing < 1.0, ErrorCode::out_of_range, {"packing"},
+               "must lie in [0, 1)", p.packing)
       .require(p.restitution >= 0.0 && p.restitution <= 1.0, ErrorCode::out_of_range, {"restitution"},
                "must lie in [0, 1]", p.restitution)
       .result();
@@ -71,6 +73,39 @@ Result<std::unique_ptr<const Motion>> make_motion(const SceneParameters& p, std:
   return moved(Ballistic::create({.start = std::move(start), .gravity = p.gravity}));
 }
 
+/// By Newton's method from above, which std::cbrt is not: the same on every machine. For value > 0.
+double cube_root(double value) {
+  double root = std::max(value, 1.0);
+  for (;;) {
+    const double next = (2.0 * root + value / (root * root)) / 3.0;
+    if (!(next < root)) return root;
+    root = next;
+  }
+}
+
+/// Masses are as the cubes of the radii.
+double cube(double radius) { return radius * radius * radius; }
+
+/// The box in such a size that the bodies fill the part `packing` of it.
+Box packed(const Box& box, const std::vector<double>& radii, double packing) {
+  constexpr double ball = 4.1887902047863905;  // volume of the ball of radius 1
+  double filled = 0.0;
+  for (const double radius : radii) filled += ball * cube(radius);
+  const Vec3 size = box.upper - box.lower;
+  return {box.lower, box.lower + size * cube_root(filled / (packing * size.x * size.y * size.z))};
+}
+
+void remove_momentum(std::vector<State>& start, const std::vector<double>& radii) {
+  Vec3 momentum{};
+  double mass = 0.0;
+  for (std::size_t body = 0; body < start.size(); ++body) {
+    momentum += cube(radii[body]) * start[body].velocity;
+    mass += cube(radii[body]);
+  }
+  if (mass <= 0.0) return;
+  for (State& state : start) state.velocity -= momentum / mass;
+}
+
 SceneParameters with_name(std::string name, SceneParameters parameters) {
   parameters.name = std::move(name);
   return parameters;
@@ -78,8 +113,13 @@ SceneParameters with_name(std::string name, SceneParameters parameters) {
 
 }  // namespace
 
-Result<Scene> make_scene(const SceneParameters& p) {
-  if (auto valid = check(p); !valid) return valid.error();
+Result<Scene> make_scene(const SceneParameters& parameters) {
+  if (auto valid = check(parameters); !valid) return valid.error();
+  SceneParameters p = parameters;
+  std::vector<double> radii;
+  for (std::uint32_t body = 0; body < p.bodies; ++body)
+    radii.push_back(drawn(p, radius_stream, body, p.radius_min, p.radius_max));
+  if (p.packing > 0.0) p.box = packed(p.box, radii, p.packing);
   Scene scene;
   scene.name = p.name;
   scene.response = p.response;
@@ -87,14 +127,12 @@ Result<Scene> make_scene(const SceneParameters& p) {
   const double least = least_resting_speed(p.contact_tolerance, p.limit_max + norm(p.gravity));
   if (p.resting_speed > 0.0) scene.resting_speed = std::max(p.resting_speed, least);
   scene.end_time = p.seconds;
-  if (p.walls) scene.world.box = p.box;
+  if (p.walls || p.periodic) scene.world.box = p.box;
+  if (p.periodic) scene.world.periodic = {true, true, true};
   scene.world.contact_tolerance = p.contact_tolerance;
   scene.world.zeno_interval = p.zeno_interval;
   scene.world.contacts = p.response == Response::bounce ? ContactMode::impacts : ContactMode::begin_and_end;
 
-  std::vector<double> radii;
-  for (std::uint32_t body = 0; body < p.bodies; ++body)
-    radii.push_back(drawn(p, radius_stream, body, p.radius_min, p.radius_max));
   const auto centres =
       place_spheres(radii, p.box, 4.0 * p.contact_tolerance, Random::at(p.seed, placement_stream, 0).bits());
   if (!centres) {
@@ -111,6 +149,7 @@ Result<Scene> make_scene(const SceneParameters& p) {
     start.push_back({(*centres)[body], at_rest ? Vec3{} : random.unit_vector() * speed});
     scene.bodies.push_back({.radius = radii[body]});
   }
+  if (p.periodic) remove_momentum(start, radii);
   auto motion = make_motion(p, std::move(start));
   if (!motion) return motion.error();
   scene.motion = std::move(*motion);
@@ -137,6 +176,18 @@ const std::vector<SceneParameters>& built_in_scenes() {
                         .limit_max = 0.0,
                         .box = {{0, 0, 0}, {204, 204, 204}},
                         .seconds = 5.0}),
+      // Hard spheres in the units of theory: diameter, mass and temperature are 1.
+      with_name("periodic_gas", {.motion = Kind::ballistic,
+                                 .bodies = 4000,
+                                 .radius_min = 0.5,
+                                 .radius_max = 0.5,
+                                 .speed_min = 1.7320508075688772,
+                                 .speed_max = 1.7320508075688772,
+                                 .limit_min = 0.0,
+                                 .limit_max = 0.0,
+                                 .packing = 0.25,
+                                 .periodic = true,
+                                 .seconds = 5.0}),
       with_name("rain", {.motion = Kind::ballistic,
                          .bodies = 500,
                          .radius_min = 0.5,

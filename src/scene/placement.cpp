@@ -68,22 +68,31 @@ class RandomPlacement {
   std::vector<Vec3> centres_;
 };
 
-/// No packing has less than no gaps.
-bool exceed(const std::vector<double>& radii, const Box& box) {
+/// The part of the box that the spheres fill.
+double filled_part(const std::vector<double>& radii, const Box& box) {
   const double ball = 4.1887;  // volume of the ball of radius 1, rounded down
   double volume = 0.0;
   for (const double radius : radii) volume += ball * radius * radius * radius;
   const Vec3 size = box.upper - box.lower;
-  return volume > size.x * size.y * size.z;
+  return volume / (size.x * size.y * size.z);
+}
+
+/// Spheres of one size that are placed at random jam at 38 % of a large box, and take long well before that.
+bool will_jam(const std::vector<double>& radii, double filled) {
+  const auto differs = [&](double radius) { return radius != radii.front(); };
+  return filled > 0.28 && std::none_of(radii.begin(), radii.end(), differs);
 }
 
 }  // namespace
 
 std::optional<std::vector<Vec3>> place_spheres(const std::vector<double>& radii, const Box& box,
                                                double clearance, std::uint64_t seed) {
-  if (exceed(radii, box)) return std::nullopt;
-  auto centres = RandomPlacement(radii, box, clearance, seed).run();
-  return centres ? centres : relax_spheres(radii, box, clearance, seed);
+  const double filled = filled_part(radii, box);
+  if (filled > 1.0) return std::nullopt;  // no packing has less than no gaps
+  if (!will_jam(radii, filled)) {
+    if (auto centres = RandomPlacement(radii, box, clearance, seed).run()) return centres;
+  }
+  return relax_spheres(radii, box, clearance, seed);
 }
 
 }  // namespace kinesphere

@@ -46,6 +46,16 @@ TEST_F(FramesXyzTest, HasRadiiAndBoundRadii) {
             "S 1 1 2 4 0 0 1 1.5 11\n");
 }
 
+TEST_F(FramesXyzTest, TellsWhereSpaceRepeats) {
+  Scene scene = two_bodies();
+  scene.world.box = Box{{0, 0, 0}, {9, 9, 9}};
+  scene.world.periodic = {.y = true};
+  FramesXyz frames(path("f.xyz"), scene);
+  frames.write(StillDetector(), *scene.motion, 1);
+  frames.commit();
+  EXPECT_NE(read_text(path("f.xyz")).find("pbc=\"F T F\""), std::string::npos);
+}
+
 TEST_F(FramesXyzTest, LeavesOutWhatIsNotThereAndALatticeWithoutBox) {
   const Scene scene = two_bodies();
   FramesXyz frames(path("f.xyz"), scene);

@@ -15,7 +15,8 @@ std::string error_in(std::string_view text) {
 TEST(SceneFile, ReadsEveryField) {
   const SceneParameters p = parse_scene(R"({
     "name": "all", "motion": "ballistic", "bodies": 7, "radius": [1, 2.5], "speed": [3, 4], "limit": [5, 6],
-    "gravity": [0, 0, -9.81], "box": [[-1, -2, -3], [4, 5, 6]], "walls": false, "redraw_interval": 0.5,
+    "gravity": [0, 0, -9.81], "box": [[-1, -2, -3], [4, 5, 6]], "packing": 0.125, "walls": false,
+    "periodic": true, "redraw_interval": 0.5,
     "response": "pass_through", "restitution": 0.25, "resting_speed": 0.75, "contact_tolerance": 1e-9,
     "zeno_interval": 0.125, "seconds": 3,
     "seed": 18446744073709551615 })",
@@ -32,7 +33,9 @@ TEST(SceneFile, ReadsEveryField) {
   EXPECT_EQ(p.limit_max, 6.0);
   EXPECT_EQ(p.gravity, (Vec3{0, 0, -9.81}));
   EXPECT_EQ(p.box, (Box{{-1, -2, -3}, {4, 5, 6}}));
+  EXPECT_EQ(p.packing, 0.125);
   EXPECT_FALSE(p.walls);
+  EXPECT_TRUE(p.periodic);
   EXPECT_EQ(p.redraw_interval, 0.5);
   EXPECT_EQ(p.response, Response::pass_through);
   EXPECT_EQ(p.restitution, 0.25);

@@ -40,6 +40,9 @@ TEST(WrongScene, IsNotMade) {
   refused(ErrorCode::out_of_range, "redraw_interval", {.redraw_interval = 0.0});
   for (const double bad : {-0.1, 1.1, nan})
     refused(ErrorCode::out_of_range, "restitution", {.restitution = bad});
+  for (const double bad : {-0.1, 1.0, nan}) refused(ErrorCode::out_of_range, "packing", {.packing = bad});
+  refused(ErrorCode::out_of_range, "bodies",
+          {.bodies = 100, .radius_min = 1.0, .radius_max = 1.0, .packing = 0.9});
   refused(ErrorCode::out_of_range, "contact_tolerance", {.contact_tolerance = 0.0});
   refused(ErrorCode::out_of_range, "seconds", {.seconds = -1.0});
   refused(ErrorCode::out_of_range, "bodies", {.bodies = 9, .radius_min = 100.0, .radius_max = 100.0});
