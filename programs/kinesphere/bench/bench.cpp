@@ -1,5 +1,6 @@
 #include "bench/bench.hpp"
 
+#include "bench/gas.hpp"
 #include "bench/paper.hpp"
 #include "bench/speed/speed.hpp"
 
@@ -10,10 +11,12 @@ CLI::App* add_bench_command(CLI::App& program, BenchCommands& commands) {
   command->require_subcommand(1);
   add_bench_paper_command(*command, commands.paper);
   add_bench_speed_command(*command, commands.speed);
+  add_bench_gas_command(*command, commands.gas);
   return command;
 }
 
 int bench(const CLI::App& command, const BenchCommands& commands) {
+  if (command.got_subcommand("gas")) return bench_gas(commands.gas);
   return command.got_subcommand("speed") ? bench_speed(commands.speed) : bench_paper(commands.paper);
 }
 

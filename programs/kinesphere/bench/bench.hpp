@@ -10,6 +10,7 @@ namespace kinesphere::program {
 struct BenchCommands {
   BenchOptions paper{.output = "bench-paper", .only = {}};
   BenchOptions speed{.output = "bench-speed", .only = {}};
+  BenchOptions gas{.output = "bench-gas", .only = {}};
 };
 
 /// `commands` must live until the command line has been parsed.

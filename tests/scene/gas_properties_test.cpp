@@ -1,0 +1,182 @@
+// A gas of hard spheres has the collision rate and the pressure that theory knows.
+#include "scene/gas_properties.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <sstream>
+
+#include "kinesphere/motion/ballistic.hpp"
+#include "support/expect_error.hpp"
+
+namespace kinesphere {
+namespace {
+
+SceneParameters small_gas() {
+  const auto& scenes = built_in_scenes();
+  SceneParameters gas = *std::find_if(scenes.begin(), scenes.end(),
+                                      [](const auto& scene) { return scene.name == "periodic_gas"; });
+  gas.bodies = 50;
+  gas.seconds = 1.0;
+  return gas;
+}
+
+TEST(HardSphereTheory, BeginsWithTheVirialsOfADiluteGas) {
+  const double packing = 1e-4;
+  EXPECT_NEAR(hard_sphere_compressibility(packing), 1.0 + 4.0 * packing + 10.0 * packing * packing, 1e-10);
+  EXPECT_EQ(hard_sphere_compressibility(0.0), 1.0);
+  EXPECT_EQ(hard_sphere_collision_rate(0.0), 0.0);
+}
+
+/// hardsphere_Z_and_collision_rate.csv of the project's data, to its six decimals.
+TEST(HardSphereTheory, IsThatOfTheReference) {
+  struct Row {
+    double packing, compressibility, rate;
+  };
+  for (const Row& row :
+       {Row{0.05, 1.227485, 0.770069}, Row{0.10, 1.521647, 1.765845}, Row{0.25, 3.080182, 7.041703},
+        Row{0.40, 6.945460, 20.126198}, Row{0.49, 12.170358, 37.813199}}) {
+    EXPECT_NEAR(hard_sphere_compressibility(row.packing), row.compressibility, 6e-7) << row.packing;
+    EXPECT_NEAR(hard_sphere_collision_rate(row.packing), row.rate, 2e-6) << row.packing;
+  }
+}
+
+TEST(HardSphereTheory, IsThatOfTheWholeReferenceTable) {
+  const char* const folder = std::getenv("KINESPHERE_DATA");
+  const auto path = std::filesystem::path(folder != nullptr ? folder : KINESPHERE_DEFAULT_DATA) /
+                    "hardsphere_ref/hardsphere_Z_and_collision_rate.csv";
+  std::ifstream file(path);
+  if (!file) GTEST_SKIP() << "no " << path;
+  std::string line;
+  std::getline(file, line);
+  int rows = 0;
+  for (; std::getline(file, line); ++rows) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream fields(line);
+    double packing, density, compressibility, carnahan_starling, rate;
+    fields >> packing >> density >> compressibility >> carnahan_starling >> rate;
+    EXPECT_NEAR(hard_sphere_compressibility(packing), compressibility, 6e-7) << line;
+    EXPECT_NEAR(hard_sphere_collision_rate(packing), rate, 2e-6) << line;
+  }
+  EXPECT_EQ(rows, 49);
+}
+
+class Gas : public testing::TestWithParam<double> {};
+
+/// A fifth of the contacts, 100 collisions of each sphere, are for the gas to forget its start. The standard
+/// error is then about 0.2 % (that of a count, 1 / sqrt(400,000), is 0.16 %); the finite size shifts by
+/// 1 / N = 0.05 %.
+TEST_P(Gas, HasTheRateAndThePressureOfTheory) {
+  const double packing = GetParam();
+  const GasBlocks blocks{.equilibration = 10, .measured = 40};
+  const double contacts = 500'000;
+  SceneParameters gas = small_gas();
+  gas.bodies = 2000;
+  gas.packing = packing;
+  gas.seconds = contacts / (0.5 * gas.bodies * hard_sphere_collision_rate(packing));
+  SCOPED_TRACE(testing::Message() << "packing " << packing << ", seed " << gas.seed);
+  const GasProperties found = measure_gas(make_scene(gas).value(), make_world_detector, blocks).value();
+  EXPECT_NEAR(found.packing, packing, 1e-12);
+
+  const auto expect_close = [](const Estimate& estimate, double theory) {
+    EXPECT_GT(estimate.standard_error, 0.0);
+    EXPECT_LT(estimate.standard_error, 0.004 * theory);
+    EXPECT_NEAR(estimate.value, theory, 0.005 * theory + 2.0 * estimate.standard_error);
+  };
+  expect_close(found.compressibility, hard_sphere_compressibility(packing));
+  expect_close(found.collision_rate, hard_sphere_collision_rate(packing));
+  EXPECT_LT(found.energy_change, 1e-11);
+  EXPECT_LT(found.momentum_change, 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(Packings, Gas, testing::Values(0.05, 0.25, 0.49));
+
+/// A bounce of two spheres that nothing else meets: the virial is known.
+TEST(GasProperties, OfTwoSpheresAreCountedByHand) {
+  // They meet head on after 2 and fly apart; the next meeting, round the box of 10, is 4.5 later.
+  const double speed = 1.0;
+  Scene scene;
+  scene.world = {.box = Box{{0, 0, 0}, {10, 10, 10}},
+                 .periodic = {true, true, true},
+                 .contact_tolerance = 1e-9,
+                 .contacts = ContactMode::impacts};
+  scene.bodies = {{.radius = 0.5}, {.radius = 0.5}};
+  scene.motion = std::make_unique<Ballistic>(
+      Ballistic::create({.start = {{{2, 5, 5}, {speed, 0, 0}}, {{7, 5, 5}, {-speed, 0, 0}}}}).value());
+  scene.response = Response::bounce;
+  scene.end_time = 4.0;
+  const GasProperties found =
+      measure_gas(scene, make_world_detector, {.equilibration = 0, .measured = 2}).value();
+  // m v^2 summed is 2 = 3 (N - 1) kT, and the exchanged momentum 2.
+  const double temperature = 2.0 / 3.0;
+  EXPECT_EQ(found.contacts, 1u);
+  EXPECT_NEAR(found.packing, 3.14159265358979 / 3000.0, 1e-12);
+  EXPECT_NEAR(found.compressibility.value, 1.0 + 2.0 / (3.0 * 2.0 * temperature * 4.0), 1e-8);
+  EXPECT_NEAR(found.collision_rate.value, 2.0 / (2.0 * 4.0) / std::sqrt(temperature), 1e-8);
+  // One block has it all, the other nothing: the scatter is as large as the mean.
+  EXPECT_NEAR(found.collision_rate.standard_error, found.collision_rate.value, 1e-8);
+  EXPECT_NEAR(found.energy_change, 0.0, 1e-15);
+  EXPECT_EQ(found.result.counters.count(EventKind::contact_begin), 1u);
+}
+
+/// kT is that of the motion relative to the centre of mass.
+TEST(GasProperties, KnowNoCommonMotion) {
+  const auto measured = [](const Vec3& wind) {
+    Scene scene = make_scene(small_gas()).value();
+    std::vector<State> start;
+    for (std::uint32_t body = 0; body < scene.bodies.size(); ++body) {
+      start.push_back(scene.motion->state(body, 0.0));
+      start.back().velocity += wind;
+    }
+    scene.motion = std::make_unique<Ballistic>(Ballistic::create({.start = start}).value());
+    return measure_gas(scene, make_world_detector, {.equilibration = 0, .measured = 2}).value();
+  };
+  const GasProperties still = measured({});
+  const GasProperties windy = measured({0.5, -0.25, 0});
+  // The same few contacts, which chaos has not yet had time to change.
+  EXPECT_EQ(windy.contacts, still.contacts);
+  EXPECT_NEAR(windy.compressibility.value, still.compressibility.value, 1e-3);
+  EXPECT_NEAR(windy.collision_rate.value, still.collision_rate.value, 1e-9);
+}
+
+TEST(GasProperties, RefuseWhatIsNoGas) {
+  const auto refused = [](const std::string& argument, const SceneParameters& parameters,
+                          BodyId body = no_body) {
+    expect_error(measure_gas(make_scene(parameters).value(), make_world_detector), ErrorCode::unsupported,
+                 argument, "measure_gas:", body);
+  };
+  const auto but = [](auto change) {
+    SceneParameters gas = small_gas();
+    change(gas);
+    return gas;
+  };
+  ASSERT_TRUE(measure_gas(make_scene(small_gas()).value(), make_world_detector));
+  refused("periodic", but([](auto& gas) { gas.periodic = false; }));
+  refused("response", but([](auto& gas) { gas.response = Response::pass_through; }));
+  refused("response", but([](auto& gas) { gas.restitution = 0.9; }));
+  refused("response", but([](auto& gas) { gas.resting_speed = 0.1; }));
+  refused("bodies", but([](auto& gas) { gas.bodies = 1, gas.packing = 0.01; }));
+  refused("end_time", but([](auto& gas) { gas.seconds = 0.0; }));
+  refused("radius", but([](auto& gas) { gas.radius_min = 0.4; }), {1, 0});
+  refused("radius", but([](auto& gas) { gas.radius_min = gas.radius_max = gas.packing = 0.0; }), {0, 0});
+  refused("acceleration_limit", but([](auto& gas) { gas.gravity = {0, 0, -1}; }), {0, 0});
+  Scene scene = make_scene(small_gas()).value();
+  scene.bodies[3].appears = 0.5;
+  expect_error(measure_gas(scene, make_world_detector), ErrorCode::unsupported, "appears",
+               "measure_gas:", {3, 0});
+  scene = make_scene(small_gas()).value();
+  expect_error(measure_gas(scene, make_world_detector, {.measured = 1}), ErrorCode::out_of_range, "measured",
+               "measure_gas:");
+  expect_error(measure_gas(scene, make_world_detector, {.equilibration = -1}), ErrorCode::out_of_range,
+               "equilibration", "measure_gas:");
+  EXPECT_EQ(measure_gas(scene, make_oracle).error().code, ErrorCode::unsupported);
+}
+
+}  // namespace
+}  // namespace kinesphere
