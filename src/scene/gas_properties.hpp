@@ -18,7 +18,7 @@ double hard_sphere_collision_rate(double packing);
 
 struct Estimate {
   double value = 0.0;
-  double standard_error = 0.0;  ///< from the scatter between the blocks of the run
+  double standard_error = 0.0;  ///< from the scatter between blocks, taken as independent
 };
 
 struct GasProperties {

@@ -97,10 +97,9 @@ TEST_P(Gas, HasTheRateAndThePressureOfTheory) {
 
 INSTANTIATE_TEST_SUITE_P(Packings, Gas, testing::Values(0.05, 0.25, 0.49));
 
-/// A bounce of two spheres that nothing else meets: the virial is known.
+/// Two spheres that meet head on for ever: the virial is known.
 TEST(GasProperties, OfTwoSpheresAreCountedByHand) {
-  // They meet head on after 2 and fly apart; the next meeting, round the box of 10, is 4.5 later.
-  const double speed = 1.0;
+  // They meet at 1.5 and, the other way round the box, at 5.5 and 9.5.
   Scene scene;
   scene.world = {.box = Box{{0, 0, 0}, {10, 10, 10}},
                  .periodic = {true, true, true},
@@ -108,21 +107,36 @@ TEST(GasProperties, OfTwoSpheresAreCountedByHand) {
                  .contacts = ContactMode::impacts};
   scene.bodies = {{.radius = 0.5}, {.radius = 0.5}};
   scene.motion = std::make_unique<Ballistic>(
-      Ballistic::create({.start = {{{2, 5, 5}, {speed, 0, 0}}, {{7, 5, 5}, {-speed, 0, 0}}}}).value());
+      Ballistic::create({.start = {{{2, 5, 5}, {1, 0, 0}}, {{6, 5, 5}, {-1, 0, 0}}}}).value());
   scene.response = Response::bounce;
-  scene.end_time = 4.0;
-  const GasProperties found =
-      measure_gas(scene, make_world_detector, {.equilibration = 0, .measured = 2}).value();
-  // m v^2 summed is 2 = 3 (N - 1) kT, and the exchanged momentum 2.
+  scene.end_time = 8.0;
+  const GasBlocks blocks{.equilibration = 2, .measured = 6};
+  const GasProperties found = measure_gas(scene, make_world_detector, blocks).value();
+  // The sum of m v^2 is 2 = 3 (N - 1) kT, the exchanged momentum 2, and 6 the time that is measured.
   const double temperature = 2.0 / 3.0;
   EXPECT_EQ(found.contacts, 1u);
   EXPECT_NEAR(found.packing, 3.14159265358979 / 3000.0, 1e-12);
-  EXPECT_NEAR(found.compressibility.value, 1.0 + 2.0 / (3.0 * 2.0 * temperature * 4.0), 1e-8);
-  EXPECT_NEAR(found.collision_rate.value, 2.0 / (2.0 * 4.0) / std::sqrt(temperature), 1e-8);
-  // One block has it all, the other nothing: the scatter is as large as the mean.
+  EXPECT_NEAR(found.compressibility.value, 1.0 + 2.0 / (3.0 * 2.0 * temperature * 6.0), 1e-8);
+  EXPECT_NEAR(found.collision_rate.value, 2.0 / (2.0 * 6.0) / std::sqrt(temperature), 1e-8);
+  // One block has it all: the standard error is as large as the mean.
   EXPECT_NEAR(found.collision_rate.standard_error, found.collision_rate.value, 1e-8);
   EXPECT_NEAR(found.energy_change, 0.0, 1e-15);
-  EXPECT_EQ(found.result.counters.count(EventKind::contact_begin), 1u);
+  EXPECT_EQ(found.result.counters.count(EventKind::contact_begin), 2u);
+}
+
+/// In units of its own diameter and temperature the same gas has the same properties.
+TEST(GasProperties, DoNotDependOnUnits) {
+  SceneParameters gas = small_gas();
+  const GasProperties one = measure_gas(make_scene(gas).value(), make_world_detector).value();
+  gas.radius_min = gas.radius_max = 4.0 * gas.radius_max;
+  gas.contact_tolerance *= 4.0;
+  gas.speed_min = gas.speed_max = 2.0 * gas.speed_max;
+  gas.seconds *= 2.0;
+  const GasProperties other = measure_gas(make_scene(gas).value(), make_world_detector).value();
+  EXPECT_GT(one.contacts, 50u);
+  EXPECT_EQ(other.contacts, one.contacts);
+  EXPECT_NEAR(other.collision_rate.value, one.collision_rate.value, 1e-6);
+  EXPECT_NEAR(other.compressibility.value, one.compressibility.value, 1e-3);
 }
 
 /// kT is that of the motion relative to the centre of mass.

@@ -50,7 +50,7 @@ Scene make_gas(double packing, const GasSettings& settings) {
   return require(make_scene(gas));
 }
 
-/// Of a measured value from the one that theory has, with the standard error.
+/// Of an estimate from what theory has, and its standard error.
 struct Deviation {
   Deviation(const Estimate& estimate, double theory)
       : percent(100.0 * (estimate.value / theory - 1.0)),
@@ -59,6 +59,38 @@ struct Deviation {
   double percent;
   double error_percent;
 };
+
+const std::vector<std::string> columns{"packing",
+                                       "contacts",
+                                       "Z",
+                                       "Z_theory",
+                                       "Z_off",
+                                       "Z_error",
+                                       "rate",
+                                       "rate_theory",
+                                       "rate_off",
+                                       "rate_error",
+                                       "energy_change",
+                                       "momentum_change",
+                                       "contacts_per_cpu_second"};
+
+/// Returns the larger of the two deviations, in percent.
+double add_row(ResultTable& table, int percent, const GasSettings& settings) {
+  const double packing = 0.01 * percent;
+  const Scene scene = make_gas(packing, settings);
+  const double begin = cpu_seconds();
+  const GasProperties gas = require(measure_gas(scene, make_world_detector, blocks));
+  const double seconds = cpu_seconds() - begin;
+  const double z = hard_sphere_compressibility(packing);
+  const double rate = hard_sphere_collision_rate(packing);
+  const Deviation z_off(gas.compressibility, z);
+  const Deviation rate_off(gas.collision_rate, rate);
+  const auto all_contacts = static_cast<double>(gas.result.counters.count(EventKind::contact_begin));
+  table.row({static_cast<std::uint64_t>(percent), gas.contacts, gas.compressibility.value, z, z_off.percent,
+             z_off.error_percent, gas.collision_rate.value, rate, rate_off.percent, rate_off.error_percent,
+             gas.energy_change, gas.momentum_change, all_contacts / seconds});
+  return std::max(std::abs(z_off.percent), std::abs(rate_off.percent));
+}
 
 }  // namespace
 
@@ -75,32 +107,17 @@ int bench_gas(const BenchOptions& options) {
   describe_machine(report);
   report.note(fmt::format(
       "{} equal spheres that bounce without loss where space repeats, in units of their diameter, mass and "
-      "temperature: \"packing\" in percent, Z = p V / (N k T) from the virial, collisions of each sphere per "
-      "unit of time. \"off\" is the deviation in percent from the equation of state of Kolafa, Labik and "
-      "Malijevsky (2004), and from the rate 6 (Z - 1) / sqrt(pi) that belongs to it; +- the standard error "
-      "in "
-      "percent. Changes of energy and momentum are the largest of the run, as parts of N k T and "
-      "N sqrt(m k T).",
+      "temperature: Z = p V / (N k T), from the virial, and the rate, collisions of each sphere per unit of "
+      "time. Theory is the equation of state of Kolafa, Labik and Malijevsky (2004) and the rate that "
+      "belongs to it, 6 (Z - 1) / sqrt(pi). Packing, \"off\" (deviation from theory) and \"error\" "
+      "(standard error) are in percent. Changes of energy and momentum are the largest of the run, as parts "
+      "of the energy and of N sqrt(m k T).",
       settings.bodies));
-  ResultTable table({"packing", "contacts", "Z", "Z_theory", "Z_off", "Z_+-", "rate", "rate_theory",
-                     "rate_off", "rate_+-", "energy_change", "momentum_change", "contacts_per_cpu_second"});
+  ResultTable table(columns);
   double largest = 0.0;
   for (const int percent : packings) {
     if (!is_chosen(options, std::to_string(percent))) continue;
-    const double packing = 0.01 * percent;
-    const Scene scene = make_gas(packing, settings);
-    const double begin = cpu_seconds();
-    const GasProperties gas = require(measure_gas(scene, make_world_detector, blocks));
-    const double seconds = cpu_seconds() - begin;
-    const double z = hard_sphere_compressibility(packing);
-    const double rate = hard_sphere_collision_rate(packing);
-    const Deviation z_off(gas.compressibility, z);
-    const Deviation rate_off(gas.collision_rate, rate);
-    largest = std::max({largest, std::abs(z_off.percent), std::abs(rate_off.percent)});
-    const auto all_contacts = static_cast<double>(gas.result.counters.count(EventKind::contact_begin));
-    table.row({static_cast<std::uint64_t>(percent), gas.contacts, gas.compressibility.value, z, z_off.percent,
-               z_off.error_percent, gas.collision_rate.value, rate, rate_off.percent, rate_off.error_percent,
-               gas.energy_change, gas.momentum_change, all_contacts / seconds});
+    largest = std::max(largest, add_row(table, percent, settings));
   }
   report.table("gas", table);
   report.note(fmt::format("The largest deviation is {:.2f} %.", largest));
