@@ -168,7 +168,7 @@ Result<GasProperties> measure_gas(const Scene& scene, const DetectorMaker& make,
   auto result = simulate(scene, make, observer);
   if (!result) return result.error();
   GasProperties properties = properties_of(scene, gauge, blocks);
-  properties.result = std::move(*result);
+  properties.result = *result;
   return properties;
 }
 
