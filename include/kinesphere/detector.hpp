@@ -60,6 +60,9 @@ using DetectorMaker =
 /// The default engine: a World.
 Result<std::unique_ptr<Detector>> make_world_detector(const WorldDefinition& definition,
                                                       const Motion& motion);
+/// The same where every body senses all others at these distances. Errors: as World::set_sensor().
+Result<std::unique_ptr<Detector>> make_sensing_detector(const WorldDefinition& definition,
+                                                        const Motion& motion, const Sensor& sensor);
 /// Brute force over exact trajectories: every root of every pair's distance polynomial, isolated
 /// rigorously. O(n^2) memory and time; the truth to compare with.
 Result<std::unique_ptr<Detector>> make_oracle(const WorldDefinition& definition, const Motion& motion);

@@ -77,8 +77,15 @@ class WorldDetector final : public Detector {
 
 Result<std::unique_ptr<Detector>> make_world_detector(const WorldDefinition& definition,
                                                       const Motion& motion) {
+  return make_sensing_detector(definition, motion, {});
+}
+
+Result<std::unique_ptr<Detector>> make_sensing_detector(const WorldDefinition& definition,
+                                                        const Motion& motion, const Sensor& sensor) {
   auto world = World::create(definition);
   if (!world) return world.error();
+  // All bodies are of the class 0.
+  if (auto set = world->set_sensor(0, sensor); !set) return set.error();
   return with_checked_input(std::make_unique<WorldDetector>(std::move(*world), motion), definition,
                             motion.size());
 }

@@ -39,10 +39,10 @@ TEST(Recall, FineStepsMissLessAndSweptOnesNothing) {
   const Scene passing = scene(Response::pass_through);
   const ContactCounts truth = count_contacts(passing, world_engine().make);
   ASSERT_GT(total(truth), 100u);
-  const std::uint64_t coarse = missed_by_steps(passing, truth, 0.5, 2, SphereTest::at_steps);
-  const std::uint64_t fine = missed_by_steps(passing, truth, 0.01, 100, SphereTest::at_steps);
+  const std::uint64_t coarse = missed(truth, contacts_at_steps(passing, 0.5, 2, SphereTest::at_steps));
+  const std::uint64_t fine = missed(truth, contacts_at_steps(passing, 0.01, 100, SphereTest::at_steps));
   EXPECT_GT(coarse, fine);
-  EXPECT_LT(missed_by_steps(passing, truth, 0.01, 100, SphereTest::swept), 1 + fine);
+  EXPECT_LT(missed(truth, contacts_at_steps(passing, 0.01, 100, SphereTest::swept)), 1 + fine);
 }
 
 }  // namespace

@@ -23,4 +23,10 @@ NamedDetector fixed_step_engine(double step) { return named("fixed-step", {.step
 
 NamedDetector world_engine() { return named("world"); }
 
+NamedDetector alarm_engine(double distance) {
+  return {"world", [distance](const WorldDefinition& definition, const Motion& motion) {
+            return make_sensing_detector(definition, motion, {.distances = {distance}});
+          }};
+}
+
 }  // namespace kinesphere::program

@@ -17,5 +17,7 @@ NamedDetector hubbard_engine(const HubbardOptions& options = {});
 NamedDetector hayward_engine();
 NamedDetector fixed_step_engine(double step);
 NamedDetector world_engine();
+/// The default engine with a sensor of this distance on every body.
+NamedDetector alarm_engine(double distance);
 
 }  // namespace kinesphere::program

@@ -27,9 +27,11 @@ class Contest {
       : entry_(entry),
         settings_(settings),
         scene_(entry.make(entry.response)),
-        world_(event_driven(world_engine())) {
+        world_(event_driven(entry.alarm > 0.0 ? alarm_engine(entry.alarm) : world_engine())) {
     passing_ = entry.make(Response::pass_through);
-    truth_ = count_contacts(passing_, world_engine().make);
+    // Who looks at steps alone need not know an alarm from a contact.
+    for (SceneBody& body : passing_.bodies) body.radius += 0.5 * entry.alarm;
+    if (has_rivals()) truth_ = counted(count_contacts(passing_, world_engine().make));
     if (entry.floor) count_floor();
   }
 
@@ -38,7 +40,7 @@ class Contest {
     if (entry_.hubbard) run_event_driven(hubbard_engine());
     for (const double rate : entry_.rates)
       for (const SphereTest test : {SphereTest::at_steps, SphereTest::swept}) run_steps(rate, test);
-    if (world_.costs.empty()) take_turns({});
+    if (world_.row.turns.empty()) take_turns({});
     settle(world_);
     rows_.insert(rows_.begin(), world_.row);
     return std::move(rows_);
@@ -49,9 +51,16 @@ class Contest {
     SpeedRow row;
     std::function<double()> run;  ///< seconds for a body-second
     bool is_slow = false;
-    std::vector<double> costs{};
-    std::vector<double> to_world{};
   };
+
+  bool has_rivals() const { return entry_.paper || entry_.hubbard || !entry_.rates.empty(); }
+  /// What fixed steps are timed on.
+  const Scene& stepped() const { return entry_.response == Response::bounce ? scene_ : passing_; }
+
+  ContactCounts counted(ContactCounts counts) const {
+    std::erase_if(counts, [&](const auto& entry) { return std::get<1>(entry.first) < entry_.first_counted; });
+    return counts;
+  }
 
   double body_time_of_all() const { return duration() * static_cast<double>(scene_.bodies.size()); }
   double duration() const { return scene_.end_time - scene_.world.start_time; }
@@ -75,19 +84,19 @@ class Contest {
   }
 
   void count_floor() {
-    const Flight flight = require(record_flight(scene_, world_engine().make));
-    const auto floor = static_cast<double>(require(probe_floor(scene_, flight)).total());
+    const Flight flight = require(record_flight(stepped(), world_engine().make));
+    const auto floor = static_cast<double>(require(probe_floor(stepped(), flight)).total());
     if (floor > 0.0) floor_ = floor / flight.result.body_time;
   }
 
   /// Each in turn, and the default engine before them.
   void take_turns(std::vector<Contestant> contestants) {
     for (int turn = 0; turn < settings_.repetitions; ++turn) {
-      world_.costs.push_back(world_.run());
+      const double world = cost_of(world_);
+      world_.row.turns.push_back({world, world});
       for (Contestant& contestant : contestants) {
         if (turn > 0 && contestant.is_slow) continue;
-        contestant.costs.push_back(contestant.run());
-        contestant.to_world.push_back(contestant.costs.back() / world_.costs.back());
+        contestant.row.turns.push_back({cost_of(contestant), world});
       }
     }
     for (Contestant& contestant : contestants) {
@@ -96,14 +105,28 @@ class Contest {
     }
   }
 
+  /// Runs that are over too soon to be timed are repeated.
+  double cost_of(const Contestant& contestant) const {
+    const double begin = cpu_seconds();
+    double cost = 0.0;
+    int runs = 0;
+    do {
+      cost += contestant.run();
+      ++runs;
+    } while (cpu_seconds() - begin < settings_.least_turn);
+    return cost / runs;
+  }
+
   void settle(Contestant& contestant) const {
-    contestant.row.detection = median(contestant.costs);
-    if (!contestant.to_world.empty()) contestant.row.to_world = median(contestant.to_world);
+    std::vector<double> costs;
+    for (const Turn& turn : contestant.row.turns) costs.push_back(turn.own);
+    contestant.row.detection = median(std::move(costs));
     if (floor_ && !contestant.row.rate) contestant.row.to_floor = contestant.row.moves / *floor_;
   }
 
   void run_event_driven(const NamedDetector& detector) {
     Contestant rival = event_driven(detector);
+    rival.row.missed = missed_part(counted(count_contacts(passing_, detector.make)));
     rival.is_slow = rival.run() * body_time_of_all() > slow;
     take_turns({std::move(rival)});
   }
@@ -113,11 +136,11 @@ class Contest {
         static_cast<double>(settings_.most_recorded) / static_cast<double>(scene_.bodies.size());
     const auto steps =
         static_cast<std::size_t>(std::max(1.0, std::min(std::round(rate * duration()), std::floor(most))));
-    const StepRecording recording = record_steps(scene_, 1.0 / rate, steps, test);
-    const std::optional<double> missed_part = missed(rate, test);
+    const StepRecording recording = record_steps(stepped(), 1.0 / rate, steps, test);
+    const std::optional<ContactCounts> seen = seen_at_steps(rate, test);
     std::vector<Contestant> contestants;
     const auto enter = [&](const std::string& name, const KernelMaker& make) {
-      if (make) contestants.push_back(fixed_steps(name, recording, make, missed_part));
+      if (make) contestants.push_back(fixed_steps(name, recording, make, seen));
     };
     enter(test == SphereTest::swept ? "swept" : "tuned", tuned_kernel(recording));
     if (entry_.trees && test == SphereTest::at_steps) {
@@ -130,42 +153,46 @@ class Contest {
   }
 
   Contestant fixed_steps(const std::string& name, const StepRecording& recording, const KernelMaker& make,
-                         std::optional<double> missed_part) const {
+                         const std::optional<ContactCounts>& seen) const {
     const auto kernel = make();
     const StepTiming timing = time_steps(recording, *kernel, recording.steps());
     SpeedRow row{.detector = name,
                  .settings = kernel->name(),
                  .rate = 1.0 / recording.step,
                  .moves = 1.0 / recording.step,
-                 .missed = missed_part,
                  .bytes = static_cast<double>(timing.bytes) / static_cast<double>(recording.radii.size()),
                  .hash = timing.hash};
     if (entry_.response == Response::bounce)
       row.contacts = static_cast<double>(recording.contacts) / recording.body_time();
+    else if (seen)
+      row.contacts = static_cast<double>(total(*seen)) / body_time_of_all();
+    if (seen) row.missed = missed_part(counted(*seen));
     const auto run = [&recording, make] {
       return time_steps(recording, *make(), recording.steps()).seconds / recording.body_time();
     };
     return {std::move(row), run, timing.seconds > slow};
   }
 
-  /// Part of the contacts that steps overlook; nothing when that would take too long to find out.
-  std::optional<double> missed(double rate, SphereTest test) const {
+  /// Where all pass through; nothing when that would take too long.
+  std::optional<ContactCounts> seen_at_steps(double rate, SphereTest test) const {
     const double steps = std::ceil(rate * duration());
     if (steps * static_cast<double>(scene_.bodies.size()) > static_cast<double>(settings_.most_looked))
       return std::nullopt;
+    return contacts_at_steps(passing_, 1.0 / rate, static_cast<std::size_t>(steps), test);
+  }
+
+  std::optional<double> missed_part(const ContactCounts& seen) const {
     const std::uint64_t contacts = total(truth_);
     if (contacts == 0) return std::nullopt;
-    return static_cast<double>(
-               missed_by_steps(passing_, truth_, 1.0 / rate, static_cast<std::size_t>(steps), test)) /
-           static_cast<double>(contacts);
+    return static_cast<double>(missed(truth_, seen)) / static_cast<double>(contacts);
   }
 
   const SpeedScene& entry_;
   const SpeedSettings& settings_;
   Scene scene_;
   Contestant world_;
-  Scene passing_;                ///< the same, where nobody bounces
-  ContactCounts truth_;          ///< its contacts
+  Scene passing_;                ///< the same, where nobody bounces, and contacts are alarms if there are any
+  ContactCounts truth_;          ///< its contacts that count
   std::optional<double> floor_;  ///< probes in a body-second
   std::vector<SpeedRow> rows_;
 };
@@ -178,6 +205,22 @@ const SpeedRow* find_row(const std::vector<SpeedRow>& rows, const std::string& d
     return one.detector == detector && one.rate == rate;
   });
   return row == rows.end() ? nullptr : &*row;
+}
+
+const SpeedRow* find_slowest_safe(const std::vector<SpeedRow>& rows, const std::string& detector) {
+  const SpeedRow* slowest = nullptr;
+  for (const SpeedRow& row : rows) {
+    if (row.detector != detector || !row.rate || row.missed != 0.0) continue;
+    if (slowest == nullptr || row.rate < slowest->rate) slowest = &row;
+  }
+  return slowest;
+}
+
+double SpeedRow::to_world(const SpeedRow& world, double price) const {
+  std::vector<double> ratios;
+  for (const Turn& turn : turns)
+    ratios.push_back((turn.own + price * moves) / (turn.world + price * world.moves));
+  return median(std::move(ratios));
 }
 
 std::vector<SpeedRow> compare_speed(const SpeedScene& scene, const SpeedSettings& settings) {

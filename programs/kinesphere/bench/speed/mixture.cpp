@@ -1,5 +1,6 @@
 #include "bench/speed/mixture.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -87,7 +88,7 @@ Scene make_mixture(const MixtureParameters& p, Response response) {
       limits.push_back(kind.limit);
     }
   }
-  const auto centres = place_spheres(radii, p.box, 4.0 * scene.world.contact_tolerance,
+  const auto centres = place_spheres(radii, p.box, std::max(p.gap, 4.0 * scene.world.contact_tolerance),
                                      Random::at(p.seed, placement_stream, 0).bits());
   if (!centres) throw ProgramError("bench: the bodies of a scene do not fit into its box");
   std::vector<State> start;

@@ -20,6 +20,7 @@ struct MixtureParameters {
   Box box;
   bool walls = true;
   std::vector<BodyKind> kinds;
+  double gap = 0.0;              ///< between any two at the start, at least (length)
   double redraw_interval = 0.2;  ///< of random forces
   double seconds;
   std::uint64_t seed = 1;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,13 +11,11 @@
 #include "bench/speed/contest.hpp"
 #include "bench/speed/speed_figures.hpp"
 #include "bench/speed/tree_kernels.hpp"
+#include "bench/speed/verdicts.hpp"
 #include "program_error.hpp"
 
 namespace kinesphere::program {
 namespace {
-
-/// What a motion step or probe may cost (seconds).
-constexpr double prices[] = {0.0, 100e-9, 1e-6, 10e-6};
 
 Cell cell(const std::optional<double>& value, double scale = 1.0) {
   return value ? Cell(scale * *value) : Cell();
@@ -29,38 +26,13 @@ const std::vector<std::string> columns{
     "total_10us", "to_world", "moves",    "to_floor", "contacts", "per_cpu_second", "missed_percent",
     "bytes",      "build_s",  "settings", "hash"};
 
-void add_row(ResultTable& table, const SpeedScene& scene, const SpeedRow& row) {
+void add_row(ResultTable& table, const SpeedScene& scene, const SpeedRow& row, const SpeedRow& world) {
   table.row({scene.name, std::uint64_t{scene.bodies}, row.detector, cell(row.rate),
-             1e6 * row.total(prices[0]), 1e6 * row.total(prices[1]), 1e6 * row.total(prices[2]),
-             1e6 * row.total(prices[3]), row.to_world, row.moves, cell(row.to_floor), cell(row.contacts),
-             cell(row.contacts, 1.0 / row.detection), cell(row.missed, 100.0), cell(row.bytes),
-             cell(row.building), row.settings, fmt::format("{:016x}", row.hash)});
-}
-
-/// Against the slowest fixed steps that miss no contact: how many times as much they take.
-void save_verdicts(const Report& report, const std::vector<SpeedScene>& scenes, const SpeedResults& results) {
-  ResultTable table({"scene", "n", "safe_detector", "safe_rate", "safe_us", "world_us", "ratio",
-                     "ratio_100ns", "ratio_1us", "ratio_10us"});
-  for (const SpeedScene& scene : scenes) {
-    const auto rows = results.find(scene.name);
-    if (rows == results.end()) continue;
-    const SpeedRow& world = *find_row(rows->second, "world");
-    for (const char* const name : {"tuned", "swept"}) {
-      const auto safe = std::find_if(rows->second.begin(), rows->second.end(), [&](const SpeedRow& row) {
-        return row.detector == name && row.missed == 0.0;
-      });
-      if (safe == rows->second.end()) continue;
-      std::vector<Cell> row{scene.name,       std::uint64_t{scene.bodies}, std::string(name),
-                            cell(safe->rate), 1e6 * safe->detection,       1e6 * world.detection};
-      for (const double price : prices) row.emplace_back(safe->total(price) / world.total(price));
-      table.row(std::move(row));
-    }
-  }
-  report.note(
-      "The slowest steps of those tried that miss no contact where all pass through, and how many times as "
-      "much they "
-      "take as the default engine, when a step or probe costs nothing, 100 ns, 1 us and 10 us.");
-  report.table("verdicts", table);
+             1e6 * row.total(move_prices[0]), 1e6 * row.total(move_prices[1]),
+             1e6 * row.total(move_prices[2]), 1e6 * row.total(move_prices[3]), row.to_world(world), row.moves,
+             cell(row.to_floor), cell(row.contacts), cell(row.contacts, 1.0 / row.detection),
+             cell(row.missed, 100.0), cell(row.bytes), cell(row.building), row.settings,
+             fmt::format("{:016x}", row.hash)});
 }
 
 std::vector<std::string> names_of(const std::vector<SpeedScene>& scenes) {
@@ -86,7 +58,8 @@ void explain(const Report& report, const SpeedSettings& settings) {
       "probes "
       "to the least that a method that knew all other motion would need. \"missed percent\": contacts that "
       "are "
-      "overlooked in the same scene without bounces. \"contacts\" are those of a body-second, \"per cpu "
+      "overlooked in the same scene without bounces (bullets: those of bullets). \"contacts\" are those of a "
+      "body-second, \"per cpu "
       "second\" "
       "those that are found in a second of this machine.");
   if (!make_bullet_kernel({}))
@@ -98,8 +71,7 @@ void explain(const Report& report, const SpeedSettings& settings) {
 }  // namespace
 
 void add_bench_speed_command(CLI::App& bench, BenchOptions& options) {
-  CLI::App* speed =
-      bench.add_subcommand("speed", "Compare with fixed steps and others; takes a quarter of an hour");
+  CLI::App* speed = bench.add_subcommand("speed", "Compare with fixed steps and others; takes half an hour");
   add_bench_options(*speed, options, names_of(speed_scenes(speed_settings(Effort::full))),
                     "Up to a million bodies; takes an hour");
 }
@@ -119,8 +91,8 @@ int bench_speed(const BenchOptions& options) {
     const std::vector<SpeedRow>& rows = results[scene.name] = compare_speed(scene, settings);
     ResultTable table(columns);
     for (const SpeedRow& row : rows) {
-      add_row(table, scene, row);
-      add_row(all, scene, row);
+      add_row(table, scene, row, rows.front());
+      add_row(all, scene, row, rows.front());
     }
     fmt::print("{}\n", table.text());
     report.save("speed", all);  // as far as it is known: the rest may take long

@@ -17,8 +17,12 @@ struct SpeedScene {
   Response response;  ///< of the runs that are timed; missed contacts are counted where all pass through
   std::function<Scene(Response)> make;
   std::vector<double> rates;  ///< of fixed steps, per unit of time
-  bool trees = false;         ///< compare with Bullet's and FCL's
-  bool paper = false;         ///< and with the paper's algorithm
+  /// Positive: every body has a sensor of this distance, and what is looked for are alarms. Nobody bounces.
+  double alarm = 0.0;
+  /// Missed contacts are counted where the second body has this number or a higher one.
+  std::uint32_t first_counted = 0;
+  bool trees = false;  ///< compare with Bullet's and FCL's
+  bool paper = false;  ///< and with the paper's algorithm
   bool hubbard = false;
   bool floor = false;  ///< count the probe floor
 };

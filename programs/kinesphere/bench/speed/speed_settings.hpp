@@ -11,6 +11,7 @@ namespace kinesphere::program {
 struct SpeedSettings {
   std::string_view name;
   int repetitions;       ///< of every measurement; medians are shown
+  double least_turn;     ///< seconds: shorter runs are repeated
   std::uint32_t divide;  ///< the number of bodies in every scene, at the same density
   double shorten;        ///< the time of every scene
   /// Scenes of more bodies than this are left out.

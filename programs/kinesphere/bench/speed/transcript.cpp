@@ -115,7 +115,8 @@ class Player {
 }  // namespace
 
 std::uint64_t Transcript::contacts() const {
-  return result.counters.count(EventKind::contact_begin) + result.counters.count(EventKind::wall_begin);
+  return result.counters.count(EventKind::contact_begin) + result.counters.count(EventKind::wall_begin) +
+         result.counters.count(EventKind::sensor_enter);
 }
 
 Transcript write_down(const Scene& scene, const DetectorMaker& make) {

@@ -29,7 +29,7 @@ struct Transcript {
   std::uint64_t probes = 0;
 
   double body_time() const { return result.body_time; }
-  /// Of bodies and walls.
+  /// Of bodies and walls, and alarms.
   std::uint64_t contacts() const;
 };
 
