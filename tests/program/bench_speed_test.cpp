@@ -97,6 +97,17 @@ TEST_F(BenchSpeedTest, GasesRepeatInSpace) {
   }
 }
 
+TEST_F(BenchSpeedTest, AMillionBodiesHaveRivalsOnlyWhereThereIsTime) {
+  const auto has_rivals = [](Effort effort) {
+    const auto scenes = speed_scenes(speed_settings(effort));
+    const auto million = std::find_if(scenes.begin(), scenes.end(),
+                                      [](const SpeedScene& scene) { return scene.bodies == 1'000'000; });
+    return million != scenes.end() && !million->rates.empty();
+  };
+  EXPECT_FALSE(has_rivals(Effort::usual));
+  EXPECT_TRUE(has_rivals(Effort::full));
+}
+
 TEST_F(BenchSpeedTest, WritesItsVerdicts) {
   bench("--only paper1-1000,gas25-4000");
   const auto table = csv_rows(read("verdicts.csv"));

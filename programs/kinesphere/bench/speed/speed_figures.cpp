@@ -32,7 +32,7 @@ std::vector<Line> engine_and_tuned() {
   return lines;
 }
 
-/// Saves and draws those lines that have a point.
+/// Saves and draws those lines that have a point; nothing where there is no second one to draw them to.
 class Figure {
  public:
   Figure(Plot plot, std::vector<Line> lines) : plot_(std::move(plot)), lines_(std::move(lines)) {}
@@ -45,6 +45,7 @@ class Figure {
   }
 
   void save(const Report& report) {
+    if (points_.size() < 2) return;
     for (std::size_t column = lines_.size(); column > 0; --column) {
       const auto is_empty = [column](const std::vector<Cell>& row) {
         return std::holds_alternative<std::monostate>(row[column]);

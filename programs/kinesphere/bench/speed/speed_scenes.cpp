@@ -28,6 +28,8 @@ class SceneList {
     add({.name = "pile", .rates = game_rates, .floor = true}, find_scene("pile").parameters);
     const auto too_large = [this](const SpeedScene& scene) { return scene.bodies > settings_.most_bodies; };
     scenes_.erase(std::remove_if(scenes_.begin(), scenes_.end(), too_large), scenes_.end());
+    for (SpeedScene& scene : scenes_)
+      if (scene.bodies > settings_.most_with_rivals) scene.rates.clear();
     return std::move(scenes_);
   }
 

@@ -9,6 +9,7 @@ const SpeedSettings& speed_settings(Effort effort) {
                                        .divide = 100,
                                        .shorten = 0.1,
                                        .most_bodies = 2000,
+                                       .most_with_rivals = 2000,
                                        .most_recorded = 50'000,
                                        .most_looked = 200'000};
   static constexpr SpeedSettings usual{.name = "usual",
@@ -17,6 +18,7 @@ const SpeedSettings& speed_settings(Effort effort) {
                                        .divide = 1,
                                        .shorten = 1.0,
                                        .most_bodies = 1'000'000,
+                                       .most_with_rivals = 108'000,
                                        .most_recorded = 15'000'000,
                                        .most_looked = 30'000'000};
   static constexpr SpeedSettings full{.name = "full",
@@ -25,6 +27,7 @@ const SpeedSettings& speed_settings(Effort effort) {
                                       .divide = 1,
                                       .shorten = 1.0,
                                       .most_bodies = 1'000'000,
+                                      .most_with_rivals = 1'000'000,
                                       .most_recorded = 60'000'000,
                                       .most_looked = 400'000'000};
   switch (effort) {

@@ -16,6 +16,7 @@ struct SpeedSettings {
   double shorten;        ///< the time of every scene
   /// Scenes of more bodies than this are left out.
   std::uint32_t most_bodies;
+  std::uint32_t most_with_rivals;  ///< and of more than this without fixed steps
   std::uint64_t most_recorded;  ///< positions that are kept of a scene at a time: they take 12 bytes
   std::uint64_t most_looked;    ///< positions that are looked at to count missed contacts
 };
