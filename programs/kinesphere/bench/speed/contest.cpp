@@ -18,7 +18,7 @@
 namespace kinesphere::program {
 namespace {
 
-/// Rivals that take longer than this (seconds) have one turn only.
+/// Rivals whose turn takes longer than this (seconds) have one only.
 constexpr double slow = 2.0;
 
 class Contest {
@@ -47,10 +47,16 @@ class Contest {
   }
 
  private:
+  struct Cost {
+    double detection;                  ///< seconds for a body-second
+    std::optional<double> building{};  ///< seconds
+  };
+
   struct Contestant {
     SpeedRow row;
-    std::function<double()> run;  ///< seconds for a body-second
+    std::function<Cost()> run;
     bool is_slow = false;
+    std::vector<double> building{};  ///< by run
   };
 
   bool has_rivals() const { return entry_.paper || entry_.hubbard || !entry_.rates.empty(); }
@@ -72,13 +78,13 @@ class Contest {
                  .moves = static_cast<double>(transcript->probes) / body_time,
                  .contacts = static_cast<double>(transcript->contacts()) / body_time,
                  .missed = 0.0,
-                 .building = play(*transcript, detector.make).building,
                  .hash = transcript->result.contact_hash};
     if (transcript->result.memory)
       row.bytes =
           static_cast<double>(transcript->result.memory->total()) / static_cast<double>(scene_.bodies.size());
     const auto play_again = [transcript, make = detector.make, body_time] {
-      return play(*transcript, make).detecting / body_time;
+      const Playing playing = play(*transcript, make);
+      return Cost{playing.detecting / body_time, playing.building};
     };
     return {std::move(row), play_again};
   }
@@ -92,11 +98,11 @@ class Contest {
   /// Each in turn, and the default engine before them.
   void take_turns(std::vector<Contestant> contestants) {
     for (int turn = 0; turn < settings_.repetitions; ++turn) {
-      const double world = cost_of(world_);
+      const double world = take_turn(world_);
       world_.row.turns.push_back({world, world});
       for (Contestant& contestant : contestants) {
         if (turn > 0 && contestant.is_slow) continue;
-        contestant.row.turns.push_back({cost_of(contestant), world});
+        contestant.row.turns.push_back({take_turn(contestant), world});
       }
     }
     for (Contestant& contestant : contestants) {
@@ -105,15 +111,20 @@ class Contest {
     }
   }
 
-  /// Runs that are over too soon to be timed are repeated.
-  double cost_of(const Contestant& contestant) const {
+  /// Seconds for a body-second. Runs that are over too soon to be timed are repeated.
+  double take_turn(Contestant& contestant) const {
     const double begin = cpu_seconds();
     double cost = 0.0;
     int runs = 0;
+    double taken = 0.0;
     do {
-      cost += contestant.run();
+      const Cost once = contestant.run();
+      if (once.building) contestant.building.push_back(*once.building);
+      cost += once.detection;
       ++runs;
-    } while (cpu_seconds() - begin < settings_.least_turn);
+      taken = cpu_seconds() - begin;
+    } while (taken < settings_.least_turn);
+    contestant.is_slow = taken > slow;
     return cost / runs;
   }
 
@@ -121,13 +132,13 @@ class Contest {
     std::vector<double> costs;
     for (const Turn& turn : contestant.row.turns) costs.push_back(turn.own);
     contestant.row.detection = median(std::move(costs));
+    if (!contestant.building.empty()) contestant.row.building = median(contestant.building);
     if (floor_ && !contestant.row.rate) contestant.row.to_floor = contestant.row.moves / *floor_;
   }
 
   void run_event_driven(const NamedDetector& detector) {
     Contestant rival = event_driven(detector);
     rival.row.missed = missed_part(counted(count_contacts(passing_, detector.make)));
-    rival.is_slow = rival.run() * body_time_of_all() > slow;
     take_turns({std::move(rival)});
   }
 
@@ -168,9 +179,9 @@ class Contest {
       row.contacts = static_cast<double>(total(*seen)) / body_time_of_all();
     if (seen) row.missed = missed_part(counted(*seen));
     const auto run = [&recording, make] {
-      return time_steps(recording, *make(), recording.steps()).seconds / recording.body_time();
+      return Cost{time_steps(recording, *make(), recording.steps()).seconds / recording.body_time()};
     };
-    return {std::move(row), run, timing.seconds > slow};
+    return {std::move(row), run};
   }
 
   /// Where all pass through; nothing when that would take too long.
