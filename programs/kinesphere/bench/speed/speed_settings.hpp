@@ -17,8 +17,8 @@ struct SpeedSettings {
   /// Scenes of more bodies than this are left out.
   std::uint32_t most_bodies;
   std::uint32_t most_with_rivals;  ///< and of more than this without fixed steps
-  std::uint64_t most_recorded;  ///< positions that are kept of a scene at a time: they take 12 bytes
-  std::uint64_t most_looked;    ///< positions that are looked at to count missed contacts
+  std::uint64_t most_recorded;     ///< positions that are kept of a scene at a time: they take 12 bytes
+  std::uint64_t most_looked;       ///< positions that are looked at to count missed contacts
 };
 
 const SpeedSettings& speed_settings(Effort effort);
