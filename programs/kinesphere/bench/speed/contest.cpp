@@ -18,7 +18,7 @@
 namespace kinesphere::program {
 namespace {
 
-/// Rivals whose turn takes longer than this (seconds) have one only.
+/// Who takes longer than this (seconds) for a turn has one only against each group of rivals.
 constexpr double slow = 2.0;
 
 class Contest {
@@ -95,9 +95,10 @@ class Contest {
     if (floor > 0.0) floor_ = floor / flight.result.body_time;
   }
 
-  /// Each in turn, and the default engine before them.
+  /// A group of rivals, each in turn, and the default engine before them.
   void take_turns(std::vector<Contestant> contestants) {
     for (int turn = 0; turn < settings_.repetitions; ++turn) {
+      if (turn > 0 && world_.is_slow && !contestants.empty()) break;
       const double world = take_turn(world_);
       world_.row.turns.push_back({world, world});
       for (Contestant& contestant : contestants) {

@@ -25,7 +25,10 @@ class SceneList {
     crowds();
     extremes();
     gases();
-    add({.name = "pile", .rates = game_rates, .floor = true}, find_scene("pile").parameters);
+    SceneParameters pile = find_scene("pile").parameters;
+    pile.seconds = 3.0;  // all lie, and jostle
+    // Where all pass through they fall out of the box: nothing is left to be missed.
+    add({.name = "pile", .rates = game_rates, .first_counted = pile.bodies, .floor = true}, pile);
     const auto too_large = [this](const SpeedScene& scene) { return scene.bodies > settings_.most_bodies; };
     scenes_.erase(std::remove_if(scenes_.begin(), scenes_.end(), too_large), scenes_.end());
     for (SpeedScene& scene : scenes_)
