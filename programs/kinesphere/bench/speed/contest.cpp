@@ -28,6 +28,7 @@ class Contest {
         settings_(settings),
         scene_(entry.make(entry.response)),
         world_(event_driven(entry.alarm > 0.0 ? alarm_engine(entry.alarm) : world_engine())) {
+    if (!has_rivals() && !entry.floor) return;
     passing_ = entry.make(Response::pass_through);
     // Who looks at steps alone need not know an alarm from a contact.
     for (SceneBody& body : passing_.bodies) body.radius += 0.5 * entry.alarm;

@@ -1,4 +1,4 @@
-// Scenes of several kinds of bodies in one box.
+// Scenes that the benchmark has of its own: several kinds of bodies in one box, a crowd, a gas.
 #pragma once
 
 #include <cstdint>
@@ -39,5 +39,17 @@ struct CrowdParameters {
 };
 
 Scene make_crowd(const CrowdParameters& parameters, Response response);
+
+/// Spheres of diameter 1 that start with speed 1, bounce, and fly straight in between, in space that repeats.
+/// At the start they are pushed apart at random, between walls.
+struct GasParameters {
+  std::uint32_t bodies;
+  double filled;  ///< part of the volume
+  double seconds;
+  std::uint64_t seed = 1;
+};
+
+/// Throws ProgramError when they do not fit. Cost: some hundred microseconds per sphere.
+Scene make_gas(const GasParameters& parameters, Response response);
 
 }  // namespace kinesphere::program
