@@ -16,7 +16,8 @@ std::optional<BrokenPromise> broken_promise(const BodyDefinition& promise, const
       (kicked_to ? 0.0 : bound.growth_acceleration * s) + (bound.growth_speed + promise.velocity_error);
   const double position_slack = contact_tolerance / 16.0;
   // Nearly all reports are faithful: no root for them.
-  if (norm_squared(way) <= deviation_limit * deviation_limit && norm_squared(turn) <= change_limit * change_limit)
+  if (norm_squared(way) <= deviation_limit * deviation_limit &&
+      norm_squared(turn) <= change_limit * change_limit)
     return std::nullopt;
   const double deviation = norm(way);
   const double change = norm(turn);

@@ -1,8 +1,8 @@
-// Two bounds seen from one instant on, in the engine's inner loop: do they certainly stay apart for a while, and if
-// not, when may they meet?
+// Two bounds seen from one instant on, in the engine's inner loop: do they certainly stay apart for a while,
+// and if not, when may they meet?
 //
-// This is earliest_meeting() without its sizes: all rounding is covered by `room`, which is added to the radii.
-// Where positions and ways are at most L, errors stay below 2^-49 L.
+// This is earliest_meeting() without its sizes: all rounding is covered by `room`, which is added to the
+// radii. Where positions and ways are at most L, errors stay below 2^-49 L.
 #pragma once
 
 #include <cmath>
@@ -32,8 +32,8 @@ struct MovedBound {
     speed = bound.growth_speed + growth * s;
   }
 
-  /// Around the centre of one that had moved straight on: with what has been added to the radius, and what the way has
-  /// turned, by then.
+  /// Around the centre of one that had moved straight on: with what has been added to the radius, and what
+  /// the way has turned, by then.
   double radius_after(double d) const {
     return radius + (speed + 0.5 * (growth + norm_one(acceleration)) * d) * d;
   }
@@ -49,9 +49,9 @@ class Encounter {
         speed_(a.speed + b.speed),
         growth_(a.growth + b.growth) {}
 
-  /// No two points of the bodies come within `room` for this time. On straight lines the least of |X + V d| is |X|, its value at
-  /// the end, or |X x V| / |V|: no root, no division. Radii count as they are at the end, and half of what the
-  /// centres turn by then is added to them.
+  /// No two points of the bodies come within `room` for this time. On straight lines the least of |X + V d|
+  /// is |X|, its value at the end, or |X x V| / |V|: no root, no division. Radii count as they are at the
+  /// end, and half of what the centres turn by then is added to them.
   [[gnu::always_inline]] bool stay_apart(double duration, double room) const {
     // Where squares underflow nothing is known.
     constexpr double least = 0x1p-900;
@@ -73,8 +73,8 @@ class Encounter {
     return !(norm_squared(offset_) > radii * radii);
   }
 
-  /// They cannot come within `room` before this time has passed, or not within `duration` if it is +infinity. Bounds that neither
-  /// grow nor turn meet where a quadratic is zero; for others see earliest_meeting().
+  /// They cannot come within `room` before this time has passed, or not within `duration` if it is +infinity.
+  /// Bounds that neither grow nor turn meet where a quadratic is zero; for others see earliest_meeting().
   double meeting(double duration, double room) const {
     const double radii = radii_ + room;
     if (growth_ == 0.0 && speed_ == 0.0 && acceleration_ == Vec3{}) {

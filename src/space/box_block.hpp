@@ -30,9 +30,7 @@ struct FloatBox {
     return lower[0] <= other.upper[0] && other.lower[0] <= upper[0] && lower[1] <= other.upper[1] &&
            other.lower[1] <= upper[1] && lower[2] <= other.upper[2] && other.lower[2] <= upper[2];
   }
-  float extent() const {
-    return std::max({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]});
-  }
+  float extent() const { return std::max({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]}); }
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {

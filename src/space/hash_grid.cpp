@@ -120,7 +120,8 @@ int HashGrid::exponent_of(float extent) {
 /// About octave * log2 of an extent: linear between powers of two.
 std::int64_t HashGrid::size_of(float extent) {
   const int exponent = exponent_of(extent);
-  const double part = std::ldexp(static_cast<double>(extent), -exponent);  // in (1/2, 1], but for the extremes
+  const double part =
+      std::ldexp(static_cast<double>(extent), -exponent);  // in (1/2, 1], but for the extremes
   return octave * exponent + static_cast<std::int64_t>(2 * octave * (std::clamp(part, 0.5, 1.0) - 1.0));
 }
 
@@ -229,7 +230,8 @@ std::optional<std::string> HashGrid::check(std::uint32_t body, const Box& box) c
 bool HashGrid::Level::table_is_sound() const {
   if (!std::has_single_bit(slots.size()) || 2 * cells.size() > slots.size()) return false;
   for (const Slot& slot : slots)
-    if (slot.cell > cells.size() || (slot.cell != 0 && cells[slot.cell - 1].index != slot.index)) return false;
+    if (slot.cell > cells.size() || (slot.cell != 0 && cells[slot.cell - 1].index != slot.index))
+      return false;
   // The search for a cell ends at a free slot.
   const auto is_free = [](const Slot& slot) { return slot.cell == 0; };
   const auto free = static_cast<std::size_t>(std::count_if(slots.begin(), slots.end(), is_free));
@@ -283,8 +285,8 @@ bool HashGrid::is_sound() const {
         sound = sound && contains(body) && !found[body];
         if (!sound) return;
         const Place& place = places_[body];
-        sound = place.level == static_cast<int>(number) && place.box == box && level.cell_of(box) == cell.index &&
-                level.reach_of(box) <= level.reach;
+        sound = place.level == static_cast<int>(number) && place.box == box &&
+                level.cell_of(box) == cell.index && level.reach_of(box) <= level.reach;
         found[body] = true;
       });
       if (!sound) return false;

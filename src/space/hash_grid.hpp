@@ -1,9 +1,10 @@
 // A hierarchical hash grid: which registered boxes overlap a given one?
 //
 // Unbounded space: only cells that hold something exist. Each level has cells four times as large as the one
-// below. A box lies on the finest level whose cells are at least as large as the box, in the one cell where its
-// lower corner is; a search looks farther down by the largest box of the level, for those that reach up to it.
-// So radii may differ by any ratio, and a box is moved in O(1). Boxes are kept as floats, rounded outward.
+// below. A box lies on the finest level whose cells are at least as large as the box, in the one cell where
+// its lower corner is; a search looks farther down by the largest box of the level, for those that reach up
+// to it. So radii may differ by any ratio, and a box is moved in O(1). Boxes are kept as floats, rounded
+// outward.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +36,8 @@ class HashGrid {
   double largest_extent() const;
 
   /// Calls visit(body) or visit(body, FloatBox of it) once for each registered body whose box overlaps `box`,
-  /// touching included. `visit` may not change the grid. Cost: the cells that the box meets, on each level in use, and what they hold.
+  /// touching included. `visit` may not change the grid. Cost: the cells that the box meets, on each level in
+  /// use, and what they hold.
   template <class Visit>
   void for_each_overlap(const Box& box, Visit visit) const;
 
@@ -44,8 +46,8 @@ class HashGrid {
   template <class Visit>
   void for_each_cell(Visit visit) const;
 
-  /// What is wrong with the body's registration, if anything: it must stand, as `box`, in the cell of its lower
-  /// corner and in no other. Cost: all cells.
+  /// What is wrong with the body's registration, if anything: it must stand, as `box`, in the cell of its
+  /// lower corner and in no other. Cost: all cells.
   std::optional<std::string> check(std::uint32_t body, const Box& box) const;
 
   /// Everything as it is, for a search visits bodies in the order in which cells and entries stand, and when
@@ -189,8 +191,8 @@ class HashGrid {
   std::vector<Level> levels_;
   std::vector<Place> places_;
   std::size_t size_ = 0;
-  int finest_exponent_ = 0;        ///< log2 of the edge on level 0
-  std::int64_t size_sum_ = 0;      ///< of size_of() of all registered boxes
+  int finest_exponent_ = 0;    ///< log2 of the edge on level 0
+  std::int64_t size_sum_ = 0;  ///< of size_of() of all registered boxes
   std::size_t changes_since_tuning_ = 0;
 };
 

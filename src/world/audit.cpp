@@ -3,7 +3,9 @@
 #include <cmath>
 #include <string>
 #include <tuple>
+#include <type_traits>
 
+#include "bound/encounter.hpp"
 #include "input/input_check.hpp"
 #include "world/engine.hpp"
 
@@ -183,10 +185,17 @@ class World::Engine::Audit {
   double earliest_change(std::uint32_t a, std::uint32_t b, const Threshold& threshold) const {
     const ContactRule& rule = engine_.book_.rule_of(threshold);
     const double inside = rule.impacts_only() ? rule.tolerance() : 0.0;
-    return engine_.visit_pair(a, b, [&](const Bound& bound, const auto& partner) {
-      return threshold.within ? earliest_separation(bound, partner, now_, infinity,
-                                                    rule.release_gap() + threshold.distance)
-                              : earliest_meeting(bound, partner, now_, infinity, threshold.distance - inside);
+    return engine_.visit_pair(a, b, [&]<class Partner>(const Bound& bound, const Partner& partner) {
+      if (threshold.within)
+        return earliest_separation(bound, partner, now_, infinity, rule.release_gap() + threshold.distance);
+      const double distance = threshold.distance - inside;
+      double meeting = earliest_meeting(bound, partner, now_, infinity, distance);
+      if constexpr (std::is_same_v<Partner, Bound>) {
+        // Far out, the engine has the better eye for those that nearly touch.
+        const Encounter encounter(MovedBound(bound, now_), MovedBound(partner, now_));
+        meeting = std::max(meeting, now_ + encounter.meeting(infinity, distance + engine_.rounding_room()));
+      }
+      return meeting;
     });
   }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bound/encounter.hpp"
 #include "world/engine.hpp"
 
 namespace kinesphere {
@@ -45,6 +46,11 @@ Bound World::Engine::reach(const Body& body) const {
   return bound;
 }
 
+/// How far the gap of the two can be from one that means something: no sensor distance of either is larger.
+double World::Engine::reach_of_pair(const Body& a, const Body& b) const {
+  return std::max(sensors_.reach(a.definition.sensor_class), sensors_.reach(b.definition.sensor_class));
+}
+
 /// How long a new box of the body would last.
 double World::Engine::box_length(const Body& body) const {
   const double speed = norm(body.bound.velocity) + body.definition.velocity_error;
@@ -52,17 +58,17 @@ double World::Engine::box_length(const Body& body) const {
   return space_.repeats() ? std::min(length, longest_in_period(body)) : length;
 }
 
-/// The body may stay in its box for a good while yet, after a kick for one: then its neighbours are still those that
-/// it has. It stays in the box that holds both ends of its way, with the radius that it has at the end.
+/// The body may stay in its box for a good while yet, after a kick for one: then its neighbours are still
+/// those that it has. It stays in the box that holds both ends of its way, with the radius that it has at the
+/// end.
 bool World::Engine::keep_box(std::uint32_t number) {
   Body& body = bodies_[number];
   if (body.is_fixed() || body.box_end <= time_) return false;
   const MovedBound moved(reach(body), time_);
-  const double rounding = definition_.contact_tolerance / 16.0;
   double length = box_length(body);
   for (int attempt = 0; attempt < most_lengths_tried; ++attempt, length *= 0.75) {
     const Vec3 end = moved.centre + moved.velocity * length;
-    const double radius = moved.radius_after(length) + rounding;
+    const double radius = moved.radius_after(length) + rounding_room();
     bool inside = true;
     for (int axis = 0; axis < definition_.dimensions; ++axis) {
       inside = inside && body.box.lower[axis] <= std::min(moved.centre[axis], end[axis]) - radius &&
@@ -85,9 +91,9 @@ void World::Engine::register_box(std::uint32_t number) {
   grid_.set(number, body.box);
 }
 
-/// Contains the body until its box_end. One that was kicked lately may be kicked again, and go anywhere: it gets as
-/// much room on all sides as the longest way needs, but no more than makes the box as wide as it may be where space
-/// repeats.
+/// Contains the body until its box_end. One that was kicked lately may be kicked again, and go anywhere: it
+/// gets as much room on all sides as the longest way needs, but no more than makes the box as wide as it may
+/// be where space repeats.
 Box World::Engine::box_of_way(const Body& body) const {
   Box box = swept_box(reach(body), time_, body.box_end);
   if (body.turned) {
@@ -114,13 +120,15 @@ void World::Engine::bring_home(Body& body) const {
   body.box = box_of_way(body);
 }
 
-/// How wide the box of a body may be on an axis that repeats, by space/space.hpp (2); a little less, for rounding.
+/// How wide the box of a body may be on an axis that repeats, by space/space.hpp (2); a little less, for
+/// rounding.
 double World::Engine::widest_in_period(const Body& body, int axis) const {
   return (0.5 - 0x1p-10) * space_.period()[axis] - book_.rule().release_gap() -
          4.0 * body.definition.position_error;
 }
 
-/// How long a box of a body may last to be no wider than that: the box of a bound grows by at most (|v| + 2 e1) s + (|g| / 2 + A) s^2 on an axis.
+/// How long a box of a body may last to be no wider than that: the box of a bound grows by at most (|v| + 2
+/// e1) s + (|g| / 2 + A) s^2 on an axis.
 double World::Engine::longest_in_period(const Body& body) const {
   const Bound& bound = body.bound;
   const double radius = reach(body).radius;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "world/lookout.hpp"
+
 namespace kinesphere {
 namespace {
 
@@ -209,11 +211,9 @@ Result<void> World::Engine::wake(std::uint32_t number) {
       neighbours_.unwatch(number, place);
       continue;
     }
-    if (only_contacts_of_spheres() && !book_.touch(number, partner)) {
-      if (const double until = Lookout(*this, number).apart_until(bodies_[partner]); until > time_) {
-        neighbours_.watch(number, place, until);
-        continue;
-      }
+    if (const double until = Lookout(*this, number).left_alone_until(partner); until > time_) {
+      neighbours_.watch(number, place, until);
+      continue;
     }
     ++counters_.pair_checks;
     if (!bodies_[number].fresh(time_) && !bodies_[partner].fresh(time_)) {

@@ -2,20 +2,20 @@
 //
 // For every pair of living bodies one of these facts is recorded whenever time moves on:
 //   - their boxes do not overlap, and each body stays in its box until its box_end; or
-//   - they are neighbours and one of the two watches the other: whether they touch, and which sensor distances
+//   - they are neighbours and one of the two watches the other: whether they touch, and which sensor
+//   distances
 //     they are within, cannot change before the watch's time; or
 //   - they are neighbours, both apart, and cross no sensor distance until the earlier of the two box ends; or
 //   - the filters keep them from touching and sensing each other.
-// A box has room for all that its body can sense around it. Neighbours are those whose boxes overlap, and those
-// that touch or sense each other.
-// A fact is about the true bodies, so later probes leave it true. Only a discontinuity (a kick, a broken
-// promise, a change that the caller makes) ends it: it takes away all watches of the body from both sides, and
-// makes the body dirty. A dirty body settles all its pairs again before time moves on (a disabled one is out of
-// the grid and the schedule instead), in its old box if that still holds it for a good while, or in a new one
-// after it has looked for its neighbours; so does a body whose box has run out, which renews the first and the
-// third kind of fact. Each body is scheduled at the earliest of
-// its box end, its wall time and its watches. A fixed body has a shape in a table of its own and a box for
-// ever. It is never probed and watches nobody: its partners, which move, watch it.
+// A box has room for all that its body can sense around it. Neighbours are those whose boxes overlap, and
+// those that touch or sense each other. A fact is about the true bodies, so later probes leave it true. Only
+// a discontinuity (a kick, a broken promise, a change that the caller makes) ends it: it takes away all
+// watches of the body from both sides, and makes the body dirty. A dirty body settles all its pairs again
+// before time moves on (a disabled one is out of the grid and the schedule instead), in its old box if that
+// still holds it for a good while, or in a new one after it has looked for its neighbours; so does a body
+// whose box has run out, which renews the first and the third kind of fact. Each body is scheduled at the
+// earliest of its box end, its wall time and its watches. A fixed body has a shape in a table of its own and
+// a box for ever. It is never probed and watches nobody: its partners, which move, watch it.
 //
 // Where space repeats, the image in which two bodies can meet is the one in which their boxes are nearest
 // (space/space.hpp). It may be another one after either box has ended, so there no watch outlives the boxes.
@@ -33,8 +33,6 @@
 #include <utility>
 #include <vector>
 
-#include "bound/encounter.hpp"
-#include "bound/rounding.hpp"
 #include "contact/contact_book.hpp"
 #include "contact/outlook.hpp"
 #include "contact/sensor_table.hpp"
@@ -53,8 +51,8 @@ inline constexpr std::uint32_t no_shape = std::numeric_limits<std::uint32_t>::ma
 
 /// What others need to know of a body to settle a pair comes first, in two cache lines.
 struct alignas(64) Body {
-  Bound bound;           ///< since the last report
-  double box_end = 0.0;  ///< the body stays in its box until then
+  Bound bound;             ///< since the last report
+  double box_end = 0.0;    ///< the body stays in its box until then
   double wall_time = 0.0;  ///< no wall contact begins or ends before this or, if it is infinite, box_end
   bool alive = false;
   bool enabled = true;
@@ -225,6 +223,10 @@ class World::Engine {
   // boxes.cpp: registrations.
   void choose_first_horizons(const std::vector<std::uint32_t>& round);
   Bound reach(const Body& body) const;
+  double reach_of_pair(const Body& a, const Body& b) const;
+  /// More than what rounding does to positions and ways, which are at most 2^45 contact tolerances; and so
+  /// much less than a tolerance that a certificate for two bodies that are not near spans most of it.
+  double rounding_room() const { return definition_.contact_tolerance / 16.0; }
   double box_length(const Body& body) const;
   bool keep_box(std::uint32_t number);
   void register_box(std::uint32_t number);
@@ -246,16 +248,10 @@ class World::Engine {
   bool facts_end_with_boxes() const { return sensors_.any() || space_.repeats(); }
   Result<void> settle_changed(std::uint32_t a, std::uint32_t b);
   Result<void> settle_neighbours(std::uint32_t number);
-  Result<void> settle_each_neighbour(std::uint32_t number);
-  Result<void> settle_spheres(std::uint32_t number);
   class Lookout;
   /// A dirty partner will settle the pair itself; one that has been settled in this round has done so.
   bool settles_itself(std::uint32_t partner) const {
     return bodies_[partner].dirty || bodies_[partner].settled;
-  }
-  /// Nothing else can happen between two bodies, and their bounds are all there is to know.
-  bool only_contacts_of_spheres() const {
-    return !sensors_.any() && !filtering_ && shapes_.empty() && !space_.repeats();
   }
   Result<void> settle_pair(std::uint32_t number, Neighbours::Place place);
   template <class Partner>
@@ -320,55 +316,6 @@ class World::Engine {
   std::vector<std::uint32_t> partners_;
   std::vector<std::uint32_t> round_;
   std::vector<std::uint32_t> chosen_;
-};
-
-/// A body from whom one neighbour after the other is looked at. It and they touch nothing.
-class World::Engine::Lookout {
- public:
-  Lookout(const Engine& engine, std::uint32_t number)
-      : body_(engine.bodies_[number]),
-        own_(body_.bound, engine.time_),
-        now_(engine.time_),
-        tolerance_(engine.definition_.contact_tolerance) {
-    look_at(std::min(body_.box_end, body_.wall_time));
-  }
-
-  /// The body will be looked at at this time. Pairs that come into question only much later can wait for then.
-  void look_at(double time) {
-    if (time < first_) {
-      first_ = time;
-      enough_ = now_ + beyond_first * (first_ - now_);
-    }
-  }
-
-  /// The two certainly stay apart until this time: for a while beyond the next look, or longer; +infinity: until
-  /// their boxes end. Now, if only fresh reports can tell, and one of them is not.
-  [[gnu::always_inline]] double apart_until(const Body& other) const {
-    const double boxes_end = std::min(body_.box_end, other.box_end);
-    const double until = std::min(boxes_end, enough_);
-    const Encounter encounter(own_, MovedBound(other.bound, now_));
-    if (encounter.stay_apart(until - now_, tolerance_)) return until < boxes_end ? until : infinity;
-    return meeting(encounter, boxes_end);
-  }
-
- private:
-  static constexpr double beyond_first = 2.0;
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-
-  double meeting(const Encounter& encounter, double boxes_end) const {
-    // Coordinates and ways are at most 2^45 tolerances: this covers all rounding, and a certificate for two that are
-    // not near spans most of a tolerance.
-    const double room = 0.0625 * tolerance_;
-    if (encounter.is_near(tolerance_)) return now_;
-    return rounding::sum_down(now_, encounter.meeting(boxes_end - now_, room));
-  }
-
-  const Body& body_;
-  const MovedBound own_;
-  const double now_;
-  const double tolerance_;
-  double first_ = infinity;
-  double enough_ = infinity;
 };
 
 /// What comes next between two bodies that may meet: their contact, the next sensor distance inward, and the

@@ -1,4 +1,5 @@
-// Who is near whom: for each body the others whose boxes overlap its own, and until when each pair is settled.
+// Who is near whom: for each body the others whose boxes overlap its own, and until when each pair is
+// settled.
 #pragma once
 
 #include <algorithm>
@@ -39,8 +40,8 @@ class Neighbours {
   /// Where `partner` stands in the list of the body. Cost: O(length of the list).
   std::optional<Place> find(std::uint32_t body, std::uint32_t partner) const;
 
-  /// The body's neighbours become `found`, where some may stand several times; pairs that stay keep their watches.
-  /// Cost: O(old + new).
+  /// The body's neighbours become `found`, where some may stand several times; pairs that stay keep their
+  /// watches. Cost: O(old + new).
   void replace(std::uint32_t body, std::span<const std::uint32_t> found);
   void remove_all(std::uint32_t body);
 
@@ -50,8 +51,6 @@ class Neighbours {
     here.watch = time;
     lists_[here.partner][here.mirror].watch = std::numeric_limits<double>::infinity();
   }
-  /// The same for a pair that neither side watches.
-  void watch_unwatched(std::uint32_t body, Place place, double time) { lists_[body][place].watch = time; }
   void unwatch(std::uint32_t body, Place place) {
     watch(body, place, std::numeric_limits<double>::infinity());
   }
@@ -71,8 +70,8 @@ class Neighbours {
     archive(lists);
     if constexpr (!std::is_const_v<Self>) stamps.assign(lists.size(), 0);
   }
-  /// For those that were read: true when both sides of each pair know of each other, no pair is there twice, and
-  /// no more than one side watches it.
+  /// For those that were read: true when both sides of each pair know of each other, no pair is there twice,
+  /// and no more than one side watches it.
   bool is_sound(std::size_t bodies) const;
 
  private:

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "world/engine.hpp"
+#include "world/lookout.hpp"
 
 namespace kinesphere {
 namespace {
@@ -116,46 +117,26 @@ Result<void> World::Engine::settle_round(const std::vector<std::uint32_t>& round
   return {};
 }
 
-/// Records facts between a body and its neighbours, and between it and the walls.
+/// Records facts between a body and its neighbours, and between it and the walls: the inner loop of the
+/// engine.
 Result<void> World::Engine::settle_neighbours(std::uint32_t number) {
-  if (bodies_[number].is_fixed()) return settle_each_neighbour(number);
-  if (auto settled = settle_walls(number); !settled) return settled;
-  const bool bare = only_contacts_of_spheres() && book_.partners_of(number).empty();
-  return bare ? settle_spheres(number) : settle_each_neighbour(number);
-}
-
-Result<void> World::Engine::settle_each_neighbour(std::uint32_t number) {
-  for (Neighbours::Place place = 0; place < neighbours_.of(number).size(); ++place) {
-    const std::uint32_t partner = neighbours_.of(number)[place].partner;
-    if (settles_itself(partner) || is_watched(number, place) || !may_meet(number, partner)) continue;
-    if (auto settled = settle_pair(number, place); !settled) return settled;
-    if (bodies_[number].dirty) return {};
+  if (!bodies_[number].is_fixed()) {
+    if (auto settled = settle_walls(number); !settled) return settled;
   }
-  return {};
-}
-
-/// The inner loop of the engine, for bodies that touch nothing: most neighbours can be left alone, which costs
-/// some sums and products each.
-Result<void> World::Engine::settle_spheres(std::uint32_t number) {
   const bool voided = bodies_[number].voided;
   Lookout lookout(*this, number);
-  const auto size = neighbours_.of(number).size();
+  const std::size_t size = neighbours_.of(number).size();
   for (Neighbours::Place place = 0; place < size; ++place) {
-    const Neighbour& one = neighbours_.of(number)[place];
-    const Body& other = bodies_[one.partner];
-    if (other.dirty || other.settled || (!voided && is_watched(number, place))) continue;
-    if (const double until = lookout.apart_until(other); until > time_) {
-      if (voided) {
-        neighbours_.watch_unwatched(number, place, until);
-      } else {
-        neighbours_.watch(number, place, until);
-      }
-      lookout.look_at(until);
+    const std::uint32_t partner = neighbours_.of(number)[place].partner;
+    if (settles_itself(partner) || (!voided && is_watched(number, place)) || !may_meet(number, partner))
       continue;
+    if (const double until = lookout.left_alone_until(partner); until > time_) {
+      neighbours_.watch(number, place, until);
+    } else {
+      if (auto settled = settle_pair(number, place); !settled) return settled;
+      if (bodies_[number].dirty) return {};
     }
-    if (auto settled = settle_pair(number, place); !settled) return settled;
-    if (bodies_[number].dirty) return {};
-    lookout.look_at(neighbours_.of(number)[place].watch);
+    lookout.expect(neighbours_.of(number)[place].watch);
   }
   return {};
 }

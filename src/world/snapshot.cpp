@@ -62,12 +62,11 @@ template <class Self, class Archive>
 void World::Engine::transfer(Self& self, Archive& archive) {
   // The definition comes first, as an engine is made from it, space and walls too; the last matter only
   // during advance().
-  auto& [definition, space, enclosure, book, time, size, bodies, free, shapes, free_shapes, grid,
-         neighbours, schedule, dirty, counters, sensors, pair_filter, filtering, gathering, probe, probing_call, probing, probe_ids,
-         probe_states, partners, round,
-         chosen] = self;
-  archive(book, time, size, bodies, free, shapes, free_shapes, grid, neighbours, schedule, dirty, counters, sensors,
-          filtering, gathering);
+  auto& [definition, space, enclosure, book, time, size, bodies, free, shapes, free_shapes, grid, neighbours,
+         schedule, dirty, counters, sensors, pair_filter, filtering, gathering, probe, probing_call, probing,
+         probe_ids, probe_states, partners, round, chosen] = self;
+  archive(book, time, size, bodies, free, shapes, free_shapes, grid, neighbours, schedule, dirty, counters,
+          sensors, filtering, gathering);
 }
 
 std::vector<std::byte> World::Engine::save() const {
@@ -127,8 +126,8 @@ const char* World::Engine::contradiction() const {
   return nullptr;
 }
 
-/// All of them take part, fixed ones leave it to others to watch, and bodies that are settled and touch or sense each
-/// other are neighbours.
+/// All of them take part, fixed ones leave it to others to watch, and bodies that are settled and touch or
+/// sense each other are neighbours.
 bool World::Engine::neighbours_are_sound() const {
   for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
     for (const Neighbour& one : neighbours_.of(number))
@@ -139,7 +138,8 @@ bool World::Engine::neighbours_are_sound() const {
     const auto& touched = book_.partners_of(number);
     const auto& crossed = book_.crossings_of(number);
     if (!std::all_of(touched.begin(), touched.end(), is_neighbour) ||
-        !std::all_of(crossed.begin(), crossed.end(), [&](const Crossing& c) { return is_neighbour(c.partner); }))
+        !std::all_of(crossed.begin(), crossed.end(),
+                     [&](const Crossing& c) { return is_neighbour(c.partner); }))
       return false;
   }
   return true;
@@ -193,8 +193,8 @@ bool World::Engine::is_sound_fixed(const Body& body) const {
   return same(body.definition, made) &&
          same(body.bound, bound_of(made, {made.position, {}}, body.bound.time)) && body.bound.time <= time_ &&
          std::isfinite(body.bound.time) && (!body.enabled || same(body.box, box_of(body))) &&
-         body.box_end == infinity && body.wall_time == infinity && !body.horizon &&
-         !body.settled && !body.kicked_since_report && !(body.dirty && !body.enabled);
+         body.box_end == infinity && body.wall_time == infinity && !body.horizon && !body.settled &&
+         !body.kicked_since_report && !(body.dirty && !body.enabled);
 }
 
 bool World::Engine::bodies_are_sound() const {

@@ -68,7 +68,8 @@ TEST(Cells, HoldTheLowerCornersOfTheBoxes) {
       constexpr double rounding = 1e-4;
       for (int axis = 0; axis < 3; ++axis) {
         const double corner = box.lower[axis];
-        if (corner < cell.box.lower[axis] - rounding || corner > cell.box.upper[axis] + rounding) return false;
+        if (corner < cell.box.lower[axis] - rounding || corner > cell.box.upper[axis] + rounding)
+          return false;
       }
       return true;
     };

@@ -171,9 +171,10 @@ class Queries : public testing::TestWithParam<CrowdKind> {
 };
 
 TEST_P(Queries, AgreeWithBruteForce) {
+  constexpr int questions = 6;
   for (int stop = 1; stop <= 40; ++stop) {
     // Before the world has looked at the changes, too.
-    for (int k = 0; k < 4; ++k) ASSERT_NO_FATAL_FAILURE(ask()) << "stop " << stop;
+    for (int k = 0; k < questions; ++k) ASSERT_NO_FATAL_FAILURE(ask()) << "stop " << stop;
     while (const auto event = crowd.advance(-1.0 + 0.05 * stop)) {
       ASSERT_NE(event->kind, EventKind::bound_violation);
       ASSERT_NO_FATAL_FAILURE(ask()) << "stop " << stop;
@@ -181,7 +182,7 @@ TEST_P(Queries, AgreeWithBruteForce) {
       ASSERT_NO_FATAL_FAILURE(ask()) << "stop " << stop;
     }
     ASSERT_TRUE(is_clean(crowd.world));
-    for (int k = 0; k < 4; ++k) ASSERT_NO_FATAL_FAILURE(ask()) << "stop " << stop;
+    for (int k = 0; k < questions; ++k) ASSERT_NO_FATAL_FAILURE(ask()) << "stop " << stop;
     for (int k = 0; k < 4; ++k) crowd.change();
   }
   EXPECT_GT(certain, 100u);

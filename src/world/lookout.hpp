@@ -1,0 +1,66 @@
+// The cheap look at neighbours: most of them can be left alone for some sums and products, a few for a root.
+#pragma once
+
+#include "bound/encounter.hpp"
+#include "bound/rounding.hpp"
+#include "world/engine.hpp"
+
+namespace kinesphere {
+
+/// A body from whom one neighbour after the other is looked at.
+class World::Engine::Lookout {
+ public:
+  Lookout(const Engine& engine, std::uint32_t number)
+      : engine_(engine),
+        number_(number),
+        body_(engine.bodies_[number]),
+        own_(body_.bound, engine.time_),
+        now_(engine.time_),
+        bare_(!body_.is_fixed() && engine.book_.partners_of(number).empty() &&
+              engine.book_.crossings_of(number).empty()) {
+    expect(std::min(body_.box_end, body_.wall_time));
+  }
+
+  /// The body will be looked at at this time. Pairs that come into question only much later can wait for
+  /// then.
+  void expect(double time) {
+    if (time > now_ && time < first_) {
+      first_ = time;
+      enough_ = now_ + beyond_first * (first_ - now_);
+    }
+  }
+
+  /// Nothing can happen between the two until this time; +infinity: until their boxes end. Now, if a closer
+  /// look is needed, or fresh reports.
+  [[gnu::always_inline]] double left_alone_until(std::uint32_t partner) const {
+    const Body& other = engine_.bodies_[partner];
+    if (!bare_ || other.is_fixed()) return now_;
+    const double boxes_end = std::min(body_.box_end, other.box_end);
+    const double until = std::min(boxes_end, enough_);
+    MovedBound moved(other.bound, now_);
+    if (engine_.space_.repeats()) moved.centre += engine_.shift_to_meet(number_, partner);
+    const Encounter encounter(own_, moved);
+    const double tolerance = engine_.definition_.contact_tolerance;
+    const bool senses = engine_.sensors_.any();
+    const double reach = senses ? engine_.reach_of_pair(body_, other) : 0.0;
+    if (encounter.stay_apart(until - now_, reach + tolerance)) return until < boxes_end ? until : infinity;
+    if (senses || encounter.is_near(tolerance)) return now_;
+    return rounding::sum_down(now_, encounter.meeting(boxes_end - now_, engine_.rounding_room()));
+  }
+
+ private:
+  static constexpr double beyond_first = 2.0;
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  const Engine& engine_;
+  const std::uint32_t number_;
+  const Body& body_;
+  const MovedBound own_;
+  const double now_;
+  /// It touches and senses nothing.
+  const bool bare_;
+  double first_ = infinity;
+  double enough_ = infinity;
+};
+
+}  // namespace kinesphere
