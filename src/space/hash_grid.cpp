@@ -108,21 +108,29 @@ void HashGrid::Level::rehash() {
   }
 }
 
-int HashGrid::exponent_of(float extent) {
-  // The smallest e with extent <= 2^e; a point counts as the smallest normal float, infinity as the greatest.
-  int exponent = 0;
+namespace {
+
+/// A point counts as the smallest normal float, infinity as the greatest.
+std::uint32_t bits_of(float extent) {
   using Limits = std::numeric_limits<float>;
-  const float normal = std::clamp(extent, Limits::min(), Limits::max());
-  const float fraction = std::frexp(normal, &exponent);
-  return fraction == 0.5f ? exponent - 1 : exponent;
+  return std::bit_cast<std::uint32_t>(std::clamp(extent, Limits::min(), Limits::max()));
 }
 
-/// About octave * log2 of an extent: linear between powers of two.
+constexpr int mantissa_bits = 23;
+constexpr int exponent_bias = 127;
+
+}  // namespace
+
+/// The smallest e with extent <= 2^e.
+int HashGrid::exponent_of(float extent) {
+  const std::uint32_t rounded_up = bits_of(extent) + ((1u << mantissa_bits) - 1u);
+  return static_cast<int>(rounded_up >> mantissa_bits) - exponent_bias;
+}
+
+/// About 2^octave_bits times log2 of an extent: linear between powers of two, as the bits of a float are.
 std::int64_t HashGrid::size_of(float extent) {
-  const int exponent = exponent_of(extent);
-  const double part =
-      std::ldexp(static_cast<double>(extent), -exponent);  // in (1/2, 1], but for the extremes
-  return octave * exponent + static_cast<std::int64_t>(2 * octave * (std::clamp(part, 0.5, 1.0) - 1.0));
+  return static_cast<std::int64_t>(bits_of(extent) >> (mantissa_bits - octave_bits)) -
+         (exponent_bias << octave_bits);
 }
 
 int HashGrid::level_for(float extent) const {
@@ -193,7 +201,7 @@ void HashGrid::remove(std::uint32_t body) {
 void HashGrid::retune_if_worthwhile() {
   if (++changes_since_tuning_ < size_) return;
   changes_since_tuning_ = 0;
-  const double mean = static_cast<double>(size_sum_) / (octave * static_cast<double>(size_));
+  const double mean = static_cast<double>(size_sum_) / ((1 << octave_bits) * static_cast<double>(size_));
   const int wanted = static_cast<int>(std::floor(mean + 0.5)) + finest_above_mean;
   if (std::abs(mean + finest_above_mean - finest_exponent_) < 0.75) return;
   finest_exponent_ = wanted;

@@ -185,8 +185,8 @@ class HashGrid {
 
   static int exponent_of(float extent);
   static std::int64_t size_of(float extent);
-  /// In size_of() an octave counts as this.
-  static constexpr int octave = 16;
+  /// In size_of() an octave counts as 2^4.
+  static constexpr int octave_bits = 4;
 
   std::vector<Level> levels_;
   std::vector<Place> places_;

@@ -12,7 +12,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A box is kept when it will last for about a quarter of what a new one would.
 constexpr int most_lengths_tried = 5;
 /// A box with room on all sides is as large as one ahead of its body that lasts this part as long.
-constexpr double turned_part = 0.5;
+constexpr double turned_part = 0.4;
 
 }  // namespace
 
