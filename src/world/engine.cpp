@@ -211,12 +211,13 @@ Result<void> World::Engine::wake(std::uint32_t number) {
       neighbours_.unwatch(number, place);
       continue;
     }
-    if (const double until = Lookout(*this, number).left_alone_until(partner); until > time_) {
+    const Lookout lookout(*this, number);
+    if (const double until = lookout.left_alone_until(partner); until > time_) {
       neighbours_.watch(number, place, until);
       continue;
     }
     ++counters_.pair_checks;
-    if (!bodies_[number].fresh(time_) && !bodies_[partner].fresh(time_)) {
+    if (!lookout.knows_all_of(partner) && !bodies_[number].fresh(time_) && !bodies_[partner].fresh(time_)) {
       if (auto probed = probe_staler(number, partner); !probed) return probed;
     }
     if (auto settled = settle_pair(number, place); !settled) return settled;

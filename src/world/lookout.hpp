@@ -30,6 +30,12 @@ class World::Engine::Lookout {
     }
   }
 
+  /// Two spheres that touch and sense nothing: reports that are not fresh tell no more of them than
+  /// left_alone_until().
+  bool knows_all_of(std::uint32_t partner) const {
+    return bare_ && !engine_.bodies_[partner].is_fixed() && !engine_.sensors_.any();
+  }
+
   /// Nothing can happen between the two until this time; +infinity: until their boxes end. Now, if a closer
   /// look is needed, or fresh reports.
   [[gnu::always_inline]] double left_alone_until(std::uint32_t partner) const {

@@ -141,7 +141,7 @@ Result<void> World::Engine::settle_neighbours(std::uint32_t number) {
   return {};
 }
 
-/// Records a fact about a body and a neighbour, probing them as far as that needs.
+/// Records a fact about a body and a neighbour that cannot be left alone, probing them as far as that needs.
 Result<void> World::Engine::settle_pair(std::uint32_t number, Neighbours::Place place) {
   const auto [watch, partner, mirror] = neighbours_.of(number)[place];
   if (bodies_[number].is_fixed()) {
@@ -150,15 +150,21 @@ Result<void> World::Engine::settle_pair(std::uint32_t number, Neighbours::Place 
     if (!bodies_[partner].dirty) reschedule(partner);
     return settled;
   }
-  for (;;) {
-    if (bodies_[number].dirty || bodies_[partner].dirty)
-      return {};  // a broken promise came up: its body settles all its pairs again
-    const bool known = visit_pair(number, partner, [=, this](const Bound& bound, const auto& other) {
-      return look_at_pair(number, place, bound, other);
-    });
-    if (known) return {};
+  while (!bodies_[number].dirty && !bodies_[partner].dirty) {
+    const bool fresh = bodies_[number].fresh(time_) && bodies_[partner].fresh(time_);
+    if (fresh || !Lookout(*this, number).knows_all_of(partner)) {
+      const bool known = visit_pair(number, partner, [=, this](const Bound& bound, const auto& other) {
+        return look_at_pair(number, place, bound, other);
+      });
+      if (known) return {};
+    }
     if (auto probed = probe_staler(number, partner); !probed) return probed;
+    if (const double until = Lookout(*this, number).left_alone_until(partner); until > time_) {
+      if (!bodies_[number].dirty && !bodies_[partner].dirty) neighbours_.watch(number, place, until);
+      return {};
+    }
   }
+  return {};  // a broken promise came up: its body settles all its pairs again
 }
 
 /// Records a fact from the reports that there are. False when they are too old for that.

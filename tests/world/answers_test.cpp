@@ -114,7 +114,7 @@ class Answers : public testing::TestWithParam<CrowdKind> {
 
 TEST_P(Answers, AreNeverLaterThanWhatHappens) {
   std::size_t begun = 0;
-  for (int stop = 1; stop <= 40; ++stop) {
+  for (int stop = 1; stop <= 80; ++stop) {
     claims.clear();
     // Before the world has looked at the changes, too.
     for (int k = 0; k < 5; ++k) ASSERT_NO_FATAL_FAILURE(ask());
