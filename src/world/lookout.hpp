@@ -59,12 +59,12 @@ class World::Engine::Lookout {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
   const Engine& engine_;
-  const std::uint32_t number_;
+  std::uint32_t number_;
   const Body& body_;
-  const MovedBound own_;
-  const double now_;
+  MovedBound own_;
+  double now_;
   /// It touches and senses nothing.
-  const bool bare_;
+  bool bare_;
   double first_ = infinity;
   double enough_ = infinity;
 };

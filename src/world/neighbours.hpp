@@ -40,8 +40,8 @@ class Neighbours {
   /// Where `partner` stands in the list of the body. Cost: O(length of the list).
   std::optional<Place> find(std::uint32_t body, std::uint32_t partner) const;
 
-  /// The body's neighbours become `found`, where some may stand several times; pairs that stay keep their
-  /// watches. Cost: O(old + new).
+  /// The body's neighbours become `found`, others, of which some may stand several times; pairs that stay
+  /// keep their watches. Cost: O(old + new).
   void replace(std::uint32_t body, std::span<const std::uint32_t> found);
   void remove_all(std::uint32_t body);
 
