@@ -242,6 +242,10 @@ TEST(Neighbours, that_are_read_are_sound_only_if_both_sides_agree) {
          lists[0].push_back({.partner = 2, .mirror = 2});
          lists[2].push_back({.partner = 0, .mirror = 2});
        }},
+      {"three in a ring, each beside the next",
+       [](Lists& lists) {
+         lists = {{{.partner = 1}}, {{.partner = 2}}, {{.partner = 0}}, {}};
+       }},
       {"mirrors crossed within a pair that is there twice",
        [](Lists& lists) {
          lists[0].push_back({.partner = 2, .mirror = 0});
