@@ -77,7 +77,7 @@ class World::Engine::RoundInProgress {
     if (done_) return;
     for (const std::uint32_t number : round_) {
       engine_.bodies_[number].dirty = false;
-      engine_.bodies_[number].voided = false;  // some of its pairs may be settled
+      engine_.bodies_[number].voided = false;  // what was settled of it already still holds
       engine_.mark_dirty(number);
     }
   }
