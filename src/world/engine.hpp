@@ -2,10 +2,10 @@
 //
 // For every pair of living bodies one of these facts is recorded whenever time moves on:
 //   - their boxes do not overlap, and each body stays in its box until its box_end; or
-//   - they are neighbours and one of the two watches the other: whether they touch, and which sensor
-//   distances
-//     they are within, cannot change before the watch's time; or
-//   - they are neighbours, both apart, and cross no sensor distance until the earlier of the two box ends; or
+//   - they are neighbours, and one of the two watches the other: whether they touch, and which sensor
+//     distances they are within, cannot change before the watch's time; or
+//   - they are neighbours, both apart, and cross no sensor distance until the earlier of the two box ends;
+//     or
 //   - the filters keep them from touching and sensing each other.
 // A box has room for all that its body can sense around it. Neighbours are those whose boxes overlap, and
 // those that touch or sense each other. A fact is about the true bodies, so later probes leave it true. Only
