@@ -35,7 +35,14 @@ void Neighbours::replace(std::uint32_t body, std::span<const std::uint32_t> foun
   }
 }
 
+/// Room for one more. Lists are many and short: doubling them would leave a third of their memory empty.
+void Neighbours::make_room_for_one(std::vector<Neighbour>& list) {
+  if (list.size() == list.capacity()) list.reserve(list.size() + std::max<std::size_t>(4, list.size() / 4));
+}
+
 void Neighbours::link(std::uint32_t a, std::uint32_t b) {
+  make_room_for_one(lists_[a]);
+  make_room_for_one(lists_[b]);
   const auto place_a = static_cast<Place>(lists_[a].size());
   const auto place_b = static_cast<Place>(lists_[b].size());
   lists_[a].push_back({.partner = b, .mirror = place_b});

@@ -75,6 +75,7 @@ class Neighbours {
   bool is_sound(std::size_t bodies) const;
 
  private:
+  static void make_room_for_one(std::vector<Neighbour>& list);
   void link(std::uint32_t a, std::uint32_t b);
   void unlink(std::uint32_t body, Place place);
   void take_out(std::uint32_t body, Place place);
