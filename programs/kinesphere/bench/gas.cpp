@@ -27,7 +27,7 @@ const GasSettings& gas_settings(Effort effort) {
   static constexpr GasSettings quick{100, 2e3};
   static constexpr GasSettings usual{4000, 1e6};
   static constexpr GasSettings full{4000, 1e7};
-  return effort == Effort::quick ? quick : effort == Effort::full ? full : usual;
+  return chosen(effort, quick, usual, full);
 }
 
 /// Percent.

@@ -72,15 +72,7 @@ const BenchSettings& bench_settings(Effort effort) {
       .cell_body_seconds = 5000,
       .solver_pairs = 1000000,
   };
-  switch (effort) {
-    case Effort::quick:
-      return quick;
-    case Effort::full:
-      return full;
-    case Effort::usual:
-      break;
-  }
-  return usual;
+  return chosen(effort, quick, usual, full);
 }
 
 }  // namespace kinesphere::program

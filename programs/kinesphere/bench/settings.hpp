@@ -13,6 +13,20 @@ enum class Effort {
   full,   ///< an hour or more: the paper's own lengths and repetitions
 };
 
+/// The one of three that belongs to an effort.
+template <class Settings>
+const Settings& chosen(Effort effort, const Settings& quick, const Settings& usual, const Settings& full) {
+  switch (effort) {
+    case Effort::quick:
+      return quick;
+    case Effort::full:
+      return full;
+    case Effort::usual:
+      break;
+  }
+  return usual;
+}
+
 /// n bodies, simulated for so many seconds from so many seeds (1, 2, ...).
 struct Trial {
   std::uint32_t bodies;

@@ -30,15 +30,7 @@ const SpeedSettings& speed_settings(Effort effort) {
                                       .most_with_rivals = 1'000'000,
                                       .most_recorded = 60'000'000,
                                       .most_looked = 400'000'000};
-  switch (effort) {
-    case Effort::quick:
-      return quick;
-    case Effort::full:
-      return full;
-    case Effort::usual:
-      break;
-  }
-  return usual;
+  return chosen(effort, quick, usual, full);
 }
 
 }  // namespace kinesphere::program
