@@ -1,10 +1,9 @@
-// A few boxes side by side: compared with another one all at once.
+// Eight boxes side by side, in whole steps: compared with another one all at once.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -13,37 +12,41 @@
 #include <emmintrin.h>
 #endif
 
-#include "kinesphere/vec3.hpp"
-
 namespace kinesphere {
 
-/// A box in single precision that contains the double one it was made from.
-struct FloatBox {
-  std::array<float, 3> lower;
-  std::array<float, 3> upper;
+/// A box in steps from some corner, ends included. Rounding all coordinates down keeps overlaps: boxes with a
+/// point in common have a step in common.
+struct StepBox {
+  using Step = std::int16_t;
+  std::array<Step, 3> lower;
+  std::array<Step, 3> upper;
 
-  FloatBox() = default;
-  FloatBox(const std::array<float, 3>& low, const std::array<float, 3>& high) : lower(low), upper(high) {}
-  explicit FloatBox(const Box& box);
+  /// Those that are farther away than steps can tell become the least or the largest. One number beyond each
+  /// of these is left, for a box that overlaps nothing.
+  static constexpr Step least = std::numeric_limits<Step>::min() + 1;
+  static constexpr Step largest = std::numeric_limits<Step>::max() - 1;
+  static Step clamped(std::int64_t steps) {
+    return static_cast<Step>(std::clamp<std::int64_t>(steps, least, largest));
+  }
+  static constexpr StepBox nothing() {
+    constexpr Step above = largest + 1;
+    constexpr Step below = least - 1;
+    return {{above, above, above}, {below, below, below}};
+  }
 
-  bool overlaps(const FloatBox& other) const {
+  bool overlaps(const StepBox& other) const {
     return lower[0] <= other.upper[0] && other.lower[0] <= upper[0] && lower[1] <= other.upper[1] &&
            other.lower[1] <= upper[1] && lower[2] <= other.upper[2] && other.lower[2] <= upper[2];
   }
-  float extent() const { return std::max({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]}); }
-
-  template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
-    auto& [low, high] = self;
-    archive(low, high);
-  }
-  friend bool operator==(const FloatBox&, const FloatBox&) = default;
+  /// On its longest axis.
+  int extent() const { return std::max({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]}); }
+  friend bool operator==(const StepBox&, const StepBox&) = default;
 };
 
 /// Boxes of bodies, coordinate by coordinate. A place that is free overlaps nothing.
 class alignas(16) BoxBlock {
  public:
-  static constexpr std::size_t width = 4;
+  static constexpr std::size_t width = 8;
   /// A set of places: bit k for place k.
   using Places = unsigned;
 
@@ -51,66 +54,70 @@ class alignas(16) BoxBlock {
     for (std::size_t place = 0; place < width; ++place) clear(place);
   }
 
-  void put(std::size_t place, const FloatBox& box, std::uint32_t body) {
+  void put(std::size_t place, const StepBox& box, std::uint32_t body) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       lower_[axis][place] = box.lower[axis];
       upper_[axis][place] = box.upper[axis];
     }
     bodies_[place] = body;
   }
-  void clear(std::size_t place) {
-    // No comparison with it is true.
-    constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
-    put(place, {{nothing, nothing, nothing}, {nothing, nothing, nothing}}, nobody);
+  void clear(std::size_t place) { put(place, StepBox::nothing(), nobody); }
+  bool is_free(std::size_t place) const {
+    return bodies_[place] == nobody && box(place) == StepBox::nothing();
   }
-  bool is_free(std::size_t place) const { return std::isnan(lower_[0][place]) && bodies_[place] == nobody; }
-  FloatBox box(std::size_t place) const {
-    FloatBox box;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      box.lower[axis] = lower_[axis][place];
-      box.upper[axis] = upper_[axis][place];
-    }
-    return box;
+  StepBox box(std::size_t place) const {
+    return {{lower_[0][place], lower_[1][place], lower_[2][place]},
+            {upper_[0][place], upper_[1][place], upper_[2][place]}};
   }
   std::uint32_t body(std::size_t place) const { return bodies_[place]; }
 
   /// A box that others are compared with.
   class Query {
    public:
-    explicit Query(const FloatBox& box) : box_(box) {
+    Query() = default;
+    explicit Query(const StepBox& box) {
+      for (std::size_t axis = 0; axis < 3; ++axis) set(axis, box.lower[axis], box.upper[axis]);
+    }
+    void set(std::size_t axis, StepBox::Step lower, StepBox::Step upper) {
 #if defined(__SSE2__)
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        lower_[axis] = _mm_set1_ps(box.lower[axis]);
-        upper_[axis] = _mm_set1_ps(box.upper[axis]);
-      }
+      lower_[axis] = _mm_set1_epi16(lower);
+      upper_[axis] = _mm_set1_epi16(upper);
+#else
+      box_.lower[axis] = lower;
+      box_.upper[axis] = upper;
 #endif
     }
 
    private:
     friend class BoxBlock;
-    FloatBox box_;
 #if defined(__SSE2__)
-    __m128 lower_[3], upper_[3];
+    __m128i lower_[3], upper_[3];
+#else
+    StepBox box_;
 #endif
   };
 
-  /// Those whose boxes overlap, touching included.
-  Places overlapping(const Query& query) const {
+  /// Those whose boxes overlap it.
+  [[gnu::always_inline]] Places overlapping(const Query& query) const {
 #if defined(__SSE2__)
-    const auto on_axis = [&](std::size_t axis) {
-      return _mm_and_ps(_mm_cmple_ps(_mm_load_ps(lower_[axis].data()), query.upper_[axis]),
-                        _mm_cmple_ps(query.lower_[axis], _mm_load_ps(upper_[axis].data())));
+    const auto apart = [&](std::size_t axis) {
+      const auto load = [](const std::array<StepBox::Step, width>& steps) {
+        return _mm_load_si128(reinterpret_cast<const __m128i*>(steps.data()));
+      };
+      return _mm_or_si128(_mm_cmpgt_epi16(load(lower_[axis]), query.upper_[axis]),
+                          _mm_cmpgt_epi16(query.lower_[axis], load(upper_[axis])));
     };
-    return static_cast<Places>(_mm_movemask_ps(_mm_and_ps(_mm_and_ps(on_axis(0), on_axis(1)), on_axis(2))));
+    const __m128i any = _mm_or_si128(_mm_or_si128(apart(0), apart(1)), apart(2));
+    return static_cast<Places>(_mm_movemask_epi8(_mm_packs_epi16(any, any)) & 0xff) ^ 0xffu;
 #else
-    return overlapping_one_by_one(query);
+    return overlapping_one_by_one(query.box_);
 #endif
   }
   /// The same without vector instructions.
-  Places overlapping_one_by_one(const Query& query) const {
+  Places overlapping_one_by_one(const StepBox& query) const {
     Places places = 0;
     for (std::size_t place = 0; place < width; ++place)
-      if (box(place).overlaps(query.box_)) places |= 1u << place;
+      if (box(place).overlaps(query)) places |= 1u << place;
     return places;
   }
 
@@ -129,8 +136,8 @@ class alignas(16) BoxBlock {
  private:
   static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 
-  std::array<std::array<float, width>, 3> lower_;
-  std::array<std::array<float, width>, 3> upper_;
+  std::array<std::array<StepBox::Step, width>, 3> lower_;
+  std::array<std::array<StepBox::Step, width>, 3> upper_;
   std::array<std::uint32_t, width> bodies_;
 };
 

@@ -27,13 +27,7 @@ float rounded_up(double value) { return -rounded_down(-value); }
 /// Cell edges differ by this power of two from level to level.
 constexpr int exponent_step = 2;
 /// The finest cells are 2^this as large as the typical box.
-constexpr int finest_above_mean = 1;
-
-/// floor() of what fits 32 bits.
-std::int32_t whole(double value) {
-  const auto towards_zero = static_cast<std::int32_t>(value);
-  return towards_zero - static_cast<std::int32_t>(value < towards_zero);
-}
+constexpr int finest_above_mean = 2;
 
 }  // namespace
 
@@ -41,79 +35,127 @@ FloatBox::FloatBox(const Box& box)
     : lower{rounded_down(box.lower.x), rounded_down(box.lower.y), rounded_down(box.lower.z)},
       upper{rounded_up(box.upper.x), rounded_up(box.upper.y), rounded_up(box.upper.z)} {}
 
+StepBox HashGrid::Steps::in(const CellIndex& cell) const {
+  const auto step = [](std::int64_t at, std::int32_t cell_there) {
+    return StepBox::clamped(at - (static_cast<std::int64_t>(cell_there) << cell_bits));
+  };
+  return {{step(lower[0], cell.x), step(lower[1], cell.y), step(lower[2], cell.z)},
+          {step(upper[0], cell.x), step(upper[1], cell.y), step(upper[2], cell.z)}};
+}
+
 double HashGrid::CellRange::count() const {
   const auto length = [](std::int32_t a, std::int32_t b) { return static_cast<double>(b) - a + 1.0; };
   return length(first.x, last.x) * length(first.y, last.y) * length(first.z, last.z);
 }
 
+HashGrid::Steps HashGrid::Level::steps_of(const FloatBox& box) const {
+  return {{step_at(box.lower[0]), step_at(box.lower[1]), step_at(box.lower[2])},
+          {step_at(box.upper[0]), step_at(box.upper[1]), step_at(box.upper[2])}};
+}
+
 HashGrid::CellIndex HashGrid::Level::cell_of(const FloatBox& box) const {
-  return {whole(in_cells(box.lower[0])), whole(in_cells(box.lower[1])), whole(in_cells(box.lower[2]))};
+  const auto cell = [&](std::size_t axis) { return Steps::cell_on(step_at(box.lower[axis])); };
+  return {cell(0), cell(1), cell(2)};
 }
 
-/// The extent of a box in cells, with room for rounding, here and where a search takes it off.
-double HashGrid::Level::reach_of(const FloatBox& box) const {
-  constexpr float limit = std::numeric_limits<float>::max();
-  return std::min(box.extent(), limit) * cells_per_length * (1.0 + 0x1p-20) + 0x1p-20;
-}
-
-HashGrid::CellRange HashGrid::Level::cells_around(const FloatBox& box) const {
-  const auto first = [&](std::size_t axis) { return whole(in_cells(box.lower[axis]) - reach); };
-  const auto last = [&](std::size_t axis) { return whole(in_cells(box.upper[axis])); };
+HashGrid::CellRange HashGrid::Level::cells_around(const Steps& box) const {
+  const auto first = [&](std::size_t axis) { return Steps::cell_on(box.lower[axis] - reach_[axis]); };
+  const auto last = [&](std::size_t axis) { return Steps::cell_on(box.upper[axis]); };
   return {{first(0), first(1), first(2)}, {last(0), last(1), last(2)}};
 }
 
-void HashGrid::Cell::push(const FloatBox& box, std::uint32_t body) {
-  if (size == blocks.size() * BoxBlock::width) blocks.emplace_back();
-  blocks[size / BoxBlock::width].put(size % BoxBlock::width, box, body);
-  ++size;
+double HashGrid::Level::largest_extent() const {
+  const auto steps = static_cast<double>(std::max({reach_[0], reach_[1], reach_[2]}) + 1);
+  return steps / steps_per_length_;
 }
 
-void HashGrid::Cell::erase(std::uint32_t body) {
+std::uint32_t HashGrid::Level::take_block() {
+  if (free_blocks_.empty()) {
+    blocks_.emplace_back();
+    return static_cast<std::uint32_t>(blocks_.size() - 1);
+  }
+  const std::uint32_t block = free_blocks_.back();
+  free_blocks_.pop_back();
+  return block;
+}
+
+void HashGrid::Level::insert(const FloatBox& box, std::uint32_t body) {
+  const Steps steps = steps_of(box);
+  const CellIndex index = steps.cell();
+  std::size_t slot = slot_of(index);
+  if (slots_[slot].is_free()) {
+    if (2 * (cells_ + 1) > slots_.size()) {
+      rehash();
+      slot = slot_of(index);
+    }
+    slots_[slot] = {index, take_block()};
+    ++cells_;
+    ++empty_cells_;
+  }
+  const std::uint32_t first = slots_[slot].first_block;
+  if (blocks_[first].size == BoxBlock::width) {
+    const std::uint32_t full = take_block();
+    blocks_[full] = blocks_[first];
+    blocks_[first] = {.boxes = {}, .size = 0, .next = full};
+  } else if (blocks_[first].size == 0) {
+    --empty_cells_;
+  }
+  blocks_[first].boxes.put(blocks_[first].size++, steps.in(index), body);
+  ++bodies_;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    reach_[axis] = std::max(reach_[axis], steps.upper[axis] - steps.lower[axis]);
+}
+
+/// The last one of the first block takes its place.
+void HashGrid::Level::erase(const FloatBox& box, std::uint32_t body) {
+  const std::uint32_t first = slots_[slot_of(cell_of(box))].first_block;
+  std::uint32_t block = first;
   std::size_t place = 0;
-  while (blocks[place / BoxBlock::width].body(place % BoxBlock::width) != body) ++place;
-  --size;
-  BoxBlock& last = blocks.back();
-  const std::size_t last_place = size % BoxBlock::width;
-  blocks[place / BoxBlock::width].put(place % BoxBlock::width, last.box(last_place), last.body(last_place));
-  last.clear(last_place);
-  if (last_place == 0) blocks.pop_back();
-}
-
-HashGrid::Cell& HashGrid::Level::find_or_create(const CellIndex& index) {
-  if (const Cell* cell = find(index)) return const_cast<Cell&>(*cell);
-  if (2 * (cells.size() + 1) > slots.size()) rehash();
-  cells.push_back({index, 0, {}});
-  ++empty_cells;
-  slots[free_slot(index)] = {index, static_cast<std::uint32_t>(cells.size())};
-  return cells.back();
-}
-
-std::size_t HashGrid::Level::free_slot(const CellIndex& index) const {
-  const std::size_t mask = slots.size() - 1;
-  std::size_t slot = first_slot(hash(index));
-  while (slots[slot].cell != 0) slot = (slot + 1) & mask;
-  return slot;
+  while (blocks_[block].boxes.body(place) != body) {
+    if (++place < blocks_[block].size) continue;
+    block = blocks_[block].next;
+    place = 0;
+  }
+  Block& front = blocks_[first];
+  const std::size_t last = --front.size;
+  blocks_[block].boxes.put(place, front.boxes.box(last), front.boxes.body(last));
+  front.boxes.clear(last);
+  --bodies_;
+  if (front.size > 0) return;
+  if (const std::uint32_t full = front.next; full != none) {
+    front = blocks_[full];
+    blocks_[full] = {};
+    free_blocks_.push_back(full);
+  } else if (++empty_cells_ > 64 && empty_cells_ > cells_ / 2) {
+    rehash();
+  }
 }
 
 /// Drops the empty cells and makes room for twice as many as remain.
 void HashGrid::Level::rehash() {
-  std::erase_if(cells, [](const Cell& cell) { return cell.size == 0; });
-  empty_cells = 0;
-  std::size_t capacity = 64;
-  while (capacity < 4 * (cells.size() + 1)) capacity *= 2;
-  slots.assign(capacity, {});
-  for (std::size_t number = 0; number < cells.size(); ++number) {
-    const CellIndex& index = cells[number].index;
-    slots[free_slot(index)] = {index, static_cast<std::uint32_t>(number + 1)};
+  std::vector<Slot> kept;
+  for (const Slot& slot : slots_) {
+    if (slot.is_free()) continue;
+    if (blocks_[slot.first_block].size > 0) {
+      kept.push_back(slot);
+    } else {
+      free_blocks_.push_back(slot.first_block);
+    }
   }
+  cells_ = kept.size();
+  empty_cells_ = 0;
+  std::size_t capacity = 64;
+  while (capacity < 4 * (cells_ + 1)) capacity *= 2;
+  slots_.assign(capacity, {});
+  for (const Slot& slot : kept) slots_[slot_of(slot.index)] = slot;
 }
 
 namespace {
 
 /// A point counts as the smallest normal float, infinity as the greatest.
-std::uint32_t bits_of(float extent) {
+std::uint32_t bits_of(float width) {
   using Limits = std::numeric_limits<float>;
-  return std::bit_cast<std::uint32_t>(std::clamp(extent, Limits::min(), Limits::max()));
+  return std::bit_cast<std::uint32_t>(std::clamp(width, Limits::min(), Limits::max()));
 }
 
 constexpr int mantissa_bits = 23;
@@ -121,78 +163,72 @@ constexpr int exponent_bias = 127;
 
 }  // namespace
 
-/// The smallest e with extent <= 2^e.
-int HashGrid::exponent_of(float extent) {
-  const std::uint32_t rounded_up = bits_of(extent) + ((1u << mantissa_bits) - 1u);
+/// The smallest e with width <= 2^e.
+int HashGrid::exponent_of(float width) {
+  const std::uint32_t rounded_up = bits_of(width) + ((1u << mantissa_bits) - 1u);
   return static_cast<int>(rounded_up >> mantissa_bits) - exponent_bias;
 }
 
-/// About 2^octave_bits times log2 of an extent: linear between powers of two, as the bits of a float are.
-std::int64_t HashGrid::size_of(float extent) {
-  return static_cast<std::int64_t>(bits_of(extent) >> (mantissa_bits - octave_bits)) -
+/// About 2^octave_bits times log2 of a width: linear between powers of two, as the bits of a float are.
+std::int64_t HashGrid::size_of(float width) {
+  return static_cast<std::int64_t>(bits_of(width) >> (mantissa_bits - octave_bits)) -
          (exponent_bias << octave_bits);
 }
 
-int HashGrid::level_for(float extent) const {
-  const int above = exponent_of(extent) - finest_exponent_;
+/// The extent of a box, or what single precision can tell where it lies: so cell coordinates fit 32 bits.
+float HashGrid::width_of(const FloatBox& box) {
+  float farthest = 0.0f;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    farthest = std::max({farthest, std::abs(box.lower[axis]), std::abs(box.upper[axis])});
+  return std::max(box.extent(), 0x1p-24f * farthest);
+}
+
+int HashGrid::level_for(const FloatBox& box) const {
+  const int above = exponent_of(width_of(box)) - finest_exponent_;
   return above <= 0 ? 0 : (above + exponent_step - 1) / exponent_step;
 }
 
-double HashGrid::cells_per_length(std::size_t level) const {
-  return std::ldexp(1.0, -(finest_exponent_ + exponent_step * static_cast<int>(level)));
+double HashGrid::edge_of(std::size_t level) const {
+  return std::ldexp(1.0, finest_exponent_ + exponent_step * static_cast<int>(level));
 }
 
 double HashGrid::largest_extent() const {
-  for (std::size_t level = levels_.size(); level-- > 0;)
-    if (levels_[level].bodies > 0) return levels_[level].reach / cells_per_length(level);
-  return 0.0;
+  double largest = 0.0;
+  for (const Level& level : levels_)
+    if (level.bodies() > 0) largest = std::max(largest, level.largest_extent());
+  return largest;
 }
 
 void HashGrid::insert(std::uint32_t body, const FloatBox& box) {
-  const int number = level_for(box.extent());
-  while (levels_.size() <= static_cast<std::size_t>(number)) {
-    Level level;
-    level.cells_per_length = cells_per_length(levels_.size());
-    level.rehash();
-    levels_.push_back(std::move(level));
-  }
-  Level& level = levels_[static_cast<std::size_t>(number)];
-  Cell& cell = level.find_or_create(level.cell_of(box));
-  if (cell.size == 0) --level.empty_cells;
-  cell.push(box, body);
-  level.reach = std::max(level.reach, level.reach_of(box));
-  ++level.bodies;
+  const int number = level_for(box);
+  while (levels_.size() <= static_cast<std::size_t>(number)) levels_.emplace_back(edge_of(levels_.size()));
+  levels_[static_cast<std::size_t>(number)].insert(box, body);
   places_[body] = {number, box};
 }
 
 void HashGrid::erase(std::uint32_t body) {
   Place& place = places_[body];
-  Level& level = levels_[static_cast<std::size_t>(place.level)];
-  Cell& cell = level.find_or_create(level.cell_of(place.box));
-  cell.erase(body);
-  if (cell.size == 0) ++level.empty_cells;
-  --level.bodies;
+  levels_[static_cast<std::size_t>(place.level)].erase(place.box, body);
   place.level = -1;
-  if (level.empty_cells > 64 && level.empty_cells > level.cells.size() / 2) level.rehash();
 }
 
 void HashGrid::set(std::uint32_t body, const Box& box) {
   if (body >= places_.size()) places_.resize(body + 1);
   const FloatBox rounded(box);
   if (contains(body)) {
-    size_sum_ -= size_of(places_[body].box.extent());
+    size_sum_ -= size_of(width_of(places_[body].box));
     erase(body);
   } else {
     ++size_;
   }
-  size_sum_ += size_of(rounded.extent());
+  size_sum_ += size_of(width_of(rounded));
   insert(body, rounded);
   retune_if_worthwhile();
 }
 
 void HashGrid::remove(std::uint32_t body) {
   if (!contains(body)) return;
-  size_sum_ -= size_of(places_[body].box.extent());
+  size_sum_ -= size_of(width_of(places_[body].box));
   erase(body);
   --size_;
 }
@@ -220,39 +256,68 @@ std::optional<std::string> HashGrid::check(std::uint32_t body, const Box& box) c
   std::optional<std::string> wrong;
   for (std::size_t number = 0; number < levels_.size(); ++number) {
     const Level& level = levels_[number];
-    for (const Cell& cell : level.cells)
-      cell.for_each([&](const FloatBox& there, std::uint32_t other) {
-        if (other != body) return;
-        if (found) wrong = "is registered twice";
-        if (static_cast<int>(number) != place.level || cell.index != level.cell_of(rounded))
-          wrong = "stands in another cell than that of its lower corner";
-        if (level.find(cell.index) != &cell) wrong = "stands in a cell that the table does not find";
-        if (there != rounded) wrong = "stands in its cell with another box";
-        found = true;
-      });
+    level.for_each_entry([&](const auto& index, const Block& block, std::size_t there) {
+      if (block.boxes.body(there) != body) return;
+      if (found) wrong = "is registered twice";
+      if (static_cast<int>(number) != place.level || !level.stands_in(index, block, there, rounded))
+        wrong = "stands in another cell than that of its lower corner, or with another box";
+      found = true;
+    });
   }
   if (!found) wrong = "is missing from its cell";
   return wrong;
 }
 
-bool HashGrid::Level::table_is_sound() const {
-  if (!std::has_single_bit(slots.size()) || 2 * cells.size() > slots.size()) return false;
-  for (const Slot& slot : slots)
-    if (slot.cell > cells.size() || (slot.cell != 0 && cells[slot.cell - 1].index != slot.index))
-      return false;
-  // The search for a cell ends at a free slot.
-  const auto is_free = [](const Slot& slot) { return slot.cell == 0; };
-  const auto free = static_cast<std::size_t>(std::count_if(slots.begin(), slots.end(), is_free));
-  return free + cells.size() == slots.size() && free > 0 &&
-         std::all_of(cells.begin(), cells.end(), [this](const Cell& c) { return find(c.index) == &c; });
+bool HashGrid::Level::stands_in(const CellIndex& index, const Block& block, std::size_t place,
+                                const FloatBox& box) const {
+  const Steps steps = steps_of(box);
+  if (steps.cell() != index || block.boxes.box(place) != steps.in(index)) return false;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (steps.upper[axis] - steps.lower[axis] > reach_[axis]) return false;
+  return slots_[slot_of(index)].index == index;
 }
 
-/// As many blocks as needed, and nothing in the places behind the last body.
-bool HashGrid::Cell::is_sound() const {
-  if (blocks.size() != (std::size_t{size} + BoxBlock::width - 1) / BoxBlock::width) return false;
-  for (std::size_t place = size; place < blocks.size() * BoxBlock::width; ++place)
-    if (!blocks[place / BoxBlock::width].is_free(place % BoxBlock::width)) return false;
-  return true;
+/// Each block is free, or stands in the chain of one cell.
+bool HashGrid::Level::chains_are_sound() const {
+  std::vector<bool> met(blocks_.size(), false);
+  const auto meet = [&](std::uint32_t block) {
+    if (block >= blocks_.size() || met[block]) return false;
+    met[block] = true;
+    for (std::size_t place = 0; place < BoxBlock::width; ++place)
+      if (blocks_[block].boxes.is_free(place) != (place >= blocks_[block].size)) return false;
+    return true;
+  };
+  for (const std::uint32_t block : free_blocks_)
+    if (!meet(block) || blocks_[block].size != 0 || blocks_[block].next != none) return false;
+  for (const Slot& slot : slots_)
+    for (std::uint32_t block = slot.first_block; block != none; block = blocks_[block].next) {
+      if (!meet(block) || blocks_[block].size > BoxBlock::width) return false;
+      if (block != slot.first_block && blocks_[block].size != BoxBlock::width) return false;
+      if (blocks_[block].size == 0 && blocks_[block].next != none) return false;
+    }
+  return std::find(met.begin(), met.end(), false) == met.end();
+}
+
+/// The table finds each cell, and the counts are right.
+bool HashGrid::Level::is_sound() const {
+  if (!std::has_single_bit(slots_.size()) || slots_.size() < 64 || 2 * cells_ > slots_.size()) return false;
+  if (!chains_are_sound()) return false;
+  for (const std::int64_t steps : reach_)
+    if (steps < 0 || steps > 2 * steps_per_cell) return false;
+  std::size_t bodies = 0;
+  std::size_t cells = 0;
+  std::size_t empty = 0;
+  for (const Slot& slot : slots_) {
+    if (slot.is_free()) continue;
+    ++cells;
+    if (blocks_[slot.first_block].size == 0) ++empty;
+  }
+  // The search for a cell ends at a free slot.
+  if (cells != cells_ || empty != empty_cells_) return false;
+  for (const Slot& slot : slots_)
+    if (!slot.is_free() && &slots_[slot_of(slot.index)] != &slot) return false;
+  for_each_entry([&](const CellIndex&, const Block&, std::size_t) { ++bodies; });
+  return bodies == bodies_;
 }
 
 bool HashGrid::places_are_sound() const {
@@ -262,11 +327,10 @@ bool HashGrid::places_are_sound() const {
     if (place.level < 0) continue;
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (!(place.box.lower[axis] <= place.box.upper[axis])) return false;
-    const float extent = place.box.extent();
-    if (std::isnan(extent) || place.level != level_for(extent)) return false;
+    if (std::isnan(width_of(place.box)) || place.level != level_for(place.box)) return false;
     if (static_cast<std::size_t>(place.level) >= levels_.size()) return false;
     ++found;
-    sizes += size_of(extent);
+    sizes += size_of(width_of(place.box));
   }
   return found == size_ && sizes == size_sum_;
 }
@@ -280,27 +344,18 @@ bool HashGrid::is_sound() const {
   std::size_t standing = 0;
   for (std::size_t number = 0; number < levels_.size(); ++number) {
     const Level& level = levels_[number];
-    if (level.cells_per_length != cells_per_length(number) || !level.table_is_sound()) return false;
-    if (!(level.reach <= 2.0)) return false;
-    std::size_t empty = 0;
-    std::size_t bodies = 0;
-    for (const Cell& cell : level.cells) {
-      if (!cell.is_sound()) return false;
-      if (cell.size == 0) ++empty;
-      bodies += cell.size;
-      bool sound = true;
-      cell.for_each([&](const FloatBox& box, std::uint32_t body) {
-        sound = sound && contains(body) && !found[body];
-        if (!sound) return;
-        const Place& place = places_[body];
-        sound = place.level == static_cast<int>(number) && place.box == box &&
-                level.cell_of(box) == cell.index && level.reach_of(box) <= level.reach;
-        found[body] = true;
-      });
-      if (!sound) return false;
-    }
-    if (empty != level.empty_cells || bodies != level.bodies) return false;
-    standing += bodies;
+    if (level.edge() != edge_of(number) || !level.is_sound()) return false;
+    bool sound = true;
+    level.for_each_entry([&](const CellIndex& index, const Block& block, std::size_t place) {
+      const std::uint32_t body = block.boxes.body(place);
+      sound = sound && contains(body) && !found[body];
+      if (!sound) return;
+      sound = places_[body].level == static_cast<int>(number) &&
+              level.stands_in(index, block, place, places_[body].box);
+      found[body] = true;
+    });
+    if (!sound) return false;
+    standing += level.bodies();
   }
   return standing == size_;
 }

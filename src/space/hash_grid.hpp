@@ -3,8 +3,8 @@
 // Unbounded space: only cells that hold something exist. Each level has cells four times as large as the one
 // below. A box lies on the finest level whose cells are at least as large as the box, in the one cell where
 // its lower corner is; a search looks farther down by the largest box of the level, for those that reach up
-// to it. So radii may differ by any ratio, and a box is moved in O(1). Boxes are kept as floats, rounded
-// outward.
+// to it. So radii may differ by any ratio, and a box is moved in O(1). Boxes are compared in whole steps of
+// 1/4096 cell, eight at a time.
 #pragma once
 
 #include <algorithm>
@@ -19,6 +19,7 @@
 
 #include "kinesphere/vec3.hpp"
 #include "space/box_block.hpp"
+#include "space/float_box.hpp"
 
 namespace kinesphere {
 
@@ -29,15 +30,15 @@ class HashGrid {
   void remove(std::uint32_t body);
   bool contains(std::uint32_t body) const { return body < places_.size() && places_[body].level >= 0; }
   std::size_t size() const { return size_; }
-  /// Of the cells on the finest level in use: about twice the typical box (length).
+  /// Of the cells on the finest level in use: about four times the typical box (length).
   double finest_edge() const { return std::ldexp(1.0, finest_exponent_); }
 
   /// No registered box is wider on any axis (length).
   double largest_extent() const;
 
-  /// Calls visit(body) or visit(body, FloatBox of it) once for each registered body whose box overlaps `box`,
-  /// touching included. `visit` may not change the grid. Cost: the cells that the box meets, on each level in
-  /// use, and what they hold.
+  /// Calls visit(body) or visit(body, extent of its box, length) once for each registered body whose box
+  /// overlaps `box`, touching included, and perhaps for some that it misses by less than a step. `visit` may
+  /// not change the grid. Cost: the cells that the box meets, on each level in use, and what they hold.
   template <class Visit>
   void for_each_overlap(const Box& box, Visit visit) const;
 
@@ -61,9 +62,11 @@ class HashGrid {
   bool is_sound() const;
 
  private:
-  /// Cell coordinates stay within 32 bits: a float box at distance X is at least X * 2^-24 wide, and so are
-  /// its cells. Where it is a mere point all that lies farther shares the outermost cell.
-  static constexpr double coordinate_limit = 2147483000.0;
+  static constexpr int cell_bits = 12;
+  static constexpr std::int64_t steps_per_cell = std::int64_t{1} << cell_bits;
+  /// Cell coordinates stay within 32 bits: a box at distance X counts as at least X * 2^-24 wide. What a
+  /// search looks for may lie farther out, and endless boxes do.
+  static constexpr double coordinate_limit = 2147483000.0 * steps_per_cell;
 
   struct CellIndex {
     std::int32_t x, y, z;
@@ -74,66 +77,92 @@ class HashGrid {
     }
     friend bool operator==(const CellIndex&, const CellIndex&) = default;
   };
+  /// A box in steps of a level, ends included.
+  struct Steps {
+    std::array<std::int64_t, 3> lower;
+    std::array<std::int64_t, 3> upper;
+    /// The cell of the lower corner.
+    CellIndex cell() const { return {cell_on(lower[0]), cell_on(lower[1]), cell_on(lower[2])}; }
+    StepBox in(const CellIndex& cell) const;
+    static std::int32_t cell_on(std::int64_t step) { return static_cast<std::int32_t>(step >> cell_bits); }
+  };
   struct CellRange {
     CellIndex first, last;
-    friend bool operator==(const CellRange&, const CellRange&) = default;
     double count() const;
     bool contains(const CellIndex& at) const {
       return first.x <= at.x && at.x <= last.x && first.y <= at.y && at.y <= last.y && first.z <= at.z &&
              at.z <= last.z;
     }
   };
-  struct Cell {
-    CellIndex index;
-    std::uint32_t size;  ///< the bodies, in the first places of the blocks
-    std::vector<BoxBlock> blocks;
+  /// Some bodies of a cell. All blocks of a cell but the first one are full.
+  struct Block {
+    BoxBlock boxes;
+    std::uint32_t size = 0;
+    std::uint32_t next = none;
 
-    void push(const FloatBox& box, std::uint32_t body);
-    /// The last one takes its place.
-    void erase(std::uint32_t body);
-    bool is_sound() const;
-    template <class Visit>
-    void for_each(Visit visit) const {
-      for (std::uint32_t k = 0; k < size; ++k) {
-        const BoxBlock& block = blocks[k / BoxBlock::width];
-        visit(block.box(k % BoxBlock::width), block.body(k % BoxBlock::width));
-      }
-    }
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
-      auto& [at, count, held] = self;
-      archive(at, count, held);
+      auto& [held, count, following] = self;
+      archive(held, count, following);
     }
   };
   /// Of the table of cells.
   struct Slot {
     CellIndex index{};
-    std::uint32_t cell = 0;  ///< its number + 1; 0 is free
+    std::uint32_t first_block = none;  ///< of the cell; none: the slot is free
+    bool is_free() const { return first_block == none; }
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
       auto& [at, number] = self;
       archive(at, number);
     }
   };
-  struct Level {
-    double cells_per_length = 0.0;  ///< 1 / edge, a power of two
-    double reach = 0.0;             ///< no box has been larger since the level was made, in cells
-    std::size_t bodies = 0;
-    std::size_t empty_cells = 0;
-    std::vector<Cell> cells;
-    std::vector<Slot> slots;  ///< open addressing
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
+  class Level {
+   public:
+    /// Cells of this edge, a power of two (length).
+    explicit Level(double edge = 1.0) : steps_per_length_(steps_per_cell / edge) { rehash(); }
+
+    double edge() const { return steps_per_cell / steps_per_length_; }
+    std::size_t bodies() const { return bodies_; }
+    /// No box has been wider on any axis since the level was made (length).
+    double largest_extent() const;
+
+    void insert(const FloatBox& box, std::uint32_t body);
+    void erase(const FloatBox& box, std::uint32_t body);
+    template <class Visit>
+    void for_each_overlap(const FloatBox& box, Visit& visit) const;
+    /// Calls visit(CellIndex, Block, place) for each body.
+    template <class Visit>
+    void for_each_entry(Visit visit) const;
+    template <class Visit>
+    void for_each_cell(Visit& visit) const;
+    /// Whether the body stands in the cell where it belongs, with this box.
+    bool stands_in(const CellIndex& index, const Block& block, std::size_t place, const FloatBox& box) const;
+
+    bool is_sound() const;
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+      auto& [scale, largest, body_count, cell_count, empty_count, held, unused, table] = self;
+      archive(scale, largest, body_count, cell_count, empty_count, held, unused, table);
+    }
+
+   private:
+    Steps steps_of(const FloatBox& box) const;
     /// Where a box is registered.
     CellIndex cell_of(const FloatBox& box) const;
-    /// Where boxes that overlap this one are registered.
-    CellRange cells_around(const FloatBox& box) const;
-    double reach_of(const FloatBox& box) const;
-    /// A position in units of cells, within what cell coordinates can hold.
-    double in_cells(float position) const {
-      constexpr float limit = std::numeric_limits<float>::max();
-      const double finite = std::clamp(position, -limit, limit);
-      return std::clamp(finite * cells_per_length, -coordinate_limit, coordinate_limit);
+    /// A position in whole steps, rounded down, within what cell coordinates can hold.
+    std::int64_t step_at(float position) const {
+      constexpr float farthest = std::numeric_limits<float>::max();
+      double steps = std::clamp(position, -farthest, farthest) * steps_per_length_;
+      if (!(std::abs(steps) <= coordinate_limit)) steps = std::copysign(coordinate_limit, steps);
+      const auto towards_zero = static_cast<std::int64_t>(steps);
+      return towards_zero - static_cast<std::int64_t>(steps < static_cast<double>(towards_zero));
     }
+    /// The cells in which boxes that overlap this one are registered.
+    CellRange cells_around(const Steps& box) const;
+
     /// Fibonacci hashing: the high bits of a sum of products, so that the next cell costs one addition.
     static constexpr std::uint64_t step_x = 0x9e3779b97f4a7c15u;
     static constexpr std::uint64_t step_y = 0xc2b2ae3d27d4eb4fu;
@@ -142,29 +171,27 @@ class HashGrid {
       return static_cast<std::uint64_t>(index.x) * step_x + static_cast<std::uint64_t>(index.y) * step_y +
              static_cast<std::uint64_t>(index.z) * step_z;
     }
-    std::size_t first_slot(std::uint64_t hashed) const {
-      return static_cast<std::size_t>(hashed >> (64 - std::countr_zero(slots.size())));
+    int hash_shift() const { return 64 - std::countr_zero(slots_.size()); }
+    /// The slot of the cell, or the free one where it would be.
+    std::size_t slot_of(const CellIndex& index, std::uint64_t hashed, int shift) const {
+      auto slot = static_cast<std::size_t>(hashed >> shift);
+      while (!slots_[slot].is_free() && !(slots_[slot].index == index))
+        slot = (slot + 1) & (slots_.size() - 1);
+      return slot;
     }
-    const Cell* find(const CellIndex& index, std::uint64_t hashed) const {
-      for (std::size_t slot = first_slot(hashed);; slot = (slot + 1) & (slots.size() - 1)) {
-        if (slots[slot].cell == 0) return nullptr;
-        if (slots[slot].index == index) return &cells[slots[slot].cell - 1];
-      }
-    }
-    const Cell* find(const CellIndex& index) const { return find(index, hash(index)); }
-    Cell& find_or_create(const CellIndex& index);
+    std::size_t slot_of(const CellIndex& index) const { return slot_of(index, hash(index), hash_shift()); }
+    std::uint32_t take_block();
     void rehash();
+    bool chains_are_sound() const;
 
-    template <class Self, class Archive>
-    static void transfer(Self& self, Archive& archive) {
-      auto& [scale, largest, body_count, empty_count, all_cells, table] = self;
-      archive(scale, largest, body_count, empty_count, all_cells, table);
-    }
-    /// True when the table finds each cell.
-    bool table_is_sound() const;
-
-   private:
-    std::size_t free_slot(const CellIndex& index) const;
+    double steps_per_length_;
+    std::array<std::int64_t, 3> reach_{};  ///< no box has been wider since the level was made (steps)
+    std::size_t bodies_ = 0;
+    std::size_t cells_ = 0;  ///< those in the table
+    std::size_t empty_cells_ = 0;
+    std::vector<Block> blocks_;
+    std::vector<std::uint32_t> free_blocks_;
+    std::vector<Slot> slots_;  ///< open addressing
   };
   struct Place {
     int level = -1;
@@ -176,15 +203,16 @@ class HashGrid {
     }
   };
 
-  int level_for(float extent) const;
-  double cells_per_length(std::size_t level) const;
+  static float width_of(const FloatBox& box);
+  int level_for(const FloatBox& box) const;
+  double edge_of(std::size_t level) const;
   bool places_are_sound() const;
   void insert(std::uint32_t body, const FloatBox& box);
   void erase(std::uint32_t body);
   void retune_if_worthwhile();
 
-  static int exponent_of(float extent);
-  static std::int64_t size_of(float extent);
+  static int exponent_of(float width);
+  static std::int64_t size_of(float width);
   /// In size_of() an octave counts as 2^4.
   static constexpr int octave_bits = 4;
 
@@ -199,45 +227,83 @@ class HashGrid {
 template <class Visit>
 void HashGrid::for_each_overlap(const Box& box, Visit visit) const {
   const FloatBox query(box);
-  const BoxBlock::Query wanted(query);
-  for (const Level& level : levels_) {
-    if (level.bodies == 0) continue;
-    const CellRange range = level.cells_around(query);
-    const auto visit_cell = [&](const Cell& cell) {
-      for (const BoxBlock& block : cell.blocks) {
-        BoxBlock::for_each(block.overlapping(wanted), [&](std::size_t place) {
-          if constexpr (std::is_invocable_v<Visit, std::uint32_t, FloatBox>) {
-            visit(block.body(place), block.box(place));
-          } else {
-            visit(block.body(place));
-          }
-        });
-      }
-    };
-    if (range.count() > static_cast<double>(level.cells.size())) {
-      for (const Cell& cell : level.cells)
-        if (range.contains(cell.index)) visit_cell(cell);
-      continue;
+  for (const Level& level : levels_)
+    if (level.bodies() > 0) level.for_each_overlap(query, visit);
+}
+
+template <class Visit>
+void HashGrid::Level::for_each_overlap(const FloatBox& box, Visit& visit) const {
+  const Steps steps = steps_of(box);
+  const CellRange range = cells_around(steps);
+  const double length_per_step = 1.0 / steps_per_length_;
+  BoxBlock::Query query;
+  const auto look_from = [&](std::size_t axis, std::int32_t cell) {
+    const std::int64_t origin = static_cast<std::int64_t>(cell) << cell_bits;
+    query.set(axis, StepBox::clamped(steps.lower[axis] - origin),
+              StepBox::clamped(steps.upper[axis] - origin));
+  };
+  const auto visit_cell = [&](std::uint32_t first_block) __attribute__((always_inline)) {
+    for (std::uint32_t number = first_block; number != none; number = blocks_[number].next) {
+      const BoxBlock& boxes = blocks_[number].boxes;
+      BoxBlock::for_each(boxes.overlapping(query), [&](std::size_t place) {
+        if constexpr (std::is_invocable_v<Visit, std::uint32_t, double>) {
+          visit(boxes.body(place), boxes.box(place).extent() * length_per_step);
+        } else {
+          visit(boxes.body(place));
+        }
+      });
     }
-    for (std::int32_t z = range.first.z; z <= range.last.z; ++z)
-      for (std::int32_t y = range.first.y; y <= range.last.y; ++y) {
-        std::uint64_t hashed = Level::hash({range.first.x, y, z});
-        for (std::int32_t x = range.first.x; x <= range.last.x; ++x, hashed += Level::step_x)
-          if (const Cell* cell = level.find({x, y, z}, hashed)) visit_cell(*cell);
+  };
+  if (range.count() > static_cast<double>(cells_)) {
+    for (const Slot& slot : slots_) {
+      if (slot.is_free() || !range.contains(slot.index)) continue;
+      look_from(0, slot.index.x);
+      look_from(1, slot.index.y);
+      look_from(2, slot.index.z);
+      visit_cell(slot.first_block);
+    }
+    return;
+  }
+  const int shift = hash_shift();
+  for (std::int32_t z = range.first.z; z <= range.last.z; ++z) {
+    look_from(2, z);
+    for (std::int32_t y = range.first.y; y <= range.last.y; ++y) {
+      look_from(1, y);
+      std::uint64_t hashed = hash({range.first.x, y, z});
+      for (std::int32_t x = range.first.x; x <= range.last.x; ++x, hashed += step_x) {
+        const Slot& slot = slots_[slot_of({x, y, z}, hashed, shift)];
+        if (slot.is_free()) continue;
+        look_from(0, x);
+        visit_cell(slot.first_block);
       }
+    }
+  }
+}
+
+template <class Visit>
+void HashGrid::Level::for_each_entry(Visit visit) const {
+  for (const Slot& slot : slots_)
+    for (std::uint32_t block = slot.first_block; block != none; block = blocks_[block].next)
+      for (std::size_t place = 0; place < blocks_[block].size; ++place)
+        visit(slot.index, blocks_[block], place);
+}
+
+template <class Visit>
+void HashGrid::Level::for_each_cell(Visit& visit) const {
+  for (const Slot& slot : slots_) {
+    std::size_t count = 0;
+    for (std::uint32_t block = slot.first_block; block != none; block = blocks_[block].next)
+      count += blocks_[block].size;
+    if (count == 0) continue;
+    const auto [x, y, z] = slot.index;
+    const Vec3 lower = Vec3{1.0 * x, 1.0 * y, 1.0 * z} * edge();
+    visit(Box{lower, lower + Vec3{edge(), edge(), edge()}}, count);
   }
 }
 
 template <class Visit>
 void HashGrid::for_each_cell(Visit visit) const {
-  for (const Level& level : levels_) {
-    const double edge = 1.0 / level.cells_per_length;
-    for (const Cell& cell : level.cells) {
-      const auto [x, y, z] = cell.index;
-      const Vec3 lower = Vec3{1.0 * x, 1.0 * y, 1.0 * z} * edge;
-      if (cell.size > 0) visit(Box{lower, lower + Vec3{edge, edge, edge}}, std::size_t{cell.size});
-    }
-  }
+  for (const Level& level : levels_) level.for_each_cell(visit);
 }
 
 }  // namespace kinesphere

@@ -167,10 +167,10 @@ void World::Engine::find_neighbours(std::uint32_t number) {
   partners_ = book_.partners_of(number);
   for (const Crossing& crossing : book_.crossings_of(number)) partners_.push_back(crossing.partner);
   const std::size_t known = partners_.size();
-  space_.for_each_overlap(grid_, body.box, [&](std::uint32_t other, const FloatBox& box) {
+  space_.for_each_overlap(grid_, body.box, [&](std::uint32_t other, double extent_of_other) {
     if (other == number) return;
     partners_.push_back(other);
-    if (Horizon::is_larger(static_cast<double>(box.extent()), extent)) ++larger;
+    if (Horizon::is_larger(extent_of_other, extent)) ++larger;
   });
   const std::size_t candidates = partners_.size() - known;
   counters_.candidates += candidates;

@@ -173,9 +173,24 @@ TEST(HashGridTouching, counts_as_overlap_and_apart_does_not) {
   };
   EXPECT_EQ(found({{1, 1, 1}, {2, 2, 2}}), 1);
   EXPECT_EQ(found({{-1, 0, 0}, {0, 0, 0}}), 1);
-  const auto beyond = static_cast<double>(std::nextafter(1.0f, 2.0f));
-  EXPECT_EQ(found({{beyond, 0, 0}, {2, 1, 1}}), 0);
+  const double two_steps = 2.0 * grid.finest_edge() / 4096.0;
+  EXPECT_EQ(found({{1.0 + two_steps, 0, 0}, {2, 1, 1}}), 0);
   EXPECT_EQ(found({{0.25, 0.25, 0.25}, {0.25, 0.25, 0.25}}), 1);
+}
+
+TEST(HashGridOverlap, comes_with_the_extent_of_the_box) {
+  HashGrid grid;
+  for (std::uint32_t body = 0; body < 40; ++body) {
+    const double extent = std::ldexp(1.0 + 0.01 * body, static_cast<int>(body % 8));
+    grid.set(body, cube_at({}, 0.5 * extent));
+  }
+  int visits = 0;
+  grid.for_each_overlap(cube_at({}, 1.0), [&](std::uint32_t body, double extent) {
+    ++visits;
+    const double exact = std::ldexp(1.0 + 0.01 * body, static_cast<int>(body % 8));
+    EXPECT_NEAR(extent, exact, std::max(grid.finest_edge(), 4.0 * exact) / 4096.0) << body;
+  });
+  EXPECT_EQ(visits, 40);
 }
 
 TEST(HashGridCheck, finds_what_is_wrong) {
