@@ -1,6 +1,7 @@
 // Which distances two bodies sense each other at, by their classes and categories.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -22,6 +23,8 @@ class SensorTable {
   /// (World::Engine::facts_end_with_boxes), and outlive them.
   bool any() const { return any_; }
   double reach(SensorClass sensor_class) const { return reach_of(of(sensor_class)); }
+  /// No class senses farther, nor did one before.
+  double largest_reach() const { return largest_reach_; }
 
   /// The largest distance at which either of the two senses the other and that is not `known`(distance).
   template <class Known>
@@ -44,13 +47,14 @@ class SensorTable {
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [sensors, any] = self;
-    archive(sensors, any);
+    auto& [sensors, any, farthest] = self;
+    archive(sensors, any, farthest);
   }
 
  private:
   std::vector<Sensor> sensors_;  ///< by class
   bool any_ = false;
+  double largest_reach_ = 0.0;
 };
 
 }  // namespace kinesphere

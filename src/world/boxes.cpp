@@ -91,6 +91,11 @@ void World::Engine::register_box(std::uint32_t number) {
   grid_.set(number, body.box);
 }
 
+/// As others see it at a glance, until its box ends. A fixed body needs a closer look.
+Sketch World::Engine::sketch_of(const Body& body) const {
+  return body.is_fixed() ? Sketch() : Sketch(body.bound, body.box_end, norm_one(space_.period()));
+}
+
 /// Contains the body until its box_end. One that was kicked lately may be kicked again, and go anywhere: it
 /// gets as much room on all sides as the longest way needs, but no more than makes the box as wide as it may
 /// be where space repeats.

@@ -33,6 +33,7 @@
 #include <utility>
 #include <vector>
 
+#include "bound/glance.hpp"
 #include "contact/contact_book.hpp"
 #include "contact/outlook.hpp"
 #include "contact/sensor_table.hpp"
@@ -236,6 +237,8 @@ class World::Engine {
   double widest_in_period(const Body& body, int axis) const;
   double longest_in_period(const Body& body) const;
 
+  Sketch sketch_of(const Body& body) const;
+
   // settling.cpp: facts.
   void mark_dirty(std::uint32_t number);
   void void_facts(std::uint32_t number);
@@ -295,6 +298,7 @@ class World::Engine {
   double time_;
   std::size_t size_ = 0;
   std::vector<Body> bodies_;
+  std::vector<Sketch> sketches_;  ///< of their bounds, until their boxes end; of no use while a body is dirty
   std::vector<std::uint32_t> free_;
   std::vector<Shape> shapes_;  ///< of fixed bodies
   std::vector<std::uint32_t> free_shapes_;
@@ -316,6 +320,7 @@ class World::Engine {
   std::vector<std::uint32_t> partners_;
   std::vector<std::uint32_t> round_;
   std::vector<std::uint32_t> chosen_;
+  std::vector<Neighbours::Place> unsettled_;
 };
 
 /// What comes next between two bodies that may meet: their contact, the next sensor distance inward, and the

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bound/encounter.hpp"
+#include "bound/glance.hpp"
 #include "bound/rounding.hpp"
 #include "world/engine.hpp"
 
@@ -36,6 +37,26 @@ class World::Engine::Lookout {
     return bare_ && !engine_.bodies_[partner].is_fixed() && !engine_.sensors_.any();
   }
 
+  /// Which of these neighbours, four at most, can be left alone for as long as is enough.
+  [[gnu::always_inline]] Lanes apart(const Glance<>& glance, std::span<const Neighbours::Place> places) const {
+    if (!bare_) return 0;
+    const std::vector<Neighbour>& all = engine_.neighbours_.of(number_);
+    Glance<>::Row others;
+    for (std::size_t lane = 0; lane < lane_count; ++lane)
+      others[lane] = &engine_.sketches_[all[places[std::min(lane, places.size() - 1)]].partner];
+    const double room = engine_.sensors_.largest_reach() + engine_.definition_.contact_tolerance;
+    if (!engine_.space_.repeats()) return glance.apart(others, enough_, room, nullptr);
+    Glance<>::Shifts shifts{};
+    for (std::size_t lane = 0; lane < places.size(); ++lane)
+      shifts[lane] = engine_.shift_to_meet(number_, all[places[lane]].partner);
+    return glance.apart(others, enough_, room, &shifts);
+  }
+  /// Until when a look at the partner is not needed, if it is apart; +infinity: until their boxes end.
+  double enough_for(std::uint32_t partner) const {
+    const double boxes_end = std::min(body_.box_end, engine_.bodies_[partner].box_end);
+    return enough_ < boxes_end ? enough_ : infinity;
+  }
+
   /// Nothing can happen between the two until this time; +infinity: until their boxes end. Now, if a closer
   /// look is needed, or fresh reports.
   [[gnu::always_inline]] double left_alone_until(std::uint32_t partner) const {
@@ -49,7 +70,7 @@ class World::Engine::Lookout {
     const double tolerance = engine_.definition_.contact_tolerance;
     const bool senses = engine_.sensors_.any();
     const double reach = senses ? engine_.reach_of_pair(body_, other) : 0.0;
-    if (encounter.stay_apart(until - now_, reach + tolerance)) return until < boxes_end ? until : infinity;
+    if (encounter.stay_apart(until - now_, reach + tolerance)) return enough_for(partner);
     if (senses || encounter.is_near(tolerance)) return now_;
     return rounding::sum_down(now_, encounter.meeting(boxes_end - now_, engine_.rounding_room()));
   }

@@ -77,6 +77,7 @@ void World::Engine::apply_report(std::uint32_t number, const State& answer) {
   body.definition.velocity = state.velocity;
   body.bound = bound_of(body.definition, state, time_);
   body.kicked_since_report = false;
+  sketches_[number] = sketch_of(body);
   if (!broken) return;
   const Event violation = violation_event(time_, id_of(number),
                                           {space_.wrapped(state.position).position, state.velocity}, *broken);

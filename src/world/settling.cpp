@@ -101,9 +101,11 @@ Result<void> World::Engine::settle_round(const std::vector<std::uint32_t>& round
   chosen_.clear();
   for (const std::uint32_t number : round) {
     bodies_[number].dirty = false;
-    if (keep_box(number)) continue;
-    register_box(number);
-    chosen_.push_back(number);
+    if (!keep_box(number)) {
+      register_box(number);
+      chosen_.push_back(number);
+    }
+    sketches_[number] = sketch_of(bodies_[number]);
   }
   for (const std::uint32_t number : chosen_) find_neighbours(number);
   for (const std::uint32_t number : round) {
@@ -124,19 +126,31 @@ Result<void> World::Engine::settle_neighbours(std::uint32_t number) {
     if (auto settled = settle_walls(number); !settled) return settled;
   }
   const bool voided = bodies_[number].voided;
+  unsettled_.clear();
+  const std::vector<Neighbour>& all = neighbours_.of(number);
+  for (Neighbours::Place place = 0; place < all.size(); ++place) {
+    const std::uint32_t partner = all[place].partner;
+    if (!settles_itself(partner) && (voided || !is_watched(number, place)) && may_meet(number, partner))
+      unsettled_.push_back(place);
+  }
+  if (unsettled_.empty()) return {};
   Lookout lookout(*this, number);
-  const std::size_t size = neighbours_.of(number).size();
-  for (Neighbours::Place place = 0; place < size; ++place) {
-    const std::uint32_t partner = neighbours_.of(number)[place].partner;
-    if (settles_itself(partner) || (!voided && is_watched(number, place)) || !may_meet(number, partner))
-      continue;
-    if (const double until = lookout.left_alone_until(partner); until > time_) {
-      neighbours_.watch(number, place, until);
-    } else {
-      if (auto settled = settle_pair(number, place); !settled) return settled;
-      if (bodies_[number].dirty) return {};
+  const Glance<> glance(sketches_[number], time_);
+  for (std::size_t first = 0; first < unsettled_.size(); first += lane_count) {
+    const auto few = std::span(unsettled_).subspan(first, std::min(lane_count, unsettled_.size() - first));
+    const Lanes apart = lookout.apart(glance, few);
+    for (std::size_t k = 0; k < few.size(); ++k) {
+      const std::uint32_t partner = all[few[k]].partner;
+      const bool far = (apart >> k) % 2 == 1;
+      const double until = far ? lookout.enough_for(partner) : lookout.left_alone_until(partner);
+      if (far || until > time_) {
+        neighbours_.watch(number, few[k], until);
+      } else {
+        if (auto settled = settle_pair(number, few[k]); !settled) return settled;
+        if (bodies_[number].dirty) return {};
+      }
+      lookout.expect(all[few[k]].watch);
     }
-    lookout.expect(neighbours_.of(number)[place].watch);
   }
   return {};
 }
