@@ -39,7 +39,7 @@ class Hayward final : public BoundDetector {
   std::optional<AuditFinding> audit() const override {
     for (std::uint32_t a = 0; a < size(); ++a)
       for (std::uint32_t b = 0; b <= a; ++b)
-        if (urgent_.contains(Pair(a, b).number()) && !(body(a).present && body(b).present))
+        if (urgent_.time_of(Pair(a, b).number()) < infinity && !(body(a).present && body(b).present))
           return AuditFinding{"queue", "holds a pair of which one is gone"};
     return std::nullopt;
   }
@@ -57,10 +57,10 @@ class Hayward final : public BoundDetector {
 
   void on_contact_change(std::uint32_t a, std::uint32_t b) override { renew({a, b}); }
 
-  double next_time() const override { return urgent_.empty() ? infinity : urgent_.earliest().time; }
+  double next_time() const override { return urgent_.next_time(); }
 
   void handle_next() override {
-    const Pair pair = pair_of(urgent_.earliest().body);
+    const Pair pair = pair_of(urgent_.next_body());
     ++counters_.pair_checks;
     if (!fresh(pair.larger)) probe(pair.larger);
     if (!fresh(pair.smaller)) probe(pair.smaller);
@@ -69,13 +69,8 @@ class Hayward final : public BoundDetector {
 
   /// The safe interval begins now.
   void renew(const Pair& pair) {
-    const double end =
-        pair.larger == pair.smaller ? wall_outlook(pair.larger) : pair_outlook(pair.larger, pair.smaller);
-    if (end < infinity) {
-      urgent_.set(pair.number(), end);
-    } else {
-      urgent_.remove(pair.number());
-    }
+    urgent_.set(pair.number(), pair.larger == pair.smaller ? wall_outlook(pair.larger)
+                                                           : pair_outlook(pair.larger, pair.smaller));
   }
 
   Pair pair_of(std::uint32_t number) const {
@@ -88,7 +83,7 @@ class Hayward final : public BoundDetector {
     return {low, number - Pair::row_start(low)};
   }
 
-  HeapSchedule urgent_;  ///< ends of safe intervals, by pair
+  TreeSchedule urgent_;  ///< ends of safe intervals, by pair
 };
 
 }  // namespace

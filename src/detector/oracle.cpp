@@ -41,7 +41,6 @@ class Oracle final : public Detector {
     body = Body{};
     body.active = true;
     body.radius = definition.radius + definition.position_error;
-    rows_.set(number, infinity);
     forget(number, true);
     return {};
   }
@@ -65,11 +64,11 @@ class Oracle final : public Detector {
   Result<std::optional<Event>> advance(double until) override {
     if (departures_.empty()) {
       search_until(until);
-      if (rows_.empty() || rows_.earliest().time > until) {
+      if (rows_.next_time() > until) {
         time_ = until;
         return std::optional<Event>();
       }
-      time_ = rows_.earliest().time;
+      time_ = rows_.next_time();
       departures_.push_back(take_first());
     }
     const Event event = departures_.front();
@@ -257,7 +256,7 @@ class Oracle final : public Detector {
   double time_;
   std::vector<Body> bodies_;
   PairTable<Contact> pairs_;
-  HeapSchedule rows_;  ///< the first change in each row
+  TreeSchedule rows_;  ///< the first change in each row
   double searched_until_ = -infinity;
   std::vector<Key> unsearched_;  ///< whose next change is not known up to searched_until_
   std::vector<Event> departures_;

@@ -2,98 +2,104 @@
 #include "schedule/schedule.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace kinesphere {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::size_t groups_for(std::size_t times) { return (times + TimeGroup::width - 1) / TimeGroup::width; }
+
+/// Equal times get equal bits.
+double without_sign_of_zero(double time) { return time + 0.0; }
+
+}  // namespace
 
 void LinearSchedule::set(std::uint32_t body, double time) {
-  if (body >= entries_.size()) entries_.resize(body + 1);
-  if (!entries_[body].present) ++size_;
-  entries_[body] = {time, true};
-}
-
-void LinearSchedule::remove(std::uint32_t body) {
-  if (!contains(body)) return;
-  entries_[body].present = false;
-  --size_;
-}
-
-Due LinearSchedule::earliest() const {
-  Due first{std::numeric_limits<double>::infinity(), std::numeric_limits<std::uint32_t>::max()};
-  for (std::uint32_t body = 0; body < entries_.size(); ++body)
-    if (entries_[body].present) first = std::min(first, Due{entries_[body].time, body});
-  return first;
-}
-
-void HeapSchedule::set(std::uint32_t body, double time) {
-  if (body >= positions_.size()) positions_.resize(body + 1, absent);
-  const Due due{time, body};
-  if (positions_[body] == absent) {
-    heap_.push_back(due);
-    sift_up(heap_.size() - 1, due);
-  } else if (const std::size_t position = positions_[body]; due < heap_[position]) {
-    sift_up(position, due);
+  if (time < infinity) {
+    times_[body] = time;
   } else {
-    sift_down(position, due);
+    remove(body);
   }
 }
 
-void HeapSchedule::remove(std::uint32_t body) {
-  if (!contains(body)) return;
-  const std::size_t position = positions_[body];
-  const Due removed = heap_[position];
-  const Due last = heap_.back();
-  heap_.pop_back();
-  positions_[body] = absent;
-  if (position == heap_.size()) return;
-  if (last < removed) {
-    sift_up(position, last);
-  } else {
-    sift_down(position, last);
+double LinearSchedule::next_time() const { return times_.empty() ? infinity : times_.at(next_body()); }
+
+std::uint32_t LinearSchedule::next_body() const {
+  const auto sooner = [](const auto& one, const auto& other) { return one.second < other.second; };
+  return std::min_element(times_.begin(), times_.end(), sooner)->first;
+}
+
+double LinearSchedule::time_of(std::uint32_t body) const {
+  const auto found = times_.find(body);
+  return found == times_.end() ? infinity : found->second;
+}
+
+void TreeSchedule::set(std::uint32_t body, double time) {
+  assert(!std::isnan(time));
+  if (body >= room()) {
+    if (time == infinity) return;
+    make_room(body);
+  }
+  double least = without_sign_of_zero(time);
+  std::size_t index = body;
+  for (std::size_t level = 0; level < height_; ++level) {
+    TimeGroup& group = levels_[level][index / width];
+    double& changed = group[index % width];
+    if (changed == least) return;
+    changed = least;
+    least = group.least();
+    index /= width;
+  }
+  next_time_ = least;
+}
+
+std::uint32_t TreeSchedule::next_body() const {
+  assert(next_time_ < infinity);
+  std::size_t index = 0;
+  for (std::size_t level = height_; level-- > 0;)
+    index = index * width + levels_[level][index].find(next_time_);
+  return static_cast<std::uint32_t>(index);
+}
+
+void TreeSchedule::make_room(std::uint32_t body) {
+  std::size_t groups = body / width + 1;
+  levels_[0].resize(groups);
+  for (std::size_t level = 1; level < height_; ++level) {
+    groups = groups_for(groups);
+    levels_[level].resize(groups);
+  }
+  height_ = std::max<std::size_t>(height_, 1);
+  complete();
+}
+
+/// From the lowest level alone.
+void TreeSchedule::build() {
+  height_ = levels_[0].empty() ? 0 : 1;
+  complete();
+  next_time_ = height_ == 0 ? infinity : levels_[height_ - 1].front().least();
+}
+
+/// Adds levels until the highest has one group.
+void TreeSchedule::complete() {
+  for (; height_ > 0 && levels_[height_ - 1].size() > 1; ++height_) {
+    const Level& below = levels_[height_ - 1];
+    Level& level = levels_[height_];
+    level.assign(groups_for(below.size()), TimeGroup());
+    for (std::size_t k = 0; k < below.size(); ++k) level[k / width][k % width] = below[k].least();
   }
 }
 
-bool HeapSchedule::is_sound() const {
-  const auto present = static_cast<std::size_t>(
-      std::count_if(positions_.begin(), positions_.end(), [](std::uint32_t p) { return p != absent; }));
-  if (present != heap_.size()) return false;
-  for (std::size_t position = 0; position < heap_.size(); ++position) {
-    const Due& due = heap_[position];
-    if (std::isnan(due.time) || due.body >= positions_.size() || positions_[due.body] != position)
-      return false;
-    if (position > 0 && due < heap_[(position - 1) / arity]) return false;
+bool TreeSchedule::is_sound(std::size_t bodies) const {
+  if (levels_[0].size() > groups_for(bodies)) return false;
+  for (std::size_t body = 0; body < room(); ++body) {
+    const double time = levels_[0][body / width][body % width];
+    if (std::isnan(time) || (time == 0.0 && std::signbit(time))) return false;
+    if (body >= bodies && time < infinity) return false;
   }
   return true;
-}
-
-void HeapSchedule::place(std::size_t position, const Due& due) {
-  heap_[position] = due;
-  positions_[due.body] = static_cast<std::uint32_t>(position);
-}
-
-void HeapSchedule::sift_up(std::size_t position, const Due& due) {
-  while (position > 0) {
-    const std::size_t parent = (position - 1) / arity;
-    if (!(due < heap_[parent])) break;
-    place(position, heap_[parent]);
-    position = parent;
-  }
-  place(position, due);
-}
-
-void HeapSchedule::sift_down(std::size_t position, const Due& due) {
-  for (;;) {
-    const std::size_t first_child = position * arity + 1;
-    if (first_child >= heap_.size()) break;
-    const std::size_t end = std::min(first_child + arity, heap_.size());
-    const auto child = std::min_element(heap_.begin() + static_cast<std::ptrdiff_t>(first_child),
-                                        heap_.begin() + static_cast<std::ptrdiff_t>(end));
-    if (!(*child < due)) break;
-    const auto child_position = static_cast<std::size_t>(child - heap_.begin());
-    place(position, *child);
-    position = child_position;
-  }
-  place(position, due);
 }
 
 }  // namespace kinesphere

@@ -1,40 +1,30 @@
 // The schedule: at most one future time per body, earliest first.
 #pragma once
 
+#include <array>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <tuple>
+#include <map>
+#include <type_traits>
 #include <vector>
+
+#include "schedule/time_group.hpp"
 
 namespace kinesphere {
 
-/// When a body is due. Ordered by time, then by body number, so that the order never depends on history.
-struct Due {
-  double time;
-  std::uint32_t body;
+class HeapCounter;
 
-  template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
-    auto& [when, who] = self;
-    archive(when, who);
-  }
-
-  friend bool operator<(const Due& a, const Due& b) {
-    return std::tie(a.time, a.body) < std::tie(b.time, b.body);
-  }
-  friend bool operator==(const Due&, const Due&) = default;
-};
-
-/// What a schedule can do. `set` adds a body or changes its time (+infinity is a time like any other);
-/// `earliest` needs a schedule that is not empty.
+/// What a schedule can do. A body that is not scheduled has the time +infinity, and to set that is to remove
+/// it. Times are never NaN. `next_time` is +infinity when nobody is scheduled; otherwise `next_body` is
+/// scheduled then, and of several the one with the lowest number, so that the order never depends on history.
 template <class S>
 concept Schedule = requires(S schedule, const S& constant, std::uint32_t body, double time) {
   schedule.set(body, time);
   schedule.remove(body);
-  { constant.earliest() } -> std::convertible_to<Due>;
-  { constant.empty() } -> std::convertible_to<bool>;
-  { constant.contains(body) } -> std::convertible_to<bool>;
+  { constant.next_time() } -> std::convertible_to<double>;
+  { constant.next_body() } -> std::convertible_to<std::uint32_t>;
   { constant.time_of(body) } -> std::convertible_to<double>;
 };
 
@@ -42,50 +32,57 @@ concept Schedule = requires(S schedule, const S& constant, std::uint32_t body, d
 class LinearSchedule {
  public:
   void set(std::uint32_t body, double time);
-  void remove(std::uint32_t body);
-  Due earliest() const;
-  bool empty() const { return size_ == 0; }
-  bool contains(std::uint32_t body) const { return body < entries_.size() && entries_[body].present; }
-  double time_of(std::uint32_t body) const { return entries_[body].time; }
+  void remove(std::uint32_t body) { times_.erase(body); }
+  double next_time() const;
+  std::uint32_t next_body() const;
+  double time_of(std::uint32_t body) const;
 
  private:
-  struct Entry {
-    double time = 0.0;
-    bool present = false;
-  };
-  std::vector<Entry> entries_;
-  std::size_t size_ = 0;
+  std::map<std::uint32_t, double> times_;  ///< of the scheduled
 };
 
-/// A four-ary heap that knows where each body stands. Cost: O(log n) for set and remove, O(1) for the rest.
-class HeapSchedule {
+/// A tournament tree: the lowest level has the bodies' times, and every level above the least of each group
+/// of the one below, up to a level of one group. Cost: O(log n) for `set` and `next_body`, O(1) for the rest.
+/// Memory: 9 bytes per body number, up to the highest that was ever scheduled.
+class TreeSchedule {
  public:
   void set(std::uint32_t body, double time);
-  void remove(std::uint32_t body);
-  Due earliest() const { return heap_.front(); }
-  bool empty() const { return heap_.empty(); }
-  bool contains(std::uint32_t body) const { return body < positions_.size() && positions_[body] != absent; }
-  double time_of(std::uint32_t body) const { return heap_[positions_[body]].time; }
-  std::size_t size() const { return heap_.size(); }
+  void remove(std::uint32_t body) { set(body, infinity); }
+  double next_time() const { return next_time_; }
+  std::uint32_t next_body() const;
+  double time_of(std::uint32_t body) const {
+    return body < room() ? levels_[0][body / width][body % width] : infinity;
+  }
 
+  /// Bytes hold the bodies' times alone.
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [heap, positions] = self;
-    archive(heap, positions);
+    auto& [levels, height, next_time] = self;
+    if constexpr (std::same_as<Archive, HeapCounter>) {
+      archive(levels);
+    } else {
+      archive(levels[0]);
+    }
+    if constexpr (!std::is_const_v<Self>) self.build();
   }
-  /// For one that was read: true when it is a heap, and each body stands where it is said to.
-  bool is_sound() const;
+  /// For one that was read in a world of this many bodies: true when its times can have been set for them.
+  bool is_sound(std::size_t bodies) const;
 
  private:
-  static constexpr std::uint32_t absent = std::numeric_limits<std::uint32_t>::max();
-  static constexpr std::size_t arity = 4;
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  static constexpr std::size_t width = TimeGroup::width;
+  using Level = std::vector<TimeGroup>;
+  /// Enough for every body number: 8^11 is more than 2^32.
+  static constexpr std::size_t most_levels = 11;
 
-  void place(std::size_t position, const Due& due);
-  void sift_up(std::size_t position, const Due& due);
-  void sift_down(std::size_t position, const Due& due);
+  std::size_t room() const { return levels_[0].size() * width; }
+  void make_room(std::uint32_t body);
+  void build();
+  void complete();
 
-  std::vector<Due> heap_;
-  std::vector<std::uint32_t> positions_;  ///< by body
+  std::array<Level, most_levels> levels_;  ///< from the lowest; from `height_` on they are empty
+  std::size_t height_ = 0;
+  double next_time_ = infinity;  ///< the least of the highest level
 };
 
 }  // namespace kinesphere

@@ -65,7 +65,8 @@ class World::Engine::Audit {
 
   void check_absence(std::uint32_t number) {
     if (engine_.grid_.contains(number)) find("registration", name(number) + " is not here but registered");
-    if (engine_.schedule_.contains(number)) find("queue", name(number) + " is not here but scheduled");
+    if (engine_.schedule_.time_of(number) < infinity)
+      find("queue", name(number) + " is not here but scheduled");
     if (!engine_.book_.partners_of(number).empty() || engine_.book_.walls_of(number) != 0)
       find("contact", name(number) + " is not here but touches something");
     if (!engine_.book_.crossings_of(number).empty())
@@ -98,7 +99,6 @@ class World::Engine::Audit {
 
   void check_schedule(std::uint32_t number) {
     const Body& b = body(number);
-    if (!engine_.schedule_.contains(number)) return find("queue", name(number) + " is not scheduled");
     if (b.dirty) return;
     double wanted = std::min(b.box_end, b.wall_time);
     for (const Neighbour& one : engine_.neighbours_.of(number)) wanted = std::min(wanted, one.watch);
@@ -111,8 +111,8 @@ class World::Engine::Audit {
     double first = infinity;
     for (std::uint32_t number = 0; number < engine_.bodies_.size(); ++number)
       if (body(number).present()) first = std::min(first, engine_.schedule_.time_of(number));
-    if (!engine_.schedule_.empty() && engine_.schedule_.earliest().time != first)
-      find("queue", "its earliest time is not the least" + times(engine_.schedule_.earliest().time, first));
+    if (engine_.schedule_.next_time() != first)
+      find("queue", "its next time is not the least" + times(engine_.schedule_.next_time(), first));
   }
 
   void check_walls(std::uint32_t number) {

@@ -7,11 +7,6 @@
 #include "world/lookout.hpp"
 
 namespace kinesphere {
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 World::Engine::Engine(const WorldDefinition& definition)
     : definition_(definition),
@@ -159,11 +154,11 @@ Result<std::optional<Event>> World::Engine::advance(double until, const Probe& p
     if (auto settled = settle_all(); !settled) return settled.error();
     gathering_ = false;
     if (!book_.pending().empty()) continue;
-    if (schedule_.empty() || schedule_.earliest().time > until) {
+    if (schedule_.next_time() > until) {
       move_on_to(until);
       return std::optional<Event>();
     }
-    move_on_to(schedule_.earliest().time);
+    move_on_to(schedule_.next_time());
     gathering_ = true;
   }
 }
@@ -175,8 +170,8 @@ void World::Engine::move_on_to(double time) {
 
 /// Wakes all bodies that are due, so that every event of this instant is known before the first is delivered.
 Result<void> World::Engine::gather() {
-  while (!schedule_.empty() && schedule_.earliest().time <= time_) {
-    if (auto woken = wake(schedule_.earliest().body); !woken) return woken;
+  while (schedule_.next_time() <= time_) {
+    if (auto woken = wake(schedule_.next_body()); !woken) return woken;
   }
   // Bodies whose boxes end at this instant may add to its events.
   if (auto settled = settle_all(); !settled) return settled;
@@ -186,14 +181,14 @@ Result<void> World::Engine::gather() {
 
 Result<void> World::Engine::wake(std::uint32_t number) {
   if (bodies_[number].dirty) {
-    schedule_.set(number, infinity);
+    schedule_.remove(number);
     return {};
   }
   ++counters_.wakes;
   if (bodies_[number].box_end <= time_) {
     ++counters_.box_ends;
     mark_dirty(number);
-    schedule_.set(number, infinity);
+    schedule_.remove(number);
     return {};
   }
   const std::uint64_t checks_before = counters_.pair_checks + counters_.wall_checks;

@@ -304,7 +304,7 @@ class World::Engine {
   std::vector<std::uint32_t> free_shapes_;
   HashGrid grid_;
   Neighbours neighbours_;
-  HeapSchedule schedule_;
+  TreeSchedule schedule_;
   std::vector<std::uint32_t> dirty_;
   Counters counters_;
   SensorTable sensors_;

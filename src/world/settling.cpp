@@ -22,7 +22,6 @@ void World::Engine::mark_dirty(std::uint32_t number) {
   if (bodies_[number].dirty) return;
   bodies_[number].dirty = true;
   dirty_.push_back(number);
-  if (!schedule_.contains(number)) schedule_.set(number, infinity);
 }
 
 /// A discontinuity: nothing that was certified about the body holds any more.

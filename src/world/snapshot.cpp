@@ -1,8 +1,8 @@
 // Snapshots: the whole state of a world as bytes, and back.
 //
-// Everything is kept as it stands, the order of grid cells, heap and lists included: what a search meets
-// first decides who is probed first, so only the same order goes on the same way. Memory that is merely kept
-// for later is not part of it.
+// Everything is kept as it stands, the order of grid cells and lists included: what a search meets first
+// decides who is probed first, so only the same order goes on the same way. Memory that is merely kept for
+// later is not part of it.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -22,7 +22,7 @@ namespace {
 /// Raise the version when the fields change, or when the engine would go on from the same fields in another
 /// way.
 constexpr Envelope envelope{{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'},
-                            3,
+                            4,
                             "world",
                             "World::restore",
                             "snapshot",
@@ -114,12 +114,11 @@ const char* World::Engine::contradiction() const {
       std::count_if(bodies_.begin(), bodies_.end(), [](const Body& body) { return body.present(); }));
   if (!grid_.is_sound() || grid_.size() != present) return "grid";
   if (!neighbours_.is_sound(bodies_.size()) || !neighbours_are_sound()) return "neighbours";
-  if (!schedule_.is_sound() || schedule_.size() != present) return "schedule";
-  if (!schedule_.empty() && schedule_.earliest().time < time_) return "schedule";
+  if (!schedule_.is_sound(bodies_.size()) || schedule_.next_time() < time_) return "schedule";
   for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
     const bool takes_part = bodies_[number].present();
     if (grid_.contains(number) != takes_part) return "grid";
-    if (schedule_.contains(number) != takes_part) return "schedule";
+    if (!takes_part && schedule_.time_of(number) < infinity) return "schedule";
     if (!takes_part && (!book_.partners_of(number).empty() || !book_.crossings_of(number).empty() ||
                         book_.walls_of(number) != 0))
       return "contacts";

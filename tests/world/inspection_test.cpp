@@ -30,7 +30,7 @@ TEST(Memory, GrowsWithTheBodiesAndBelongsToParts) {
   EXPECT_GE(memory.watches, crowd.world.certificates().size() * 16);
   EXPECT_GE(memory.contacts, count * 24);
   EXPECT_GE(memory.grid, count * 2 * 28);
-  EXPECT_GE(memory.schedule, count * 20);
+  EXPECT_GE(memory.schedule, count * 9);
   EXPECT_EQ(memory.recording, 0u);
   // And no more than a few times that.
   EXPECT_LT(memory.total(), count * 4000);
