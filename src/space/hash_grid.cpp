@@ -100,25 +100,43 @@ void HashGrid::Level::insert(const FloatBox& box, std::uint32_t body) {
   } else if (blocks_[first].size == 0) {
     --empty_cells_;
   }
-  blocks_[first].boxes.put(blocks_[first].size++, steps.in(index), body);
+  put(steps, index, blocks_[first], blocks_[first].size++, body);
   ++bodies_;
+}
+
+void HashGrid::Level::put(const Steps& steps, const CellIndex& index, Block& block, std::size_t place,
+                          std::uint32_t body) {
+  block.boxes.put(place, steps.in(index), body);
   for (std::size_t axis = 0; axis < 3; ++axis)
     reach_[axis] = std::max(reach_[axis], steps.upper[axis] - steps.lower[axis]);
 }
 
+HashGrid::Level::Standing HashGrid::Level::find(const CellIndex& index, std::uint32_t body) const {
+  const std::uint32_t first = slots_[slot_of(index)].first_block;
+  Standing at{first, first, 0};
+  while (blocks_[at.block].boxes.body(at.place) != body) {
+    if (++at.place < blocks_[at.block].size) continue;
+    at.block = blocks_[at.block].next;
+    at.place = 0;
+  }
+  return at;
+}
+
+bool HashGrid::Level::move_in_cell(const FloatBox& from, const FloatBox& to, std::uint32_t body) {
+  const Steps steps = steps_of(to);
+  const CellIndex index = steps.cell();
+  if (cell_of(from) != index) return false;
+  const Standing at = find(index, body);
+  put(steps, index, blocks_[at.block], at.place, body);
+  return true;
+}
+
 /// The last one of the first block takes its place.
 void HashGrid::Level::erase(const FloatBox& box, std::uint32_t body) {
-  const std::uint32_t first = slots_[slot_of(cell_of(box))].first_block;
-  std::uint32_t block = first;
-  std::size_t place = 0;
-  while (blocks_[block].boxes.body(place) != body) {
-    if (++place < blocks_[block].size) continue;
-    block = blocks_[block].next;
-    place = 0;
-  }
-  Block& front = blocks_[first];
+  const Standing at = find(cell_of(box), body);
+  Block& front = blocks_[at.first_block];
   const std::size_t last = --front.size;
-  blocks_[block].boxes.put(place, front.boxes.box(last), front.boxes.body(last));
+  blocks_[at.block].boxes.put(at.place, front.boxes.box(last), front.boxes.body(last));
   front.boxes.clear(last);
   --bodies_;
   if (front.size > 0) return;
@@ -170,9 +188,9 @@ int HashGrid::exponent_of(float width) {
 }
 
 /// About 2^octave_bits times log2 of a width: linear between powers of two, as the bits of a float are.
-std::int64_t HashGrid::size_of(float width) {
-  return static_cast<std::int64_t>(bits_of(width) >> (mantissa_bits - octave_bits)) -
-         (exponent_bias << octave_bits);
+std::int16_t HashGrid::size_of(float width) {
+  return static_cast<std::int16_t>(static_cast<int>(bits_of(width) >> (mantissa_bits - octave_bits)) -
+                                   (exponent_bias << octave_bits));
 }
 
 /// The extent of a box, or what single precision can tell where it lies: so cell coordinates fit 32 bits.
@@ -183,9 +201,11 @@ float HashGrid::width_of(const FloatBox& box) {
   return std::max(box.extent(), 0x1p-24f * farthest);
 }
 
-int HashGrid::level_for(const FloatBox& box) const {
-  const int above = exponent_of(width_of(box)) - finest_exponent_;
-  return above <= 0 ? 0 : (above + exponent_step - 1) / exponent_step;
+HashGrid::Place HashGrid::place_for(const FloatBox& box) const {
+  const float width = width_of(box);
+  const int above = exponent_of(width) - finest_exponent_;
+  const int level = above <= 0 ? 0 : (above + exponent_step - 1) / exponent_step;
+  return {static_cast<std::int16_t>(level), size_of(width), box};
 }
 
 double HashGrid::edge_of(std::size_t level) const {
@@ -199,37 +219,38 @@ double HashGrid::largest_extent() const {
   return largest;
 }
 
-void HashGrid::insert(std::uint32_t body, const FloatBox& box) {
-  const int number = level_for(box);
-  while (levels_.size() <= static_cast<std::size_t>(number)) levels_.emplace_back(edge_of(levels_.size()));
-  levels_[static_cast<std::size_t>(number)].insert(box, body);
-  places_[body] = {number, box};
-}
-
-void HashGrid::erase(std::uint32_t body) {
-  Place& place = places_[body];
-  levels_[static_cast<std::size_t>(place.level)].erase(place.box, body);
-  place.level = -1;
+void HashGrid::insert(std::uint32_t body, const Place& place) {
+  const auto level = static_cast<std::size_t>(place.level);
+  while (levels_.size() <= level) levels_.emplace_back(edge_of(levels_.size()));
+  levels_[level].insert(place.box, body);
 }
 
 void HashGrid::set(std::uint32_t body, const Box& box) {
   if (body >= places_.size()) places_.resize(body + 1);
-  const FloatBox rounded(box);
-  if (contains(body)) {
-    size_sum_ -= size_of(width_of(places_[body].box));
-    erase(body);
-  } else {
+  const Place next = place_for(FloatBox(box));
+  Place& place = places_[body];
+  if (!contains(body)) {
     ++size_;
+    size_sum_ += next.size;
+    insert(body, next);
+  } else {
+    size_sum_ += next.size - place.size;
+    Level& level = levels_[static_cast<std::size_t>(place.level)];
+    if (next.level != place.level || !level.move_in_cell(place.box, next.box, body)) {
+      level.erase(place.box, body);
+      insert(body, next);
+    }
   }
-  size_sum_ += size_of(width_of(rounded));
-  insert(body, rounded);
+  place = next;
   retune_if_worthwhile();
 }
 
 void HashGrid::remove(std::uint32_t body) {
   if (!contains(body)) return;
-  size_sum_ -= size_of(width_of(places_[body].box));
-  erase(body);
+  Place& place = places_[body];
+  size_sum_ -= place.size;
+  levels_[static_cast<std::size_t>(place.level)].erase(place.box, body);
+  place.level = nowhere;
   --size_;
 }
 
@@ -242,8 +263,11 @@ void HashGrid::retune_if_worthwhile() {
   if (std::abs(mean + finest_above_mean - finest_exponent_) < 0.75) return;
   finest_exponent_ = wanted;
   levels_.clear();
-  for (std::uint32_t body = 0; body < places_.size(); ++body)
-    if (places_[body].level >= 0) insert(body, FloatBox(places_[body].box));
+  for (std::uint32_t body = 0; body < places_.size(); ++body) {
+    if (!contains(body)) continue;
+    places_[body] = place_for(FloatBox(places_[body].box));
+    insert(body, places_[body]);
+  }
 }
 
 std::optional<std::string> HashGrid::check(std::uint32_t body, const Box& box) const {
@@ -327,10 +351,10 @@ bool HashGrid::places_are_sound() const {
     if (place.level < 0) continue;
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (!(place.box.lower[axis] <= place.box.upper[axis])) return false;
-    if (std::isnan(width_of(place.box)) || place.level != level_for(place.box)) return false;
+    if (std::isnan(width_of(place.box)) || place != place_for(place.box)) return false;
     if (static_cast<std::size_t>(place.level) >= levels_.size()) return false;
     ++found;
-    sizes += size_of(width_of(place.box));
+    sizes += place.size;
   }
   return found == size_ && sizes == size_sum_;
 }

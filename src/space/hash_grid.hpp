@@ -131,6 +131,8 @@ class HashGrid {
 
     void insert(const FloatBox& box, std::uint32_t body);
     void erase(const FloatBox& box, std::uint32_t body);
+    /// Gives a body another box, if that belongs into the same cell.
+    bool move_in_cell(const FloatBox& from, const FloatBox& to, std::uint32_t body);
     template <class Visit>
     void for_each_overlap(const FloatBox& box, Visit& visit) const;
     /// Calls visit(CellIndex, Block, place) for each body.
@@ -180,6 +182,14 @@ class HashGrid {
       return slot;
     }
     std::size_t slot_of(const CellIndex& index) const { return slot_of(index, hash(index), hash_shift()); }
+    /// Where a body stands.
+    struct Standing {
+      std::uint32_t first_block;  ///< of its cell
+      std::uint32_t block;
+      std::size_t place;
+    };
+    Standing find(const CellIndex& index, std::uint32_t body) const;
+    void put(const Steps& steps, const CellIndex& index, Block& block, std::size_t place, std::uint32_t body);
     std::uint32_t take_block();
     void rehash();
     bool chains_are_sound() const;
@@ -193,26 +203,28 @@ class HashGrid {
     std::vector<std::uint32_t> free_blocks_;
     std::vector<Slot> slots_;  ///< open addressing
   };
+  static constexpr std::int16_t nowhere = -1;
   struct Place {
-    int level = -1;
+    std::int16_t level = nowhere;
+    std::int16_t size = 0;  ///< as size_of()
     FloatBox box{};
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
-      auto& [number, registered] = self;
-      archive(number, registered);
+      auto& [number, bulk, registered] = self;
+      archive(number, bulk, registered);
     }
+    friend bool operator==(const Place&, const Place&) = default;
   };
 
   static float width_of(const FloatBox& box);
-  int level_for(const FloatBox& box) const;
+  Place place_for(const FloatBox& box) const;
   double edge_of(std::size_t level) const;
   bool places_are_sound() const;
-  void insert(std::uint32_t body, const FloatBox& box);
-  void erase(std::uint32_t body);
+  void insert(std::uint32_t body, const Place& place);
   void retune_if_worthwhile();
 
   static int exponent_of(float width);
-  static std::int64_t size_of(float width);
+  static std::int16_t size_of(float width);
   /// In size_of() an octave counts as 2^4.
   static constexpr int octave_bits = 4;
 
@@ -220,7 +232,7 @@ class HashGrid {
   std::vector<Place> places_;
   std::size_t size_ = 0;
   int finest_exponent_ = 0;    ///< log2 of the edge on level 0
-  std::int64_t size_sum_ = 0;  ///< of size_of() of all registered boxes
+  std::int64_t size_sum_ = 0;  ///< of the sizes of all registered boxes
   std::size_t changes_since_tuning_ = 0;
 };
 
