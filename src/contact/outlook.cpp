@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "bound/sides_in_reach.hpp"
+
 namespace kinesphere {
 namespace {
 
@@ -87,13 +89,30 @@ template class Outlook<HalfSpace>;
 template class Outlook<Box>;
 template class Outlook<Triangle>;
 
+namespace {
+
+Box walls_in_reach(const ContactRule& rule, const MovedBound& bound, const Box& box, double duration) {
+  // Covers rounding, as positions and ways are at most 2^45 tolerances.
+  const double rounding_room = rule.tolerance() / 16.0;
+  return sides_in_reach(bound, box, duration, rule.tolerance() + rounding_room);
+}
+
+}  // namespace
+
+Box walls_in_reach(const ContactRule& rule, const Bound& bound, const Box& box, double now, double horizon) {
+  return walls_in_reach(rule, MovedBound(bound, now), box, horizon - now);
+}
+
 double until_reports_of_walls(const ContactRule& rule, const Bound& bound, const Box& box, double now,
                               double horizon) {
-  const double time = earliest_exit(bound, box, now, horizon);
+  const MovedBound moved(bound, now);
+  const Box near = walls_in_reach(rule, moved, box, horizon - now);
+  if (!has_sides(near)) return infinity;
+  const double time = earliest_exit(bound, near, now, horizon);
   if (time == infinity || time <= now) return time;
-  const Vec3 tolerance = Vec3{1.0, 1.0, 1.0} * rule.tolerance();
-  const Box inner{box.lower + tolerance, box.upper - tolerance};
-  return earliest_exit(bound, inner, now, infinity) > now ? time : now;
+  // The time holds in any case; whether fresh reports would give a better one may be off by rounding.
+  const bool far = !has_sides(sides_in_reach(moved, near, 0.0, rule.tolerance()));
+  return far ? time : now;
 }
 
 }  // namespace kinesphere

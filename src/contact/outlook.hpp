@@ -96,6 +96,10 @@ extern template class Outlook<HalfSpace>;
 extern template class Outlook<Box>;
 extern template class Outlook<Triangle>;
 
+/// The walls of the box to which the body may come as near as the tolerance before the horizon: the box,
+/// without end on all other axes. A quick test; it may name some too many.
+Box walls_in_reach(const ContactRule& rule, const Bound& bound, const Box& box, double now, double horizon);
+
 /// Outlook::until_reports for a body that touches none of the walls of the box, all walls at once.
 double until_reports_of_walls(const ContactRule& rule, const Bound& bound, const Box& box, double now,
                               double horizon);

@@ -260,6 +260,7 @@ class World::Engine {
   template <class Partner>
   bool look_at_pair(std::uint32_t number, Neighbours::Place place, const Bound& bound, const Partner& other);
   Result<void> settle_walls(std::uint32_t number);
+  double judge_walls(std::uint32_t number);
   bool is_watched(std::uint32_t number, Neighbours::Place place) const;
   template <class Visit>
   void for_each_threshold(std::uint32_t a, std::uint32_t b, Visit visit) const;

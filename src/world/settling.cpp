@@ -230,39 +230,43 @@ std::optional<double> World::Engine::judge(const Outlook<Partner>& outlook, cons
 
 /// Records how long no wall contact of the body can begin or end.
 Result<void> World::Engine::settle_walls(std::uint32_t number) {
-  if (!walls_) {
-    bodies_[number].wall_time = infinity;
-    return {};
-  }
-  if (book_.walls_of(number) == 0 && lies_inside(bodies_[number].box, *walls_)) {
+  const bool touches = book_.walls_of(number) != 0;
+  if (!walls_ || (!touches && lies_inside(bodies_[number].box, *walls_))) {
     bodies_[number].wall_time = infinity;
     return {};
   }
   for (;;) {
     Body& body = bodies_[number];
     if (body.dirty) return {};
-    body.wall_time = book_.walls_of(number) != 0
-                         ? time_
-                         : until_reports_of_walls(book_.rule(), body.bound, *walls_, time_, body.box_end);
+    body.wall_time =
+        touches ? time_ : until_reports_of_walls(book_.rule(), body.bound, *walls_, time_, body.box_end);
     if (body.wall_time > time_) return {};
     if (body.fresh(time_)) break;
     if (auto probed = probe(std::span(&number, 1)); !probed) return probed;
   }
-  Body& body = bodies_[number];
+  bodies_[number].wall_time = judge_walls(number);
+  return {};
+}
+
+/// Holds the fresh report of a body against each wall that it touches or may reach. The others cannot change
+/// anything before its box ends.
+double World::Engine::judge_walls(std::uint32_t number) {
+  const Body& body = bodies_[number];
+  const Promise promise{body.definition.velocity_error, body.largest_acceleration()};
+  const Box near = walls_in_reach(book_.rule(), body.bound, *walls_, time_, body.box_end);
   double first = infinity;
   for (const Wall wall : walls) {
-    if (!stands(*walls_, wall)) continue;
+    const bool touches = book_.touches_wall(number, wall);
+    if (!touches && !stands(near, wall)) continue;
     const HalfSpace inside = half_space(*walls_, wall);
-    const Threshold threshold{.within = book_.touches_wall(number, wall)};
+    const Threshold threshold{.within = touches};
     const Outlook<HalfSpace> outlook(book_.rule(), threshold, body.bound, inside, time_,
                                      {body.box_end, body.box_end});
-    const Promise promise{body.definition.velocity_error, body.largest_acceleration()};
     const auto next_look =
         judge(outlook, threshold, wall_contact(EventKind::zeno_guard, number, wall), promise);
     if (next_look) first = std::min(first, *next_look);
   }
-  body.wall_time = first;
-  return {};
+  return first;
 }
 
 /// True when the pair is watched from either side, and not only until now.

@@ -1,0 +1,131 @@
+// The quick test for the sides of a box, against exact polynomials.
+#include "bound/sides_in_reach.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/bound_cases.hpp"
+#include "support/exact_certificates.hpp"
+
+namespace kinesphere {
+namespace {
+
+using exact::Wide;
+
+constexpr std::uint64_t seed = 3307;
+constexpr std::uint64_t cases_per_family = 4000;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct BoxCase {
+  Bound bound;
+  Box box;
+  double from, horizon, room;
+};
+
+/// What encounter.hpp grants to rounding.
+double rounding_error(const BoxCase& c) {
+  return 0x1p-49 *
+         (length_scale(c.bound, c.horizon) + norm_one(c.box.lower) + norm_one(c.box.upper) + c.room);
+}
+
+/// Contains the bound as it counts here: as large as it is in the end, and larger by half of what it turns.
+Box straightened_box(const Bound& bound, double from, double horizon) {
+  const MovedBound moved(bound, from);
+  const double duration = horizon - from;
+  Bound straight{.time = from, .position = moved.centre, .velocity = moved.velocity};
+  straight.radius = bound.radius_at(horizon) + 0.5 * norm_one(moved.acceleration) * duration * duration;
+  return swept_box(straight, from, horizon);
+}
+
+/// The sides are about where the bound comes, or counts as coming, and the room beyond: from far outside to
+/// just there or just not.
+BoxCase draw(const Family& family, Random& random) {
+  const PairCase pair = family.draw(random);
+  BoxCase c{pair.a, swept_box(pair.a, pair.from, pair.horizon), pair.from, pair.horizon, 0.0};
+  if (chance(random, 0.7)) c.box = straightened_box(pair.a, pair.from, pair.horizon);
+  const double scale = length_scale(c.bound, c.horizon);
+  c.room = chance(random, 0.5) ? 0.0 : scale * log_uniform(random, -30, -2);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto slack = [&] {
+      return c.room + (chance(random, 0.2) ? -1.0 : 1.0) * scale * log_uniform(random, -50, 0);
+    };
+    c.box.lower[axis] -= slack();
+    c.box.upper[axis] += slack();
+  }
+  return c;
+}
+
+bool is_cleared(const Box& near, int axis) {
+  return near.lower[axis] == -infinity && near.upper[axis] == infinity;
+}
+
+class SidesInReach : public testing::TestWithParam<Family> {
+ protected:
+  /// Calls check(case, sides_in_reach of it) for each case of the family, until one fails.
+  template <class Check>
+  void for_each_case(std::uint64_t index, Check check) {
+    for (std::uint64_t k = 0; k < cases_per_family && !HasFailure(); ++k) {
+      Random random = Random::at(seed, k, index);
+      const BoxCase c = draw(GetParam(), random);
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", case " << k << "\n" << c.bound);
+      check(c, sides_in_reach(MovedBound(c.bound, c.from), c.box, c.horizon - c.from, c.room));
+    }
+  }
+};
+
+TEST_P(SidesInReach, that_are_cleared_are_never_reached) {
+  int cleared = 0;
+  for_each_case(0, [&](const BoxCase& c, const Box& near) {
+    const Wide least = Wide(c.room) - Wide(rounding_error(c));
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!is_cleared(near, axis)) {
+        EXPECT_EQ(near.lower[axis], c.box.lower[axis]);
+        EXPECT_EQ(near.upper[axis], c.box.upper[axis]);
+        continue;
+      }
+      ++cleared;
+      EXPECT_GT(c.box.upper[axis] - exact::farthest(c.bound, axis, 1, c.from, c.horizon), least) << axis;
+      EXPECT_GT(exact::farthest(c.bound, axis, -1, c.from, c.horizon) - c.box.lower[axis], least) << axis;
+    }
+  });
+  EXPECT_GT(cleared, 1000);
+}
+
+TEST_P(SidesInReach, are_cleared_where_the_straightened_way_stays_off) {
+  for_each_case(1, [](const BoxCase& c, const Box& near) {
+    const Box way = straightened_box(c.bound, c.from, c.horizon);
+    const double room = c.room + 2.0 * rounding_error(c);
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool off =
+          way.lower[axis] - room > c.box.lower[axis] && way.upper[axis] + room < c.box.upper[axis];
+      if (off) {
+        EXPECT_TRUE(is_cleared(near, axis)) << axis;
+      }
+    }
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, SidesInReach, testing::ValuesIn(all_families), family_name);
+
+TEST(SidesInReach, of_a_straight_way_are_exact) {
+  const MovedBound ball({.velocity = {1, -2, 0}, .radius = 1}, 0.0);
+  const Box box{{-5, -5, -5}, {5, 5, 5}};
+  const Box near = sides_in_reach(ball, box, 2.0, 0.5);
+  EXPECT_TRUE(is_cleared(near, 0));
+  EXPECT_EQ(near.lower.y, -5.0);
+  EXPECT_EQ(near.upper.y, 5.0);
+  EXPECT_TRUE(is_cleared(near, 2));
+  EXPECT_TRUE(has_sides(near));
+  EXPECT_FALSE(has_sides(sides_in_reach(ball, box, 1.5, 0.5)));
+  EXPECT_FALSE(is_cleared(sides_in_reach(ball, box, 0.0, 4.0), 2));
+}
+
+TEST(SidesInReach, are_all_that_there_are_where_a_number_is_none) {
+  const Box box{{-5, -5, -5}, {5, 5, 5}};
+  EXPECT_EQ(sides_in_reach(MovedBound({.radius = 1}, 0.0), box, infinity, 0.0), box);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(sides_in_reach(MovedBound({.velocity = {nan, nan, nan}}, 0.0), box, 1.0, 0.0), box);
+  EXPECT_EQ(sides_in_reach(MovedBound({.radius = nan}, 0.0), box, 1.0, 0.0), box);
+}
+
+}  // namespace
+}  // namespace kinesphere
