@@ -34,10 +34,16 @@ struct Bound {
   double growth_acceleration = 0.0;  ///< A
 
   /// Centre and radius at time t >= time, correctly rounded step by step (no margin).
-  Vec3 centre_at(double t) const;
-  double radius_at(double t) const;
+  Vec3 centre_at(double t) const {
+    const double s = t - time;
+    return position + (velocity + planned_acceleration * (0.5 * s)) * s;
+  }
+  double radius_at(double t) const {
+    const double s = t - time;
+    return radius + (growth_speed + 0.5 * growth_acceleration * s) * s;
+  }
   /// Velocity of the centre at time t >= time.
-  Vec3 velocity_at(double t) const;
+  Vec3 velocity_at(double t) const { return velocity + planned_acceleration * (t - time); }
 };
 
 /// The bound of a body that reports `state` at `time`.

@@ -1,22 +1,10 @@
-// The bound itself: where it is, how large, and the boxes and gaps that follow.
+// Bounds of bodies, and the boxes and gaps that follow from them.
 #include "kinesphere/bound.hpp"
 
 #include "bound/relative_motion.hpp"
 #include "bound/rounding.hpp"
 
 namespace kinesphere {
-
-Vec3 Bound::centre_at(double t) const {
-  const double s = t - time;
-  return position + (velocity + planned_acceleration * (0.5 * s)) * s;
-}
-
-Vec3 Bound::velocity_at(double t) const { return velocity + planned_acceleration * (t - time); }
-
-double Bound::radius_at(double t) const {
-  const double s = t - time;
-  return radius + (growth_speed + 0.5 * growth_acceleration * s) * s;
-}
 
 Bound bound_of(const BodyDefinition& body, const State& state, double time) {
   return {.time = time,

@@ -78,15 +78,15 @@ void ContactBook::announce(const Event& event) {
 /// not hold any more.
 bool ContactBook::take_effect(Event& event, const Sphere& first, const Sphere& second,
                               const std::optional<Box>& box) {
-  const bool wall = event.wall != Wall::none;
-  const bool begins_now = begins(event.kind);
   if (event.kind == EventKind::zeno_guard) guards_told_.insert(event);
   if (event.kind == EventKind::zeno_guard || event.kind == EventKind::bound_violation) return true;
-  Event now = wall ? wall_event(event.kind, event.time, first, *box, event.wall)
-                   : contact_event(event.kind, event.time, first, second, space_);
-  now.distance = event.distance;
-  if (begins_now && !still_begins(now)) return false;
-  event = now;
+  const bool begins_now = begins(event.kind);
+  if (event.wall != Wall::none) {
+    describe(event, first, *box);
+  } else {
+    describe(event, first, second, space_);
+  }
+  if (begins_now && !still_begins(event)) return false;
   if (begins_now && !is_of_sensor(event.kind)) note_contact(event);
   set_touching(event, begins_now);
   changed_.emplace_back(first.id.index, second.id.index);
@@ -184,9 +184,8 @@ bool ContactBook::is_sound(std::size_t bodies, double time, const std::optional<
     return false;
   };
   const auto change_is_sound = [&](const auto& pair) { return pair.first < bodies && pair.second < bodies; };
-  return entries_.size() == bodies && contacts_are_sound(box) &&
-         std::all_of(pending_.begin(), pending_.end(), event_is_sound) &&
-         std::all_of(ended_.begin(), ended_.end(), event_is_sound) &&
+  return entries_.size() == bodies && contacts_are_sound(box) && pending_.is_sound() &&
+         pending_.all_of(event_is_sound) && std::all_of(ended_.begin(), ended_.end(), event_is_sound) &&
          std::all_of(guards_told_.begin(), guards_told_.end(), event_is_sound) &&
          std::all_of(changed_.begin(), changed_.end(), change_is_sound);
 }

@@ -12,6 +12,7 @@
 
 #include "contact/contact_event.hpp"
 #include "contact/contact_rule.hpp"
+#include "contact/event_set.hpp"
 #include "contact/outlook.hpp"
 
 namespace kinesphere {
@@ -100,35 +101,37 @@ class ContactBook {
   void start_instant() { guards_told_.clear(); }
   /// Queues an event; the same event is not queued twice.
   void announce(const Event& event);
-  const std::set<Event, DeliveredBefore>& pending() const { return pending_; }
+  const EventSet& pending() const { return pending_; }
   /// What is pending about `body` and another, and does not hold any more, is dropped.
   template <class Holds>
   void drop_pending(std::uint32_t body, Holds holds) {
-    std::erase_if(pending_, [&](const Event& event) {
+    pending_.erase_if([&](const Event& event) {
       return event.second != no_body && (event.first.index == body || event.second.index == body) &&
              !holds(event);
     });
   }
   /// The next event that still holds after what the caller did at the ones before it; first of all the ends
-  /// that the caller brought about, which stay as they were then. `sphere_of(id)` gives
-  /// the sphere as it is now, or nothing when it is gone.
-  template <class SphereOf>
-  std::optional<Event> deliver(SphereOf sphere_of, const std::optional<Box>& box) {
-    if (!ended_.empty()) return ended_.extract(ended_.begin()).value();
-    while (!pending_.empty()) {
-      Event event = pending_.extract(pending_.begin()).value();
-      const std::optional<Sphere> first = sphere_of(event.first);
-      const std::optional<Sphere> second =
-          event.second == no_body ? std::nullopt : std::optional<Sphere>(sphere_of(event.second));
-      if (first && (second || event.second == no_body)) {
-        const Sphere& other = second ? *second : *first;
-        if (!take_effect(event, *first, other, box)) continue;
-      } else if (begins(event.kind) || event.kind == EventKind::zeno_guard) {
-        continue;
-      }
+  /// that the caller brought about, which stay as they were then. `is_there(id)` tells whether a body has not
+  /// gone, `sphere(number)` gives it as it is now.
+  template <class IsThere, class SphereNow>
+  std::optional<Event> deliver(IsThere is_there, SphereNow sphere, const std::optional<Box>& box) {
+    std::optional<Event> event;
+    if (!ended_.empty()) {
+      event = ended_.extract(ended_.begin()).value();
       return event;
     }
-    return std::nullopt;
+    while (!pending_.empty()) {
+      event = pending_.take_first();
+      const bool alone = event->second == no_body;
+      if (is_there(event->first) && (alone || is_there(event->second))) {
+        const Sphere first = sphere(event->first.index);
+        if (take_effect(*event, first, alone ? first : sphere(event->second.index), box)) return event;
+      } else if (!begins(event->kind) && event->kind != EventKind::zeno_guard) {
+        return event;
+      }
+    }
+    event.reset();
+    return event;
   }
 
   /// Pairs (a body and itself: its walls) whose contact has been changed by a delivered event, so that
@@ -188,7 +191,7 @@ class ContactBook {
   ContactRule sensor_rule_;
   Space space_;
   std::vector<Entry> entries_;
-  std::set<Event, DeliveredBefore> pending_;
+  EventSet pending_;
   std::set<Event, DeliveredBefore> ended_;  ///< by the caller's changes
   std::set<Event, DeliveredBefore> guards_told_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> changed_;

@@ -36,12 +36,8 @@ void describe_surface(Event& event, const Sphere& sphere, const Sphere& surface)
   event.point = sphere.state.position - nearest.normal * (sphere.radius + 0.5 * event.gap);
 }
 
-}  // namespace
-
-Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& b) {
-  const Sphere& first = a.id < b.id ? a : b;
-  const Sphere& second = a.id < b.id ? b : a;
-  Event event{.kind = kind, .time = time, .first = first.id, .second = second.id};
+/// Of two that are in the images in which they are seen.
+void describe_as_seen(Event& event, const Sphere& first, const Sphere& second) {
   event.first_state = first.state;
   event.second_state = second.state;
   if (first.shape || second.shape) {
@@ -50,27 +46,47 @@ Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& 
     describe_spheres(event, first, second);
   }
   event.approach_speed = dot(event.normal, first.state.velocity - second.state.velocity);
+}
+
+}  // namespace
+
+Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& b) {
+  const Sphere& first = a.id < b.id ? a : b;
+  const Sphere& second = a.id < b.id ? b : a;
+  Event event{.kind = kind, .time = time, .first = first.id, .second = second.id};
+  describe_as_seen(event, first, second);
   return event;
 }
 
 Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& b, const Space& space) {
-  if (!space.repeats()) return contact_event(kind, time, a, b);
   const Sphere& first = a.id < b.id ? a : b;
-  Sphere second = a.id < b.id ? b : a;
-  second.state.position += space.shift_to_nearest(second.state.position, first.state.position);
-  return contact_event(kind, time, first, second);
+  const Sphere& second = a.id < b.id ? b : a;
+  Event event{.kind = kind, .time = time, .first = first.id, .second = second.id};
+  describe(event, first, second, space);
+  return event;
+}
+
+void describe(Event& event, const Sphere& first, const Sphere& second, const Space& space) {
+  if (!space.repeats()) return describe_as_seen(event, first, second);
+  Sphere seen = second;
+  seen.state.position += space.shift_to_nearest(second.state.position, first.state.position);
+  describe_as_seen(event, first, seen);
 }
 
 Event wall_event(EventKind kind, double time, const Sphere& sphere, const Box& box, Wall wall) {
-  const HalfSpace inside = half_space(box, wall);
   Event event{.kind = kind, .time = time, .first = sphere.id, .wall = wall};
+  describe(event, sphere, box);
+  return event;
+}
+
+void describe(Event& event, const Sphere& sphere, const Box& box) {
+  const HalfSpace inside = half_space(box, event.wall);
   event.first_state = sphere.state;
   event.normal = -inside.normal;
   const double distance = dot(inside.normal, sphere.state.position) - inside.offset;
   event.gap = distance - sphere.radius;
   event.approach_speed = dot(event.normal, sphere.state.velocity);
   event.point = sphere.state.position + event.normal * distance;
-  return event;
 }
 
 Event violation_event(double time, BodyId body, const State& report, const BrokenPromise& broken) {

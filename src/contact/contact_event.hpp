@@ -22,6 +22,9 @@ Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& 
 /// Event::second is seen in its image nearest to the first.
 Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& b, const Space& space);
 Event wall_event(EventKind kind, double time, const Sphere& sphere, const Box& box, Wall wall);
+/// Brings what an event of a contact or a wall says up to date with the spheres as they are now.
+void describe(Event& event, const Sphere& first, const Sphere& second, const Space& space);
+void describe(Event& event, const Sphere& sphere, const Box& box);
 /// A bound_violation.
 Event violation_event(double time, BodyId body, const State& report, const BrokenPromise& broken);
 

@@ -70,10 +70,9 @@ void BoundDetector::move_on_to(double time) {
 }
 
 std::optional<Event> BoundDetector::deliver() {
-  const auto sphere_of = [this](BodyId id) {
-    return bodies_[id.index].present ? std::optional(sphere(id.index)) : std::nullopt;
-  };
-  std::optional<Event> event = book_.deliver(sphere_of, definition_.box);
+  std::optional<Event> event =
+      book_.deliver([this](BodyId id) { return bodies_[id.index].present; },
+                    [this](std::uint32_t number) { return sphere(number); }, definition_.box);
   if (!event) return event;
   ++counters_.events[static_cast<std::size_t>(event->kind)];
   if (event->repeated) ++counters_.repeated_contacts;
@@ -157,14 +156,13 @@ double BoundDetector::wall_outlook(std::uint32_t number, double horizon) {
 
 /// Holds fresh reports against the contact rule.
 template <class Partner>
-double BoundDetector::judge(const Outlook<Partner>& outlook, const Event& current, const Promise& promise) {
+double BoundDetector::judge(const Outlook<Partner>& outlook, Event current, const Promise& promise) {
   Verdict verdict = outlook.judge(current, promise);
   if (verdict.change == ContactRule::Change::begin && book_.is_jammed(current))
     verdict = outlook.put_off(current, promise);
   if (verdict.is_news()) {
-    Event news = current;
-    news.kind = kind_of(verdict.change, false, current.wall);
-    book_.announce(news);
+    current.kind = kind_of(verdict.change, false, current.wall);
+    book_.announce(current);
     return infinity;
   }
   if (verdict.change == ContactRule::Change::release) book_.release(current);

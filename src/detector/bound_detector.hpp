@@ -100,7 +100,7 @@ class BoundDetector : public Detector {
   void handle_all_due();
   void begin_new_course(std::uint32_t number);
   template <class Partner>
-  double judge(const Outlook<Partner>& outlook, const Event& current, const Promise& promise);
+  double judge(const Outlook<Partner>& outlook, Event current, const Promise& promise);
 
   WorldDefinition definition_;
   const Motion& motion_;

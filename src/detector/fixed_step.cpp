@@ -95,10 +95,9 @@ class FixedStep final : public Detector {
   }
 
   std::optional<Event> deliver() {
-    const auto sphere_of = [this](BodyId id) {
-      return bodies_[id.index].present ? std::optional(sphere(id.index)) : std::nullopt;
-    };
-    std::optional<Event> event = book_.deliver(sphere_of, definition_.box);
+    std::optional<Event> event =
+        book_.deliver([this](BodyId id) { return bodies_[id.index].present; },
+                      [this](std::uint32_t number) { return sphere(number); }, definition_.box);
     book_.changed().clear();
     if (!event) return event;
     ++counters_.events[static_cast<std::size_t>(event->kind)];

@@ -25,10 +25,10 @@ bool fits_grid(const Box& box) {
 
 World::Engine::Answers::Answers(const Engine& engine) : engine_(engine), now_(engine.time_) {
   for (const auto& [a, b] : engine.book_.changed()) open_.insert(std::minmax(a, b));
-  for (const Event& event : engine.book_.pending()) {
+  engine.book_.pending().for_each([this](const Event& event) {
     const std::uint32_t a = event.first.index;
     open_.insert(std::minmax(a, event.second == no_body ? a : event.second.index));
-  }
+  });
 }
 
 /// A begin is told where the gap of fresh reports is at most the tolerance, and each report may be e0 away

@@ -213,10 +213,9 @@ class World::Engine::Audit {
       return event.first.index == a && (a == b ? event.wall != Wall::none : event.second.index == b);
     };
     const auto& changed = engine_.book_.changed();
-    const auto& pending = engine_.book_.pending();
     return !body(a).dirty && !body(b).dirty &&
            std::find(changed.begin(), changed.end(), std::pair(a, b)) == changed.end() &&
-           std::none_of(pending.begin(), pending.end(), concerns);
+           engine_.book_.pending().none_of(concerns);
   }
 
   bool impacts() const { return engine_.definition_.contacts == ContactMode::impacts; }

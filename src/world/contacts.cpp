@@ -22,11 +22,9 @@ Event World::Engine::wall_contact(EventKind kind, std::uint32_t number, Wall wal
 }
 
 std::optional<Event> World::Engine::deliver() {
-  const auto sphere_of = [this](BodyId id) {
-    return id == id_of(id.index) && bodies_[id.index].present() ? std::optional(sphere(id.index))
-                                                                : std::nullopt;
-  };
-  std::optional<Event> event = book_.deliver(sphere_of, walls_);
+  std::optional<Event> event =
+      book_.deliver([this](BodyId id) { return id == id_of(id.index) && bodies_[id.index].present(); },
+                    [this](std::uint32_t number) { return sphere(number); }, walls_);
   if (!event) return event;
   ++counters_.events[static_cast<std::size_t>(event->kind)];
   if (event->repeated) ++counters_.repeated_contacts;

@@ -265,8 +265,8 @@ class World::Engine {
   template <class Visit>
   void for_each_threshold(std::uint32_t a, std::uint32_t b, Visit visit) const;
   template <class Partner>
-  std::optional<double> judge(const Outlook<Partner>& outlook, const Threshold& threshold,
-                              const Event& current, const Promise& promise);
+  std::optional<double> judge(const Outlook<Partner>& outlook, const Threshold& threshold, Event current,
+                              const Promise& promise);
 
   // probing.cpp: reports.
   Result<void> probe(std::span<const std::uint32_t> numbers);

@@ -211,15 +211,14 @@ bool World::Engine::look_at_pair(std::uint32_t number, Neighbours::Place place, 
 /// tells how long the threshold cannot be crossed.
 template <class Partner>
 std::optional<double> World::Engine::judge(const Outlook<Partner>& outlook, const Threshold& threshold,
-                                           const Event& current, const Promise& promise) {
+                                           Event current, const Promise& promise) {
   Verdict verdict = outlook.judge(current, promise);
   if (verdict.change == ContactRule::Change::begin && !threshold.sensed && book_.is_jammed(current))
     verdict = outlook.put_off(current, promise);
   if (verdict.is_news()) {
-    Event news = current;
-    news.kind = kind_of(verdict.change, threshold.sensed, current.wall);
-    news.distance = threshold.distance;
-    book_.announce(news);
+    current.kind = kind_of(verdict.change, threshold.sensed, current.wall);
+    current.distance = threshold.distance;
+    book_.announce(current);
     return std::nullopt;
   }
   if (verdict.change == ContactRule::Change::release) book_.release(current);

@@ -179,7 +179,7 @@ bool World::Engine::contacts_of_fixed_are_sound() const {
   return std::none_of(
              book_.changed().begin(), book_.changed().end(),
              [&](const auto& pair) { return settled_fixed(pair.first) && settled_fixed(pair.second); }) &&
-         std::none_of(book_.pending().begin(), book_.pending().end(), [&](const Event& event) {
+         book_.pending().none_of([&](const Event& event) {
            return lives_fixed(event.first) && (event.second == no_body || lives_fixed(event.second));
          });
 }

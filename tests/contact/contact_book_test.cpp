@@ -20,10 +20,8 @@ class ContactBookTest : public ::testing::Test {
   }
 
   std::optional<Event> deliver() {
-    const auto sphere_of = [this](BodyId id) {
-      return alive[id.index] ? std::optional(sphere(id.index)) : std::nullopt;
-    };
-    return book.deliver(sphere_of, Box{{-1, -9, -9}, {9, 9, 9}});
+    return book.deliver([this](BodyId id) { return alive[id.index]; },
+                        [this](std::uint32_t body) { return sphere(body); }, Box{{-1, -9, -9}, {9, 9, 9}});
   }
 
   WorldDefinition definition{.contacts = ContactMode::impacts, .zeno_interval = 1.0};

@@ -1,0 +1,94 @@
+// The events of one instant in the order of their delivery. There is hardly ever more than one.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "contact/contact_event.hpp"
+
+namespace kinesphere {
+
+/// A sorted set of which the first element needs no memory of its own.
+class EventSet {
+ public:
+  bool empty() const { return !first_; }
+  bool contains(const Event& event) const {
+    return first_ && (is_first(event) || (!others_.empty() && others_.contains(event)));
+  }
+
+  /// Of equal events the one that was there stays.
+  void insert(const Event& event) {
+    if (!first_) {
+      first_ = event;
+    } else if (delivered_before(event, *first_)) {
+      others_.insert(others_.begin(), std::exchange(*first_, event));
+    } else if (delivered_before(*first_, event)) {
+      others_.insert(event);
+    }
+  }
+
+  void erase(const Event& event) {
+    if (!first_) return;
+    if (is_first(event)) {
+      move_up();
+    } else {
+      others_.erase(event);
+    }
+  }
+
+  template <class Predicate>
+  void erase_if(Predicate predicate) {
+    std::erase_if(others_, predicate);
+    if (first_ && predicate(std::as_const(*first_))) move_up();
+  }
+
+  /// Takes out the first one. Needs that there is one.
+  Event take_first() {
+    const Event event = *first_;
+    move_up();
+    return event;
+  }
+
+  template <class Predicate>
+  bool all_of(Predicate predicate) const {
+    return (!first_ || predicate(*first_)) && std::all_of(others_.begin(), others_.end(), predicate);
+  }
+  template <class Visit>
+  void for_each(Visit visit) const {
+    all_of([&](const Event& event) {
+      visit(event);
+      return true;
+    });
+  }
+  template <class Predicate>
+  bool none_of(Predicate predicate) const {
+    return all_of([&](const Event& event) { return !predicate(event); });
+  }
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [earliest, later] = self;
+    archive(earliest, later);
+  }
+  /// For one that was read.
+  bool is_sound() const { return others_.empty() || (first_ && delivered_before(*first_, *others_.begin())); }
+
+ private:
+  bool is_first(const Event& event) const {
+    return !delivered_before(event, *first_) && !delivered_before(*first_, event);
+  }
+  void move_up() {
+    if (others_.empty()) {
+      first_.reset();
+    } else {
+      first_ = others_.extract(others_.begin()).value();
+    }
+  }
+
+  std::optional<Event> first_;
+  std::set<Event, DeliveredBefore> others_;  ///< all after the first
+};
+
+}  // namespace kinesphere
