@@ -7,7 +7,7 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <optional>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -106,11 +106,12 @@ class [[nodiscard]] Result {
   std::variant<T, Error> content_;
 };
 
+/// Success, or an Error; success costs next to nothing.
 template <>
 class [[nodiscard]] Result<void> {
  public:
   Result() = default;
-  Result(Error error) : error_(std::move(error)) {}
+  Result(Error error) : error_(std::make_shared<const Error>(std::move(error))) {}
 
   explicit operator bool() const { return !error_; }
   const Error& error() const { return *error_; }
@@ -119,7 +120,7 @@ class [[nodiscard]] Result<void> {
   }
 
  private:
-  std::optional<Error> error_;
+  std::shared_ptr<const Error> error_;
 };
 
 }  // namespace kinesphere

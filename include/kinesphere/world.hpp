@@ -307,6 +307,7 @@ class World {
   Result<void> check_growth(const BodyDefinition& changed, BodyId id, std::string_view argument,
                             std::string_view call) const;
   Result<void> check_moving(BodyId body, std::string_view call) const;
+  Result<void> check_mobile(BodyId body, std::string_view call) const;
   Result<void> check_reach(const BodyDefinition& changed, BodyId id, std::string_view argument,
                            std::string_view call) const;
   Result<void> check_fixed_room(const FixedDefinition& fixed, BodyId id, std::string_view call) const;

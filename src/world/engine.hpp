@@ -122,6 +122,10 @@ class World::Engine {
   const WorldDefinition& definition() const { return definition_; }
   const Counters& counters() const { return counters_; }
   const std::vector<Body>& table() const { return bodies_; }
+  bool is_alive(BodyId id) const {
+    return id.index < bodies_.size() && bodies_[id.index].alive &&
+           bodies_[id.index].generation == id.generation;
+  }
   BodyId id_of(std::uint32_t number) const { return {number, bodies_[number].generation}; }
   bool probing() const { return probing_; }
   /// The ids that the next bodies added will have, in their order.

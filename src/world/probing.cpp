@@ -8,6 +8,10 @@
 namespace kinesphere {
 namespace {
 
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+/// A probe that forgets to answer is told so.
+constexpr State unanswered{{nothing, nothing, nothing}, {nothing, nothing, nothing}};
+
 /// Resets the flag even if the probe throws.
 class WhileTrue {
  public:
@@ -23,12 +27,12 @@ class WhileTrue {
 }  // namespace
 
 Result<void> World::Engine::probe(std::span<const std::uint32_t> numbers) {
-  // A probe that forgets to answer is told so.
-  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-  constexpr Vec3 unanswered{nothing, nothing, nothing};
-  probe_ids_.clear();
-  for (const std::uint32_t number : numbers) probe_ids_.push_back(id_of(number));
-  probe_states_.assign(numbers.size(), State{unanswered, unanswered});
+  probe_ids_.resize(numbers.size());
+  probe_states_.resize(numbers.size());
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    probe_ids_[k] = id_of(numbers[k]);
+    probe_states_[k] = unanswered;
+  }
   // Counted first: a probe that throws leaves the same world as one that does not answer.
   counters_.probes += numbers.size();
   {

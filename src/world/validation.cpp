@@ -256,10 +256,9 @@ Error overlap_error(std::string_view call, BodyId other, const std::string& name
               " must not overlap another body, but the body would overlap " + name_of_other};
 }
 
-Result<void> check_idle(bool probing, std::string_view call) {
-  if (!probing) return {};
-  return Error{ErrorCode::probe_in_progress, "probe", no_body,
-               std::string(call) + ": a probe may not call the world that asked it"};
+Error probing_error(std::string_view call) {
+  return {ErrorCode::probe_in_progress, "probe", no_body,
+          std::string(call) + ": a probe may not call the world that asked it"};
 }
 
 }  // namespace kinesphere

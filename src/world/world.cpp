@@ -26,24 +26,20 @@ Result<World> World::create(const WorldDefinition& definition) {
 }
 
 Result<void> World::check_alive(BodyId body, std::string_view call) const {
+  if (engine_->is_alive(body)) return {};
   const auto& table = engine_->table();
   // A free index has the generation that its next body will have.
-  const bool known = body.index < table.size() &&
-                     (body.generation < table[body.index].generation ||
-                      (body.generation == table[body.index].generation && table[body.index].alive));
-  if (!known) {
-    return Error{ErrorCode::unknown_body, "body", body,
-                 std::string(call) + ": " + text_of(body) + " was never in this world"};
-  }
-  if (body.generation != table[body.index].generation) {
+  if (body.index < table.size() && body.generation < table[body.index].generation) {
     return Error{ErrorCode::stale_body, "body", body,
                  std::string(call) + ": " + text_of(body) + " has been removed"};
   }
-  return {};
+  return Error{ErrorCode::unknown_body, "body", body,
+               std::string(call) + ": " + text_of(body) + " was never in this world"};
 }
 
 Result<void> World::check_call(BodyId body, std::string_view call) const {
-  return first_error(check_idle(engine_->probing(), call), check_alive(body, call));
+  if (auto idle = check_idle(engine_->probing(), call); !idle) return idle;
+  return check_alive(body, call);
 }
 
 /// As check_call, for a call that needs the body to be enabled, or disabled.
@@ -157,14 +153,14 @@ Result<void> World::remove_all(std::span<const BodyId> bodies) {
 }
 
 Result<void> World::kick(BodyId body, const Vec3& velocity) {
-  auto valid = first_error(check_moving(body, "kick"), check_enabled(body, true, "kick"),
-                           check_velocity(velocity, body, definition(), "kick"));
+  auto valid = check_mobile(body, "kick");
+  if (valid) valid = check_velocity(velocity, body, definition(), "kick");
   if (valid) changing(step::Kick{body, velocity}).kick(body, velocity);
   return valid;
 }
 
 Result<void> World::teleport(BodyId body, const State& state) {
-  auto valid = first_error(check_moving(body, "teleport"), check_enabled(body, true, "teleport"));
+  auto valid = check_mobile(body, "teleport");
   if (valid) valid = check_moved(body, state, "teleport");
   if (valid) changing(step::Teleport{body, state}).teleport(body, state);
   return valid;

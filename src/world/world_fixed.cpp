@@ -14,6 +14,12 @@ Result<void> World::check_moving(BodyId body, std::string_view call) const {
                std::string(call) + ": body must be one that can move, but " + text_of(body) + " is fixed"};
 }
 
+/// For a call that needs the body to be enabled, too.
+Result<void> World::check_mobile(BodyId body, std::string_view call) const {
+  auto valid = check_moving(body, call);
+  return !valid || engine_->table()[body.index].enabled ? valid : check_enabled(body, true, call);
+}
+
 /// Whether there is room for a fixed body, where overlaps are not allowed.
 Result<void> World::check_fixed_room(const FixedDefinition& fixed, BodyId id, std::string_view call) const {
   if (definition().allow_overlap) return {};
