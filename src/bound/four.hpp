@@ -43,6 +43,13 @@ class FourPlain {
   friend FourPlain abs(const FourPlain& a) {
     return each(a, a, [](float x, float) { return std::abs(x); });
   }
+  /// The value where a > b, 0 elsewhere.
+  friend FourPlain if_greater(const FourPlain& a, const FourPlain& b, const FourPlain& value) {
+    FourPlain result(0.0f);
+    for (std::size_t k = 0; k < lane_count; ++k)
+      if (a.lanes_[k] > b.lanes_[k]) result.lanes_[k] = value.lanes_[k];
+    return result;
+  }
   friend Lanes operator>(const FourPlain& a, const FourPlain& b) {
     Lanes found = 0;
     for (std::size_t k = 0; k < lane_count; ++k)
@@ -85,6 +92,9 @@ class FourVector {
     return FourVector(_mm_mul_ps(a.lanes_, b.lanes_));
   }
   friend FourVector abs(FourVector a) { return FourVector(_mm_andnot_ps(_mm_set1_ps(-0.0f), a.lanes_)); }
+  friend FourVector if_greater(FourVector a, FourVector b, FourVector value) {
+    return FourVector(_mm_and_ps(_mm_cmpgt_ps(a.lanes_, b.lanes_), value.lanes_));
+  }
   friend Lanes operator>(FourVector a, FourVector b) {
     return static_cast<Lanes>(_mm_movemask_ps(_mm_cmpgt_ps(a.lanes_, b.lanes_)));
   }

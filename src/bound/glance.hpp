@@ -51,6 +51,11 @@ struct alignas(64) Sketch {
   }
 };
 
+/// Where space repeats: the body is to be seen in the image in which its home is nearest.
+struct Home {
+  std::array<float, 4> centre{};  ///< of its box, and 0
+};
+
 /// From one body at one instant.
 template <class Number = Four>
 class Glance {
@@ -59,16 +64,20 @@ class Glance {
       : now_(now), own_end_(own.end), own_(Row{&own, &own, &own, &own}, now) {}
 
   using Row = std::array<const Sketch*, lane_count>;
-  using Shifts = std::array<Vec3, lane_count>;
+  /// Of the one who looks and of the others.
+  struct Homes {
+    Vec3 period;  ///< 0 on axes that do not repeat
+    const Home* own;
+    std::array<const Home*, lane_count> others;
+  };
 
   /// Those of the others with whom no two points of the bodies come within `room`, before `until` or one of
-  /// the two ends. `shifts` are added to their centres, where there are any. On straight lines the least of
+  /// the two ends. `homes` are given where space repeats. On straight lines the least of
   /// |X + V d| is |X|, its value at the end, or |X x V| / |V|: no root, no division. Radii count as they are
   /// at the end, and half of what the centres turn by then is added to them.
-  [[gnu::always_inline]] Lanes apart(const Row& others, double until, double room,
-                                     const Shifts* shifts) const {
+  [[gnu::always_inline]] Lanes apart(const Row& others, double until, double room, const Homes* homes) const {
     Moved other(others, now_);
-    if (shifts) other.shift(*shifts);
+    if (homes) other.shift(*homes);
     const Number duration = spans(others, std::min(until, own_end_));
     const Number x = own_.x - other.x, y = own_.y - other.y, z = own_.z - other.z;
     const Number u = own_.u - other.u, v = own_.v - other.v, w = own_.w - other.w;
@@ -96,6 +105,7 @@ class Glance {
  private:
   /// Four sketches, moved on.
   struct Moved {
+    using Columns = std::array<Number, 4>;
     Number x, y, z, radius, u, v, w, speed, a, b, c, growth;
 
     [[gnu::always_inline]] Moved(const Row& sketches, double to)
@@ -105,18 +115,24 @@ class Glance {
                 Number({age(sketches[0], to), age(sketches[1], to), age(sketches[2], to),
                         age(sketches[3], to)})) {}
 
-    void shift(const Shifts& by) {
-      const auto lanes = [&](double Vec3::*axis) {
-        return Number({static_cast<float>(by[0].*axis), static_cast<float>(by[1].*axis),
-                       static_cast<float>(by[2].*axis), static_cast<float>(by[3].*axis)});
+    void shift(const Homes& homes) {
+      const Columns theirs =
+          Number::columns({homes.others[0]->centre.data(), homes.others[1]->centre.data(),
+                           homes.others[2]->centre.data(), homes.others[3]->centre.data()});
+      const auto to_nearest = [&](std::size_t axis, double period) {
+        const Number length(static_cast<float>(period));
+        const Number half(period > 0.0 ? static_cast<float>(0.5 * period)
+                                       : std::numeric_limits<float>::infinity());
+        const Number zero(0.0f);
+        const Number way = theirs[axis] - Number(homes.own->centre[axis]);
+        return if_greater(zero - half, way, length) - if_greater(way, half, length);
       };
-      x = x + lanes(&Vec3::x);
-      y = y + lanes(&Vec3::y);
-      z = z + lanes(&Vec3::z);
+      x = x + to_nearest(0, homes.period.x);
+      y = y + to_nearest(1, homes.period.y);
+      z = z + to_nearest(2, homes.period.z);
     }
 
    private:
-    using Columns = std::array<Number, 4>;
     template <class Part>
     [[gnu::always_inline]] static Columns columns(const Row& sketches, Part part) {
       return Number::columns(

@@ -46,6 +46,17 @@ class Space {
         shift[axis] = std::floor((to[axis] - from[axis]) * per_period_[axis] + 0.5) * period_[axis];
     return shift;
   }
+  /// The same for points in the primary box, or hardly outside.
+  Vec3 shift_between_homes(const Vec3& from, const Vec3& to) const {
+    const auto shift = [](double way, double period) {
+      if (way > 0.5 * period) return -period;
+      return way < -0.5 * period ? period : 0.0;
+    };
+    const auto on_axis = [&](int axis) {
+      return repeats(axis) ? shift(from[axis] - to[axis], period_[axis]) : 0.0;
+    };
+    return {on_axis(0), on_axis(1), on_axis(2)};
+  }
   Vec3 shift_of(const Vec3& images) const {
     return {images.x * period_.x, images.y * period_.y, images.z * period_.z};
   }

@@ -96,6 +96,17 @@ Sketch World::Engine::sketch_of(const Body& body) const {
   return body.is_fixed() ? Sketch() : Sketch(body.bound, body.box_end, norm_one(space_.period()));
 }
 
+Home World::Engine::home_of(const Body& body) const {
+  const Vec3 centre = 0.5 * (body.box.lower + body.box.upper);
+  return {{static_cast<float>(centre.x), static_cast<float>(centre.y), static_cast<float>(centre.z), 0.0f}};
+}
+
+/// What others see of a body that has got another box, or another end of it.
+void World::Engine::sketch_box(std::uint32_t number) {
+  sketches_[number] = sketch_of(bodies_[number]);
+  if (space_.repeats()) homes_[number] = home_of(bodies_[number]);
+}
+
 /// Contains the body until its box_end. One that was kicked lately may be kicked again, and go anywhere: it
 /// gets as much room on all sides as the longest way needs, but no more than makes the box as wide as it may
 /// be where space repeats.
@@ -153,7 +164,7 @@ double World::Engine::longest_in_period(const Body& body) const {
 Vec3 World::Engine::shift_to_meet(std::uint32_t a, std::uint32_t b) const {
   const Box& box = bodies_[a].box;
   const Box& other = bodies_[b].box;
-  return space_.shift_to_nearest(0.5 * (other.lower + other.upper), 0.5 * (box.lower + box.upper));
+  return space_.shift_between_homes(0.5 * (other.lower + other.upper), 0.5 * (box.lower + box.upper));
 }
 
 /// The bound of body b as body a has to reckon with it, where space repeats.

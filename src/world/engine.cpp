@@ -22,6 +22,7 @@ std::uint32_t World::Engine::take_number() {
     number = static_cast<std::uint32_t>(bodies_.size());
     bodies_.emplace_back();
     sketches_.emplace_back();
+    if (space_.repeats()) homes_.emplace_back();
     neighbours_.make_room(bodies_.size());
   } else {
     number = free_.back();

@@ -242,6 +242,8 @@ class World::Engine {
   double longest_in_period(const Body& body) const;
 
   Sketch sketch_of(const Body& body) const;
+  Home home_of(const Body& body) const;
+  void sketch_box(std::uint32_t number);
 
   // settling.cpp: facts.
   void mark_dirty(std::uint32_t number);
@@ -304,6 +306,7 @@ class World::Engine {
   std::size_t size_ = 0;
   std::vector<Body> bodies_;
   std::vector<Sketch> sketches_;  ///< of their bounds, until their boxes end; of no use while a body is dirty
+  std::vector<Home> homes_;       ///< of their boxes, where space repeats
   std::vector<std::uint32_t> free_;
   std::vector<Shape> shapes_;  ///< of fixed bodies
   std::vector<std::uint32_t> free_shapes_;

@@ -38,7 +38,8 @@ class World::Engine::Lookout {
   }
 
   /// Which of these neighbours, four at most, can be left alone for as long as is enough.
-  [[gnu::always_inline]] Lanes apart(const Glance<>& glance, std::span<const Neighbours::Place> places) const {
+  [[gnu::always_inline]] Lanes apart(const Glance<>& glance,
+                                     std::span<const Neighbours::Place> places) const {
     if (!bare_) return 0;
     const std::vector<Neighbour>& all = engine_.neighbours_.of(number_);
     Glance<>::Row others;
@@ -46,10 +47,10 @@ class World::Engine::Lookout {
       others[lane] = &engine_.sketches_[all[places[std::min(lane, places.size() - 1)]].partner];
     const double room = engine_.sensors_.largest_reach() + engine_.definition_.contact_tolerance;
     if (!engine_.space_.repeats()) return glance.apart(others, enough_, room, nullptr);
-    Glance<>::Shifts shifts{};
-    for (std::size_t lane = 0; lane < places.size(); ++lane)
-      shifts[lane] = engine_.shift_to_meet(number_, all[places[lane]].partner);
-    return glance.apart(others, enough_, room, &shifts);
+    Glance<>::Homes homes{engine_.space_.period(), &engine_.homes_[number_], {}};
+    for (std::size_t lane = 0; lane < lane_count; ++lane)
+      homes.others[lane] = &engine_.homes_[all[places[std::min(lane, places.size() - 1)]].partner];
+    return glance.apart(others, enough_, room, &homes);
   }
   /// Until when a look at the partner is not needed, if it is apart; +infinity: until their boxes end.
   double enough_for(std::uint32_t partner) const {

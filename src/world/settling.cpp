@@ -104,7 +104,7 @@ Result<void> World::Engine::settle_round(const std::vector<std::uint32_t>& round
       register_box(number);
       chosen_.push_back(number);
     }
-    sketches_[number] = sketch_of(bodies_[number]);
+    sketch_box(number);
   }
   for (const std::uint32_t number : chosen_) find_neighbours(number);
   for (const std::uint32_t number : round) {

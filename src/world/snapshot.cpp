@@ -62,8 +62,8 @@ template <class Self, class Archive>
 void World::Engine::transfer(Self& self, Archive& archive) {
   // The definition comes first, as an engine is made from it, space and walls too; the last matter only
   // during advance().
-  auto& [definition, space, enclosure, book, time, size, bodies, sketches, free, shapes, free_shapes, grid,
-         neighbours, schedule, dirty, counters, sensors, pair_filter, filtering, gathering, probe,
+  auto& [definition, space, enclosure, book, time, size, bodies, sketches, homes, free, shapes, free_shapes,
+         grid, neighbours, schedule, dirty, counters, sensors, pair_filter, filtering, gathering, probe,
          probing_call, probing, probe_ids, probe_states, partners, round, chosen, unsettled] = self;
   archive(book, time, size, bodies, free, shapes, free_shapes, grid, neighbours, schedule, dirty, counters,
           sensors, filtering, gathering);
@@ -93,7 +93,9 @@ Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const st
     return refusal("must hold a world, but its content does not have the form of one");
   if (const char* where = engine->contradiction())
     return refusal(std::string("must hold a world that can be, but contradicts itself in its ") + where);
-  for (const Body& body : engine->bodies_) engine->sketches_.push_back(engine->sketch_of(body));
+  engine->sketches_.resize(engine->bodies_.size());
+  if (engine->space_.repeats()) engine->homes_.resize(engine->bodies_.size());
+  for (std::uint32_t number = 0; number < engine->bodies_.size(); ++number) engine->sketch_box(number);
   if (pair_filter) engine->filtering_ = true;
   engine->pair_filter_ = std::move(pair_filter);
   return engine;
