@@ -41,7 +41,7 @@ Bound World::Engine::Answers::guarded(std::uint32_t number) const {
 }
 
 bool World::Engine::Answers::settled(std::uint32_t a, std::uint32_t b) const {
-  return !body(a).dirty && !body(b).dirty && !open_.contains(std::minmax(a, b));
+  return !engine_.marks_[a].dirty && !engine_.marks_[b].dirty && !open_.contains(std::minmax(a, b));
 }
 
 /// The engine looks at the pair no sooner than this, so it tells of no begin before.
@@ -49,7 +49,7 @@ double World::Engine::Answers::recorded(std::uint32_t a, std::uint32_t b) const 
   if (!settled(a, b)) return now_;
   const auto place = engine_.neighbours_.find(a, b);
   double watched = place ? engine_.neighbours_.watched_until(a, *place) : infinity;
-  if (watched == infinity) watched = std::min(body(a).box_end, body(b).box_end);
+  if (watched == infinity) watched = engine_.unwatched_until(a, b);
   return std::max(watched, now_);
 }
 
@@ -161,7 +161,7 @@ Onset World::Engine::Answers::of_world() const {
   for (std::size_t k = 0; k < present.size(); ++k) {
     consider_walls(present[k], first);
     for (const Neighbour& one : engine_.neighbours_.of(present[k]))
-      if (one.watch < infinity) consider(present[k], one.partner, first);
+      if (one.watches()) consider(present[k], one.partner, first);
     if (k > 0) consider(present[k - 1], present[k], first);
   }
   consider_all_within(present, first);

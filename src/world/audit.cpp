@@ -78,7 +78,7 @@ class World::Engine::Audit {
     if (const auto wrong = engine_.grid_.check(number, b.box))
       find("registration", name(number) + " " + *wrong);
     if (b.is_fixed()) return check_fixed(number);
-    if (b.dirty) return;
+    if (engine_.marks_[number].dirty) return;
     if (!engine_.space_.is_narrow(b.box)) find("registration", name(number) + " has too wide a box");
     if (!exact(b)) return;
     const Vec3 room = Vec3{1.0, 1.0, 1.0} * (0.25 * engine_.definition_.contact_tolerance);
@@ -94,14 +94,15 @@ class World::Engine::Audit {
     if (!(b.box == engine_.box_of(b)) || b.box_end != infinity)
       find("registration", name(number) + " is fixed but not registered where its shape is");
     for (const Neighbour& one : engine_.neighbours_.of(number))
-      if (one.watch < infinity) find("certificate", name(number) + " is fixed but watches another");
+      if (one.watches()) find("certificate", name(number) + " is fixed but watches another");
   }
 
   void check_schedule(std::uint32_t number) {
     const Body& b = body(number);
-    if (b.dirty) return;
-    double wanted = std::min(b.box_end, b.wall_time);
-    for (const Neighbour& one : engine_.neighbours_.of(number)) wanted = std::min(wanted, one.watch);
+    if (engine_.marks_[number].dirty) return;
+    double wanted = std::min({b.box_end, b.wall_time, b.look_time});
+    for (const Neighbour& one : engine_.neighbours_.of(number))
+      if (one.watches()) wanted = std::min(wanted, one.watch);
     const double found = engine_.schedule_.time_of(number);
     if (found > wanted) find("queue", name(number) + " is scheduled too late" + times(found, wanted));
     if (found < now_) find("queue", name(number) + " is scheduled in the past" + times(now_, found));
@@ -170,7 +171,7 @@ class World::Engine::Audit {
       return;
     }
     const bool for_ever = threshold.within && !engine_.facts_end_with_boxes();
-    const double until = for_ever ? infinity : std::min(body(a).box_end, body(b).box_end);
+    const double until = for_ever ? infinity : engine_.unwatched_until(a, b);
     if (!threshold.within && !boxes_overlap(a, b)) return;
     if (too_late(until, change, now_))
       find("certificate", pair(a, b) + " are not watched" + times(until, change));
@@ -213,7 +214,7 @@ class World::Engine::Audit {
       return event.first.index == a && (a == b ? event.wall != Wall::none : event.second.index == b);
     };
     const auto& changed = engine_.book_.changed();
-    return !body(a).dirty && !body(b).dirty &&
+    return !engine_.marks_[a].dirty && !engine_.marks_[b].dirty &&
            std::find(changed.begin(), changed.end(), std::pair(a, b)) == changed.end() &&
            engine_.book_.pending().none_of(concerns);
   }

@@ -21,6 +21,7 @@ std::uint32_t World::Engine::take_number() {
   if (free_.empty()) {
     number = static_cast<std::uint32_t>(bodies_.size());
     bodies_.emplace_back();
+    marks_.emplace_back();
     sketches_.emplace_back();
     if (space_.repeats()) homes_.emplace_back();
     neighbours_.make_room(bodies_.size());
@@ -66,7 +67,7 @@ void World::Engine::withdraw(std::uint32_t number) {
   grid_.remove(number);
   neighbours_.remove_all(number);
   schedule_.remove(number);
-  bodies_[number].dirty = false;
+  marks_[number].dirty = false;
 }
 
 void World::Engine::remove(BodyId id) {
@@ -102,7 +103,8 @@ bool World::Engine::certainly_overlap(const Extent& a, const Extent& b) const {
 /// The body with its last report in the primary box, wherever the engine keeps it.
 BodyView World::Engine::view(std::uint32_t number) const {
   const Body& body = bodies_[number];
-  BodyView view{body.definition, body.bound, body.box, body.box_end, {}, body.enabled, body.is_fixed()};
+  BodyView view{body.definition, body.bound,     body.box, std::min(body.box_end, body.look_time), {},
+                body.enabled,    body.is_fixed()};
   if (!space_.repeats()) return view;
   const auto [position, images] = space_.wrapped(body.bound.position);
   const Vec3 shift = space_.shift_of(images);
@@ -181,7 +183,7 @@ Result<void> World::Engine::gather() {
 }
 
 Result<void> World::Engine::wake(std::uint32_t number) {
-  if (bodies_[number].dirty) {
+  if (marks_[number].dirty) {
     schedule_.remove(number);
     return {};
   }
@@ -197,6 +199,10 @@ Result<void> World::Engine::wake(std::uint32_t number) {
     ++counters_.wall_checks;
     if (auto settled = settle_walls(number); !settled) return settled;
   }
+  if (bodies_[number].look_time <= time_) {
+    ++counters_.pair_checks;
+    if (auto settled = look_around(number); !settled) return settled;
+  }
   for (;;) {
     const auto& all = neighbours_.of(number);
     const auto due =
@@ -204,7 +210,7 @@ Result<void> World::Engine::wake(std::uint32_t number) {
     if (due == all.end()) break;
     const std::uint32_t partner = due->partner;
     const auto place = static_cast<Neighbours::Place>(due - all.begin());
-    if (bodies_[partner].dirty) {
+    if (marks_[partner].dirty) {
       neighbours_.unwatch(number, place);
       continue;
     }
@@ -220,13 +226,13 @@ Result<void> World::Engine::wake(std::uint32_t number) {
     if (auto settled = settle_pair(number, place); !settled) return settled;
   }
   if (counters_.pair_checks + counters_.wall_checks == checks_before) ++counters_.stale_wakes;
-  if (!bodies_[number].dirty) reschedule(number);
+  if (!marks_[number].dirty) reschedule(number);
   return {};
 }
 
 void World::Engine::reschedule(std::uint32_t number) {
   const Body& body = bodies_[number];
-  double first = std::min(body.box_end, body.wall_time);
+  double first = std::min({body.box_end, body.wall_time, body.look_time});
   for (const Neighbour& one : neighbours_.of(number)) first = std::min(first, one.watch);
   schedule_.set(number, first);
 }

@@ -4,8 +4,8 @@
 //   - their boxes do not overlap, and each body stays in its box until its box_end; or
 //   - they are neighbours, and one of the two watches the other: whether they touch, and which sensor
 //     distances they are within, cannot change before the watch's time; or
-//   - they are neighbours, both apart, and cross no sensor distance until the earlier of the two box ends;
-//     or
+//   - they are neighbours, both apart, and cross no sensor distance until the earliest of the two box ends
+//     and the two next looks around; or
 //   - the filters keep them from touching and sensing each other.
 // A box has room for all that its body can sense around it. Neighbours are those whose boxes overlap, and
 // those that touch or sense each other. A fact is about the true bodies, so later probes leave it true. Only
@@ -13,8 +13,9 @@
 // watches of the body from both sides, and makes the body dirty. A dirty body settles all its pairs again
 // before time moves on (a disabled one is out of the grid and the schedule instead), in its old box if that
 // still holds it for a good while, or in a new one after it has looked for its neighbours; so does a body
-// whose box has run out, which renews the first and the third kind of fact. Each body is scheduled at the
-// earliest of its box end, its wall time and its watches. A fixed body has a shape in a table of its own and
+// whose box has run out, which renews the first and the third kind of fact. A body that looks around renews
+// the third kind in its old box. Each body is scheduled at the earliest of its box end, its wall time, its
+// next look around and its watches. A fixed body has a shape in a table of its own and
 // a box for ever. It is never probed and watches nobody: its partners, which move, watch it.
 //
 // Where space repeats, the image in which two bodies can meet is the one in which their boxes are nearest
@@ -55,13 +56,11 @@ struct alignas(64) Body {
   Bound bound;             ///< since the last report
   double box_end = 0.0;    ///< the body stays in its box until then
   double wall_time = 0.0;  ///< no wall contact begins or ends before this or, if it is infinite, box_end
+  double look_time = std::numeric_limits<double>::infinity();  ///< of the next look around
   bool alive = false;
   bool enabled = true;
-  bool dirty = false;    ///< in the list of those to settle before time moves on
-  bool settled = false;  ///< in the present round
   bool kicked_since_report = false;
   bool turned = false;  ///< kicked since its box was made
-  bool voided = false;  ///< no fact about it is left since it was settled
 
   std::uint32_t shape_number = no_shape;  ///< in the table of the shapes of fixed bodies
   std::uint32_t generation = 0;
@@ -76,10 +75,10 @@ struct alignas(64) Body {
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [since_report, place_end, walls_until, lives, takes_part, unsettled, is_settled, kicked, turns,
-           forgotten, own_shape, own_generation, promised, place, images, ahead] = self;
-    archive(since_report, place_end, walls_until, lives, takes_part, unsettled, is_settled, kicked, turns,
-            forgotten, own_shape, own_generation, promised, place, images, ahead);
+    auto& [since_report, place_end, walls_until, looks_at, lives, takes_part, kicked, turns, own_shape,
+           own_generation, promised, place, images, ahead] = self;
+    archive(since_report, place_end, walls_until, looks_at, lives, takes_part, kicked, turns, own_shape,
+            own_generation, promised, place, images, ahead);
   }
 
   /// The world knows its present state.
@@ -90,6 +89,18 @@ struct alignas(64) Body {
   }
   double largest_acceleration() const {
     return definition.acceleration_limit + norm(definition.planned_acceleration);
+  }
+};
+
+/// How far settling a body has come.
+struct Marks {
+  bool dirty = false;    ///< in the list of those to settle before time moves on
+  bool settled = false;  ///< in the present round
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [unsettled, is_settled] = self;
+    archive(unsettled, is_settled);
   }
 };
 
@@ -256,18 +267,21 @@ class World::Engine {
   /// for all its thresholds, or for one image.
   bool facts_end_with_boxes() const { return sensors_.any() || space_.repeats(); }
   Result<void> settle_changed(std::uint32_t a, std::uint32_t b);
-  Result<void> settle_neighbours(std::uint32_t number);
+  Result<void> look_around(std::uint32_t number);
   class Lookout;
   /// A dirty partner will settle the pair itself; one that has been settled in this round has done so.
   bool settles_itself(std::uint32_t partner) const {
-    return bodies_[partner].dirty || bodies_[partner].settled;
+    return marks_[partner].dirty || marks_[partner].settled;
   }
   Result<void> settle_pair(std::uint32_t number, Neighbours::Place place);
+  /// What is known of two neighbours that nobody watches, and that are apart, holds until then.
+  double unwatched_until(std::uint32_t a, std::uint32_t b) const {
+    return std::min({bodies_[a].box_end, bodies_[b].box_end, bodies_[a].look_time, bodies_[b].look_time});
+  }
   template <class Partner>
   bool look_at_pair(std::uint32_t number, Neighbours::Place place, const Bound& bound, const Partner& other);
   Result<void> settle_walls(std::uint32_t number);
   double judge_walls(std::uint32_t number);
-  bool is_watched(std::uint32_t number, Neighbours::Place place) const;
   template <class Visit>
   void for_each_threshold(std::uint32_t a, std::uint32_t b, Visit visit) const;
   template <class Partner>
@@ -292,9 +306,9 @@ class World::Engine {
   bool bodies_are_sound() const;
   bool shapes_are_sound() const;
   bool neighbours_are_sound() const;
-  bool is_sound(const Body& body) const;
+  bool is_sound(const Body& body, const Marks& marks) const;
   bool contacts_of_fixed_are_sound() const;
-  bool is_sound_fixed(const Body& body) const;
+  bool is_sound_fixed(const Body& body, const Marks& marks) const;
   bool image_is_sound(const Body& body) const;
   bool was_given_out(BodyId id) const;
 
@@ -305,6 +319,7 @@ class World::Engine {
   double time_;
   std::size_t size_ = 0;
   std::vector<Body> bodies_;
+  std::vector<Marks> marks_;
   std::vector<Sketch> sketches_;  ///< of their bounds, until their boxes end; of no use while a body is dirty
   std::vector<Home> homes_;       ///< of their boxes, where space repeats
   std::vector<std::uint32_t> free_;

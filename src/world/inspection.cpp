@@ -44,7 +44,7 @@ std::vector<Certificate> World::Engine::certificates() const {
   std::vector<Certificate> all;
   for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
     for (const Neighbour& one : neighbours_.of(number)) {
-      if (one.watch == std::numeric_limits<double>::infinity()) continue;
+      if (!one.watches()) continue;
       const auto [first, second] = std::minmax({id_of(number), id_of(one.partner)});
       all.push_back({first, second, one.watch});
     }

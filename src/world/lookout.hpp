@@ -52,31 +52,47 @@ class World::Engine::Lookout {
       homes.others[lane] = &engine_.homes_[all[places[std::min(lane, places.size() - 1)]].partner];
     return glance.apart(others, enough_, room, &homes);
   }
-  /// Until when a look at the partner is not needed, if it is apart; +infinity: until their boxes end.
+  /// The same of one neighbour, by a closer look.
+  bool is_apart_from(std::uint32_t partner) const {
+    return meets_bare(partner) && encounter(partner).stay_apart(time_for(partner), reach_for(partner));
+  }
+  /// One or the other.
+  double left_alone_until(std::uint32_t partner) const {
+    return is_apart_from(partner) ? enough_for(partner) : meeting_with(partner);
+  }
+  /// When a look at the partner is needed again, if it is apart; +infinity: when one of their boxes ends.
   double enough_for(std::uint32_t partner) const {
-    const double boxes_end = std::min(body_.box_end, engine_.bodies_[partner].box_end);
+    const double boxes_end = std::min(body_.box_end, engine_.sketches_[partner].end);
     return enough_ < boxes_end ? enough_ : infinity;
   }
 
-  /// Nothing can happen between the two until this time; +infinity: until their boxes end. Now, if a closer
-  /// look is needed, or fresh reports.
-  [[gnu::always_inline]] double left_alone_until(std::uint32_t partner) const {
-    const Body& other = engine_.bodies_[partner];
-    if (!bare_ || other.is_fixed()) return now_;
-    const double boxes_end = std::min(body_.box_end, other.box_end);
-    const double until = std::min(boxes_end, enough_);
-    MovedBound moved(other.bound, now_);
-    if (engine_.space_.repeats()) moved.centre += engine_.shift_to_meet(number_, partner);
-    const Encounter encounter(own_, moved);
-    const double tolerance = engine_.definition_.contact_tolerance;
-    const bool senses = engine_.sensors_.any();
-    const double reach = senses ? engine_.reach_of_pair(body_, other) : 0.0;
-    if (encounter.stay_apart(until - now_, reach + tolerance)) return enough_for(partner);
-    if (senses || encounter.is_near(tolerance)) return now_;
-    return rounding::sum_down(now_, encounter.meeting(boxes_end - now_, engine_.rounding_room()));
+  /// They cannot meet sooner; +infinity: until their boxes end. Now, if a closer look is needed, or fresh
+  /// reports.
+  double meeting_with(std::uint32_t partner) const {
+    if (!meets_bare(partner)) return now_;
+    const Encounter pair = encounter(partner);
+    if (engine_.sensors_.any() || pair.is_near(engine_.definition_.contact_tolerance)) return now_;
+    const double boxes_end = std::min(body_.box_end, engine_.sketches_[partner].end);
+    return rounding::sum_down(now_, pair.meeting(boxes_end - now_, engine_.rounding_room()));
   }
 
  private:
+  bool meets_bare(std::uint32_t partner) const { return bare_ && !engine_.bodies_[partner].is_fixed(); }
+  [[gnu::always_inline]] Encounter encounter(std::uint32_t partner) const {
+    MovedBound moved(engine_.bodies_[partner].bound, now_);
+    if (engine_.space_.repeats()) moved.centre += engine_.shift_to_meet(number_, partner);
+    return {own_, moved};
+  }
+  double time_for(std::uint32_t partner) const {
+    return std::min({body_.box_end, engine_.sketches_[partner].end, enough_}) - now_;
+  }
+  /// At this gap nothing is about to happen.
+  double reach_for(std::uint32_t partner) const {
+    const double tolerance = engine_.definition_.contact_tolerance;
+    return engine_.sensors_.any() ? tolerance + engine_.reach_of_pair(body_, engine_.bodies_[partner])
+                                  : tolerance;
+  }
+
   static constexpr double beyond_first = 2.0;
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 

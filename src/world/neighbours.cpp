@@ -70,7 +70,6 @@ void Neighbours::remove_all(std::uint32_t body) {
 }
 
 bool Neighbours::is_sound(std::size_t bodies) const {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   if (lists_.size() != bodies) return false;
   for (std::uint32_t body = 0; body < bodies; ++body) {
     std::vector<std::uint32_t> partners;
@@ -80,7 +79,8 @@ bool Neighbours::is_sound(std::size_t bodies) const {
         return false;
       const Neighbour& there = lists_[partner][mirror];
       if (there.partner != body || there.mirror != place) return false;
-      if (watch < infinity && there.watch < infinity) return false;
+      const bool partner_does = there.watch < Neighbour::partner_does;
+      if (partner_does != (watch == Neighbour::partner_does)) return false;
       partners.push_back(partner);
     }
     std::sort(partners.begin(), partners.end());

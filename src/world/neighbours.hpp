@@ -14,10 +14,19 @@ namespace kinesphere {
 
 /// One side of a pair.
 struct Neighbour {
-  /// The watch: what holds between the two now cannot change before. +infinity: this side does not watch.
-  double watch = std::numeric_limits<double>::infinity();
+  static constexpr double nobody = std::numeric_limits<double>::infinity();
+  static constexpr double partner_does = std::numeric_limits<double>::max();
+
+  /// The watch: what holds between the two now cannot change before this time; or one of the two above, which
+  /// are later than all times.
+  double watch = nobody;
   std::uint32_t partner = 0;
   std::uint32_t mirror = 0;  ///< the place of the pair in the partner's list
+
+  /// This side does.
+  bool watches() const { return watch < partner_does; }
+  /// One of the two does, and not only until now.
+  bool is_watched(double now) const { return now < watch && watch < nobody; }
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
@@ -45,22 +54,26 @@ class Neighbours {
   void replace(std::uint32_t body, std::span<const std::uint32_t> found);
   void remove_all(std::uint32_t body);
 
-  /// The pair is watched from the body's side, until `time`, and not from the other.
+  /// The pair is watched from the body's side, until `time`, which may be Neighbour::nobody, and not from the
+  /// other. The other list is touched only if it has to change.
   void watch(std::uint32_t body, Place place, double time) {
     Neighbour& here = lists_[body][place];
+    const double before = here.watch;
     here.watch = time;
-    lists_[here.partner][here.mirror].watch = std::numeric_limits<double>::infinity();
+    if (!here.watches()) {
+      if (before != Neighbour::nobody) mirror_of(here).watch = Neighbour::nobody;
+    } else if (!(before < Neighbour::partner_does)) {
+      mirror_of(here).watch = Neighbour::partner_does;
+    }
   }
-  void unwatch(std::uint32_t body, Place place) {
-    watch(body, place, std::numeric_limits<double>::infinity());
-  }
+  void unwatch(std::uint32_t body, Place place) { watch(body, place, Neighbour::nobody); }
   void unwatch_all(std::uint32_t body) {
     for (Place place = 0; place < lists_[body].size(); ++place) unwatch(body, place);
   }
   /// The time until which one of the sides watches the pair, or +infinity.
   double watched_until(std::uint32_t body, Place place) const {
     const Neighbour& here = lists_[body][place];
-    return std::min(here.watch, lists_[here.partner][here.mirror].watch);
+    return here.watch == Neighbour::partner_does ? lists_[here.partner][here.mirror].watch : here.watch;
   }
 
   /// Marks serve within a call only.
@@ -75,6 +88,7 @@ class Neighbours {
   bool is_sound(std::size_t bodies) const;
 
  private:
+  Neighbour& mirror_of(const Neighbour& side) { return lists_[side.partner][side.mirror]; }
   static void make_room_for_one(std::vector<Neighbour>& list);
   void link(std::uint32_t a, std::uint32_t b);
   void unlink(std::uint32_t body, Place place);

@@ -105,9 +105,9 @@ void keep_first_of_each_body(std::vector<Hit>& hits) {
 std::vector<std::uint32_t> World::Engine::Queries::candidates(const Box& box) const {
   std::vector<std::uint32_t> numbers;
   for (const std::uint32_t number : engine_.dirty_)
-    if (engine_.bodies_[number].dirty) numbers.push_back(number);
+    if (engine_.marks_[number].dirty) numbers.push_back(number);
   engine_.space_.for_each_overlap(engine_.grid_, box, [&](std::uint32_t number) {
-    if (!engine_.bodies_[number].dirty) numbers.push_back(number);
+    if (!engine_.marks_[number].dirty) numbers.push_back(number);
   });
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());

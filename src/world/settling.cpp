@@ -19,15 +19,14 @@ bool lies_inside(const Box& inner, const Box& outer) {
 
 /// The body must be settled before time moves on. Facts about it stay.
 void World::Engine::mark_dirty(std::uint32_t number) {
-  if (bodies_[number].dirty) return;
-  bodies_[number].dirty = true;
+  if (marks_[number].dirty) return;
+  marks_[number].dirty = true;
   dirty_.push_back(number);
 }
 
 /// A discontinuity: nothing that was certified about the body holds any more.
 void World::Engine::void_facts(std::uint32_t number) {
   neighbours_.unwatch_all(number);
-  bodies_[number].voided = true;
   mark_dirty(number);
 }
 
@@ -45,7 +44,7 @@ Result<void> World::Engine::settle_all() {
     std::sort(round_.begin(), round_.end());
     round_.erase(std::unique(round_.begin(), round_.end()), round_.end());
     // Some have been removed or disabled since.
-    std::erase_if(round_, [this](std::uint32_t number) { return !bodies_[number].dirty; });
+    std::erase_if(round_, [this](std::uint32_t number) { return !marks_[number].dirty; });
     if (auto settled = settle_round(round_); !settled) return settled;
   }
   return {};
@@ -55,13 +54,13 @@ Result<void> World::Engine::settle_all() {
 Result<void> World::Engine::settle_changed(std::uint32_t a, std::uint32_t b) {
   const auto place = neighbours_.find(a, b);
   if (place) neighbours_.unwatch(a, *place);
-  if (!bodies_[a].present() || !bodies_[b].present() || bodies_[a].dirty || bodies_[b].dirty) return {};
+  if (!bodies_[a].present() || !bodies_[b].present() || marks_[a].dirty || marks_[b].dirty) return {};
   if (a == b) {
     if (auto settled = settle_walls(a); !settled) return settled;
   } else if (place) {
     if (auto settled = settle_pair(a, *place); !settled) return settled;
   }
-  if (!bodies_[a].dirty) reschedule(a);
+  if (!marks_[a].dirty) reschedule(a);
   return {};
 }
 
@@ -72,11 +71,10 @@ class World::Engine::RoundInProgress {
   RoundInProgress(const RoundInProgress&) = delete;
   RoundInProgress& operator=(const RoundInProgress&) = delete;
   ~RoundInProgress() {
-    for (const std::uint32_t number : round_) engine_.bodies_[number].settled = false;
+    for (const std::uint32_t number : round_) engine_.marks_[number].settled = false;
     if (done_) return;
     for (const std::uint32_t number : round_) {
-      engine_.bodies_[number].dirty = false;
-      engine_.bodies_[number].voided = false;  // what was settled of it already still holds
+      engine_.marks_[number].dirty = false;
       engine_.mark_dirty(number);
     }
   }
@@ -99,7 +97,7 @@ Result<void> World::Engine::settle_round(const std::vector<std::uint32_t>& round
   choose_first_horizons(round);
   chosen_.clear();
   for (const std::uint32_t number : round) {
-    bodies_[number].dirty = false;
+    marks_[number].dirty = false;
     if (!keep_box(number)) {
       register_box(number);
       chosen_.push_back(number);
@@ -108,28 +106,28 @@ Result<void> World::Engine::settle_round(const std::vector<std::uint32_t>& round
   }
   for (const std::uint32_t number : chosen_) find_neighbours(number);
   for (const std::uint32_t number : round) {
-    if (auto settled = settle_neighbours(number); !settled) return settled;
-    bodies_[number].settled = true;
-    if (!bodies_[number].dirty) bodies_[number].voided = false;
+    if (!bodies_[number].is_fixed()) {
+      if (auto settled = settle_walls(number); !settled) return settled;
+    }
+    if (auto settled = look_around(number); !settled) return settled;
+    marks_[number].settled = true;
   }
   for (const std::uint32_t number : round)
-    if (!bodies_[number].dirty) reschedule(number);
+    if (!marks_[number].dirty) reschedule(number);
   in_progress.finish();
   return {};
 }
 
-/// Records facts between a body and its neighbours, and between it and the walls: the inner loop of the
+/// Records facts between a body and its neighbours, as far as nobody watches them: the inner loop of the
 /// engine.
-Result<void> World::Engine::settle_neighbours(std::uint32_t number) {
-  if (!bodies_[number].is_fixed()) {
-    if (auto settled = settle_walls(number); !settled) return settled;
-  }
-  const bool voided = bodies_[number].voided;
+Result<void> World::Engine::look_around(std::uint32_t number) {
+  Body& body = bodies_[number];
+  body.look_time = infinity;
   unsettled_.clear();
   const std::vector<Neighbour>& all = neighbours_.of(number);
   for (Neighbours::Place place = 0; place < all.size(); ++place) {
-    const std::uint32_t partner = all[place].partner;
-    if (!settles_itself(partner) && (voided || !is_watched(number, place)) && may_meet(number, partner))
+    const Neighbour& one = all[place];
+    if (!one.is_watched(time_) && !settles_itself(one.partner) && may_meet(number, one.partner))
       unsettled_.push_back(place);
   }
   if (unsettled_.empty()) return {};
@@ -140,13 +138,16 @@ Result<void> World::Engine::settle_neighbours(std::uint32_t number) {
     const Lanes apart = lookout.apart(glance, few);
     for (std::size_t k = 0; k < few.size(); ++k) {
       const std::uint32_t partner = all[few[k]].partner;
-      const bool far = (apart >> k) % 2 == 1;
-      const double until = far ? lookout.enough_for(partner) : lookout.left_alone_until(partner);
-      if (far || until > time_) {
+      if ((apart >> k) % 2 == 1 || lookout.is_apart_from(partner)) {
+        neighbours_.unwatch(number, few[k]);
+        body.look_time = std::min(body.look_time, lookout.enough_for(partner));
+        continue;
+      }
+      if (const double until = lookout.meeting_with(partner); until > time_) {
         neighbours_.watch(number, few[k], until);
       } else {
         if (auto settled = settle_pair(number, few[k]); !settled) return settled;
-        if (bodies_[number].dirty) return {};
+        if (marks_[number].dirty) return {};
       }
       lookout.expect(all[few[k]].watch);
     }
@@ -160,10 +161,10 @@ Result<void> World::Engine::settle_pair(std::uint32_t number, Neighbours::Place 
   if (bodies_[number].is_fixed()) {
     // It may meet all the others, and leaves them to watch it.
     auto settled = settle_pair(partner, mirror);
-    if (!bodies_[partner].dirty) reschedule(partner);
+    if (!marks_[partner].dirty) reschedule(partner);
     return settled;
   }
-  while (!bodies_[number].dirty && !bodies_[partner].dirty) {
+  while (!marks_[number].dirty && !marks_[partner].dirty) {
     const bool fresh = bodies_[number].fresh(time_) && bodies_[partner].fresh(time_);
     if (fresh || !Lookout(*this, number).knows_all_of(partner)) {
       const bool known = visit_pair(number, partner, [=, this](const Bound& bound, const auto& other) {
@@ -173,7 +174,7 @@ Result<void> World::Engine::settle_pair(std::uint32_t number, Neighbours::Place 
     }
     if (auto probed = probe_staler(number, partner); !probed) return probed;
     if (const double until = Lookout(*this, number).left_alone_until(partner); until > time_) {
-      if (!bodies_[number].dirty && !bodies_[partner].dirty) neighbours_.watch(number, place, until);
+      if (!marks_[number].dirty && !marks_[partner].dirty) neighbours_.watch(number, place, until);
       return {};
     }
   }
@@ -236,7 +237,7 @@ Result<void> World::Engine::settle_walls(std::uint32_t number) {
   }
   for (;;) {
     Body& body = bodies_[number];
-    if (body.dirty) return {};
+    if (marks_[number].dirty) return {};
     body.wall_time =
         touches ? time_ : until_reports_of_walls(book_.rule(), body.bound, *walls_, time_, body.box_end);
     if (body.wall_time > time_) return {};
@@ -266,12 +267,6 @@ double World::Engine::judge_walls(std::uint32_t number) {
     if (next_look) first = std::min(first, *next_look);
   }
   return first;
-}
-
-/// True when the pair is watched from either side, and not only until now.
-bool World::Engine::is_watched(std::uint32_t number, Neighbours::Place place) const {
-  const double until = neighbours_.watched_until(number, place);
-  return time_ < until && until < infinity;
 }
 
 }  // namespace kinesphere

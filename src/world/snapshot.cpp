@@ -62,11 +62,11 @@ template <class Self, class Archive>
 void World::Engine::transfer(Self& self, Archive& archive) {
   // The definition comes first, as an engine is made from it, space and walls too; the last matter only
   // during advance().
-  auto& [definition, space, enclosure, book, time, size, bodies, sketches, homes, free, shapes, free_shapes,
-         grid, neighbours, schedule, dirty, counters, sensors, pair_filter, filtering, gathering, probe,
-         probing_call, probing, probe_ids, probe_states, partners, round, chosen, unsettled] = self;
-  archive(book, time, size, bodies, free, shapes, free_shapes, grid, neighbours, schedule, dirty, counters,
-          sensors, filtering, gathering);
+  auto& [definition, space, enclosure, book, time, size, bodies, marks, sketches, homes, free, shapes,
+         free_shapes, grid, neighbours, schedule, dirty, counters, sensors, pair_filter, filtering, gathering,
+         probe, probing_call, probing, probe_ids, probe_states, partners, round, chosen, unsettled] = self;
+  archive(book, time, size, bodies, marks, free, shapes, free_shapes, grid, neighbours, schedule, dirty,
+          counters, sensors, filtering, gathering);
 }
 
 std::vector<std::byte> World::Engine::save() const {
@@ -133,9 +133,9 @@ const char* World::Engine::contradiction() const {
 bool World::Engine::neighbours_are_sound() const {
   for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
     for (const Neighbour& one : neighbours_.of(number))
-      if (!bodies_[number].present() || (bodies_[number].is_fixed() && one.watch < infinity)) return false;
+      if (!bodies_[number].present() || (bodies_[number].is_fixed() && one.watches())) return false;
     const auto is_neighbour = [&](std::uint32_t other) {
-      return bodies_[number].dirty || bodies_[other].dirty || neighbours_.find(number, other).has_value();
+      return marks_[number].dirty || marks_[other].dirty || neighbours_.find(number, other).has_value();
     };
     const auto& touched = book_.partners_of(number);
     const auto& crossed = book_.crossings_of(number);
@@ -176,7 +176,7 @@ bool World::Engine::contacts_of_fixed_are_sound() const {
   }
   // One may have got the index of a body that has gone; then it is dirty, and the pair is not looked at.
   const auto settled_fixed = [&](std::uint32_t number) {
-    return fixed(number) && bodies_[number].present() && !bodies_[number].dirty;
+    return fixed(number) && bodies_[number].present() && !marks_[number].dirty;
   };
   return std::none_of(
              book_.changed().begin(), book_.changed().end(),
@@ -187,7 +187,7 @@ bool World::Engine::contacts_of_fixed_are_sound() const {
 }
 
 /// It must be as it was made.
-bool World::Engine::is_sound_fixed(const Body& body) const {
+bool World::Engine::is_sound_fixed(const Body& body, const Marks& marks) const {
   const Shape& shape = shapes_[body.shape_number];
   if (!check_shape(shape, definition_, "restore")) return false;
   const BodyDefinition made = body_of({shape, body.definition.filter, body.definition.solid,
@@ -195,12 +195,13 @@ bool World::Engine::is_sound_fixed(const Body& body) const {
   return same(body.definition, made) &&
          same(body.bound, bound_of(made, {made.position, {}}, body.bound.time)) && body.bound.time <= time_ &&
          std::isfinite(body.bound.time) && (!body.enabled || same(body.box, box_of(body))) &&
-         body.box_end == infinity && body.wall_time == infinity && !body.horizon && !body.settled &&
-         !body.kicked_since_report && !(body.dirty && !body.enabled);
+         body.box_end == infinity && body.wall_time == infinity && body.look_time == infinity &&
+         !body.horizon && !marks.settled && !body.kicked_since_report && !(marks.dirty && !body.enabled);
 }
 
 bool World::Engine::bodies_are_sound() const {
   const auto count = bodies_.size();
+  if (marks_.size() != count) return false;
   std::vector<bool> is_free(count, false);
   std::vector<bool> is_listed(count, false);
   for (const std::uint32_t number : free_) {
@@ -213,16 +214,18 @@ bool World::Engine::bodies_are_sound() const {
   }
   for (std::size_t number = 0; number < count; ++number) {
     const Body& body = bodies_[number];
-    if (body.alive == is_free[number] || (body.dirty && !is_listed[number]) || !is_sound(body)) return false;
+    if (body.alive == is_free[number] || (marks_[number].dirty && !is_listed[number]) ||
+        !is_sound(body, marks_[number]))
+      return false;
   }
   return size_ + free_.size() == count;
 }
 
-bool World::Engine::is_sound(const Body& body) const {
-  if (body.is_fixed()) return is_sound_fixed(body);
-  if (body.settled) return false;
+bool World::Engine::is_sound(const Body& body, const Marks& marks) const {
+  if (body.is_fixed()) return is_sound_fixed(body, marks);
+  if (marks.settled) return false;
   // An index that is free is as its next body will find it.
-  if (!body.alive) return !body.dirty && !body.kicked_since_report && !body.horizon;
+  if (!body.alive) return !marks.dirty && !body.kicked_since_report && !body.horizon;
   WorldDefinition unbounded = definition_;
   unbounded.box.reset();
   if (!check_body(body.definition, unbounded, "restore") ||
@@ -230,9 +233,11 @@ bool World::Engine::is_sound(const Body& body) const {
       !kinesphere::is_sound(body.bound, time_, unbounded) || !kinesphere::is_sound(body.box) ||
       !image_is_sound(body))
     return false;
-  if (!body.enabled) return !body.dirty && !body.kicked_since_report;
-  if (!std::isfinite(body.box_end) || body.box_end < time_ || std::isnan(body.wall_time)) return false;
-  return body.horizon ? body.horizon->is_sound(definition_.contact_tolerance) : body.dirty;
+  if (!body.enabled) return !marks.dirty && !body.kicked_since_report;
+  if (!std::isfinite(body.box_end) || body.box_end < time_ || std::isnan(body.wall_time) ||
+      std::isnan(body.look_time))
+    return false;
+  return body.horizon ? body.horizon->is_sound(definition_.contact_tolerance) : marks.dirty;
 }
 
 /// Whole numbers, and none on axes that do not repeat.

@@ -160,7 +160,11 @@ struct Mirrored {
     const Neighbour& side = neighbours.of(body)[place];
     const auto [watcher, time] = table.at(body, partner);
     RC_ASSERT(side.partner == partner);
-    RC_ASSERT(side.watch == (watcher == body ? time : infinity));
+    const double by_partner = time < infinity ? Neighbour::partner_does : Neighbour::nobody;
+    RC_ASSERT(side.watch == (watcher == body ? time : by_partner));
+    RC_ASSERT(side.watches() == (watcher == body && time < infinity));
+    RC_ASSERT(side.is_watched(time - 1.0) == (time < infinity));
+    RC_ASSERT(side.is_watched(time) == (time < infinity && watcher != body));
     RC_ASSERT(neighbours.watched_until(body, place) == time);
   }
 };
@@ -209,7 +213,7 @@ TEST(Neighbours, are_watched_from_the_side_that_was_last) {
   watch(neighbours, 0, 1, 3.0);
   watch(neighbours, 1, 0, 8.0);
   EXPECT_EQ(watched_until(neighbours, 0, 1), 8.0);
-  EXPECT_EQ(neighbours.of(0).front().watch, infinity);
+  EXPECT_EQ(neighbours.of(0).front().watch, Neighbour::partner_does);
   neighbours.unwatch(0, 0);
   EXPECT_EQ(watched_until(neighbours, 1, 0), infinity);
 }
@@ -217,7 +221,7 @@ TEST(Neighbours, are_watched_from_the_side_that_was_last) {
 /// 0 - 1, 0 - 2, 1 - 2, and 3 alone; 0 watches 1.
 Lists sound_lists() {
   return {{{.watch = 1.0, .partner = 1, .mirror = 0}, {.partner = 2, .mirror = 0}},
-          {{.partner = 0, .mirror = 0}, {.partner = 2, .mirror = 1}},
+          {{.watch = Neighbour::partner_does, .partner = 0, .mirror = 0}, {.partner = 2, .mirror = 1}},
           {{.partner = 0, .mirror = 1}, {.partner = 1, .mirror = 1}},
           {}};
 }
@@ -231,6 +235,10 @@ TEST(Neighbours, that_are_read_are_sound_only_if_both_sides_agree) {
   const std::vector<std::pair<const char*, void (*)(Lists&)>> mistakes{
       {"a watch that is no number", [](Lists& lists) { lists[2][0].watch = std::nan(""); }},
       {"both sides watch", [](Lists& lists) { lists[1][0].watch = 2.0; }},
+      {"one watches unknown to the other", [](Lists& lists) { lists[1][0].watch = Neighbour::nobody; }},
+      {"both leave it to the other", [](Lists& lists) { lists[0][0].watch = Neighbour::partner_does; }},
+      {"one leaves it to a partner who does not",
+       [](Lists& lists) { lists[2][0].watch = Neighbour::partner_does; }},
       {"a partner that is not there", [](Lists& lists) { lists[0][1].partner = 4; }},
       {"another partner", [](Lists& lists) { lists[0][1].partner = 3; }},
       {"a place beyond the end", [](Lists& lists) { lists[0][1].mirror = 2; }},
