@@ -214,15 +214,11 @@ Result<void> World::Engine::wake(std::uint32_t number) {
       neighbours_.unwatch(number, place);
       continue;
     }
-    const Lookout lookout(*this, number);
-    if (const double until = lookout.left_alone_until(partner); until > time_) {
+    if (const double until = Lookout(*this, number).left_alone_until(partner); until > time_) {
       neighbours_.watch(number, place, until);
       continue;
     }
     ++counters_.pair_checks;
-    if (!lookout.knows_all_of(partner) && !bodies_[number].fresh(time_) && !bodies_[partner].fresh(time_)) {
-      if (auto probed = probe_staler(number, partner); !probed) return probed;
-    }
     if (auto settled = settle_pair(number, place); !settled) return settled;
   }
   if (counters_.pair_checks + counters_.wall_checks == checks_before) ++counters_.stale_wakes;

@@ -31,10 +31,14 @@ class World::Engine::Lookout {
     }
   }
 
-  /// Two spheres that touch and sense nothing: reports that are not fresh tell no more of them than
-  /// left_alone_until().
+  /// Reports that are not fresh tell no more of the two than left_alone_until().
   bool knows_all_of(std::uint32_t partner) const {
-    return bare_ && !engine_.bodies_[partner].is_fixed() && !engine_.sensors_.any();
+    const Body& other = engine_.bodies_[partner];
+    if (!bare_ || other.is_fixed()) return false;
+    if (!engine_.sensors_.any()) return true;
+    const auto sensed =
+        engine_.sensors_.largest(body_.definition, other.definition, [](double) { return false; });
+    return sensed == engine_.reach_of_pair(body_, other);
   }
 
   /// Which of these neighbours, four at most, can be left alone for as long as is enough.
@@ -54,7 +58,9 @@ class World::Engine::Lookout {
   }
   /// The same of one neighbour, by a closer look.
   bool is_apart_from(std::uint32_t partner) const {
-    return meets_bare(partner) && encounter(partner).stay_apart(time_for(partner), reach_for(partner));
+    return meets_bare(partner) &&
+           encounter(partner).stay_apart(time_for(partner),
+                                         sensed_at(partner) + engine_.definition_.contact_tolerance);
   }
   /// One or the other.
   double left_alone_until(std::uint32_t partner) const {
@@ -71,9 +77,10 @@ class World::Engine::Lookout {
   double meeting_with(std::uint32_t partner) const {
     if (!meets_bare(partner)) return now_;
     const Encounter pair = encounter(partner);
-    if (engine_.sensors_.any() || pair.is_near(engine_.definition_.contact_tolerance)) return now_;
+    const double sensed = sensed_at(partner);
+    if (pair.is_near(sensed + engine_.definition_.contact_tolerance)) return now_;
     const double boxes_end = std::min(body_.box_end, engine_.sketches_[partner].end);
-    return rounding::sum_down(now_, pair.meeting(boxes_end - now_, engine_.rounding_room()));
+    return rounding::sum_down(now_, pair.meeting(boxes_end - now_, sensed + engine_.rounding_room()));
   }
 
  private:
@@ -86,11 +93,9 @@ class World::Engine::Lookout {
   double time_for(std::uint32_t partner) const {
     return std::min({body_.box_end, engine_.sketches_[partner].end, enough_}) - now_;
   }
-  /// At this gap nothing is about to happen.
-  double reach_for(std::uint32_t partner) const {
-    const double tolerance = engine_.definition_.contact_tolerance;
-    return engine_.sensors_.any() ? tolerance + engine_.reach_of_pair(body_, engine_.bodies_[partner])
-                                  : tolerance;
+  /// Beyond this gap neither of the two senses the other.
+  double sensed_at(std::uint32_t partner) const {
+    return engine_.sensors_.any() ? engine_.reach_of_pair(body_, engine_.bodies_[partner]) : 0.0;
   }
 
   static constexpr double beyond_first = 2.0;

@@ -98,7 +98,7 @@ class Crowd : public Playground {
 inline auto crowd_kinds() {
   using enum ContactMode;
   return testing::Values(CrowdKind{begin_and_end, true, 0.0, 40, 1},
-                         CrowdKind{begin_and_end, false, 0.0, 25, 12},
+                         CrowdKind{begin_and_end, false, 0.0, 40, 12},
                          CrowdKind{begin_and_end, true, 1e-3, 40, 13}, CrowdKind{impacts, true, 0.0, 40, 4},
                          CrowdKind{impacts, false, 0.0, 22, 15}, CrowdKind{begin_and_end, true, 0.0, 6, 6});
 }
