@@ -268,6 +268,7 @@ class World::Engine {
   bool facts_end_with_boxes() const { return sensors_.any() || space_.repeats(); }
   Result<void> settle_changed(std::uint32_t a, std::uint32_t b);
   Result<void> look_around(std::uint32_t number);
+  std::span<const Neighbours::Place> unwatched(std::uint32_t number);
   class Lookout;
   /// A dirty partner will settle the pair itself; one that has been settled in this round has done so.
   bool settles_itself(std::uint32_t partner) const {
@@ -343,7 +344,7 @@ class World::Engine {
   std::vector<std::uint32_t> partners_;
   std::vector<std::uint32_t> round_;
   std::vector<std::uint32_t> chosen_;
-  std::vector<Neighbours::Place> unsettled_;
+  std::vector<Neighbours::Place> unwatched_;
 };
 
 /// What comes next between two bodies that may meet: their contact, the next sensor distance inward, and the

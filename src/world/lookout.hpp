@@ -66,7 +66,9 @@ class World::Engine::Lookout {
   double left_alone_until(std::uint32_t partner) const {
     return is_apart_from(partner) ? enough_for(partner) : meeting_with(partner);
   }
-  /// When a look at the partner is needed again, if it is apart; +infinity: when one of their boxes ends.
+  /// When a look at those that are apart is needed again; +infinity: when a box ends.
+  double enough() const { return enough_ < body_.box_end ? enough_ : infinity; }
+  /// The same of one partner.
   double enough_for(std::uint32_t partner) const {
     const double boxes_end = std::min(body_.box_end, engine_.sketches_[partner].end);
     return enough_ < boxes_end ? enough_ : infinity;

@@ -1,5 +1,6 @@
 // Settling: after it, a fact is recorded for every pair that concerns a body.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "world/engine.hpp"
@@ -121,38 +122,49 @@ Result<void> World::Engine::settle_round(const std::vector<std::uint32_t>& round
 /// Records facts between a body and its neighbours, as far as nobody watches them: the inner loop of the
 /// engine.
 Result<void> World::Engine::look_around(std::uint32_t number) {
-  Body& body = bodies_[number];
-  body.look_time = infinity;
-  unsettled_.clear();
+  bodies_[number].look_time = infinity;
+  const std::span<const Neighbours::Place> unsettled = unwatched(number);
+  if (unsettled.empty()) return {};
   const std::vector<Neighbour>& all = neighbours_.of(number);
-  for (Neighbours::Place place = 0; place < all.size(); ++place) {
-    const Neighbour& one = all[place];
-    if (!one.is_watched(time_) && !settles_itself(one.partner) && may_meet(number, one.partner))
-      unsettled_.push_back(place);
-  }
-  if (unsettled_.empty()) return {};
   Lookout lookout(*this, number);
   const Glance<> glance(sketches_[number], time_);
-  for (std::size_t first = 0; first < unsettled_.size(); first += lane_count) {
-    const auto few = std::span(unsettled_).subspan(first, std::min(lane_count, unsettled_.size() - first));
+  bool any_apart = false;
+  for (std::size_t first = 0; first < unsettled.size(); first += lane_count) {
+    const auto few = unsettled.subspan(first, std::min(lane_count, unsettled.size() - first));
     const Lanes apart = lookout.apart(glance, few);
-    for (std::size_t k = 0; k < few.size(); ++k) {
-      const std::uint32_t partner = all[few[k]].partner;
-      if ((apart >> k) % 2 == 1 || lookout.is_apart_from(partner)) {
-        neighbours_.unwatch(number, few[k]);
-        body.look_time = std::min(body.look_time, lookout.enough_for(partner));
+    any_apart = any_apart || apart != 0;
+    for (Lanes rest = ~apart & ((1u << few.size()) - 1u); rest != 0; rest &= rest - 1) {
+      const Neighbours::Place place = few[static_cast<std::size_t>(std::countr_zero(rest))];
+      const std::uint32_t partner = all[place].partner;
+      if (lookout.is_apart_from(partner)) {
+        any_apart = true;
         continue;
       }
       if (const double until = lookout.meeting_with(partner); until > time_) {
-        neighbours_.watch(number, few[k], until);
+        neighbours_.watch(number, place, until);
       } else {
-        if (auto settled = settle_pair(number, few[k]); !settled) return settled;
+        if (auto settled = settle_pair(number, place); !settled) return settled;
         if (marks_[number].dirty) return {};
       }
-      lookout.expect(all[few[k]].watch);
+      lookout.expect(all[place].watch);
     }
   }
+  if (any_apart) bodies_[number].look_time = lookout.enough();
   return {};
+}
+
+/// Neighbours with whom a fact is to be recorded.
+std::span<const Neighbours::Place> World::Engine::unwatched(std::uint32_t number) {
+  const std::vector<Neighbour>& all = neighbours_.of(number);
+  if (unwatched_.size() < all.size()) unwatched_.resize(all.size());
+  std::size_t count = 0;
+  for (Neighbours::Place place = 0; place < all.size(); ++place) {
+    const Neighbour& one = all[place];
+    if (one.is_watched(time_) || settles_itself(one.partner) || !may_meet(number, one.partner)) continue;
+    if (one.watch != Neighbour::nobody) neighbours_.unwatch(number, place);
+    unwatched_[count++] = place;
+  }
+  return std::span(unwatched_).first(count);
 }
 
 /// Records a fact about a body and a neighbour that cannot be left alone, probing them as far as that needs.

@@ -64,7 +64,7 @@ void World::Engine::transfer(Self& self, Archive& archive) {
   // during advance().
   auto& [definition, space, enclosure, book, time, size, bodies, marks, sketches, homes, free, shapes,
          free_shapes, grid, neighbours, schedule, dirty, counters, sensors, pair_filter, filtering, gathering,
-         probe, probing_call, probing, probe_ids, probe_states, partners, round, chosen, unsettled] = self;
+         probe, probing_call, probing, probe_ids, probe_states, partners, round, chosen, unwatched] = self;
   archive(book, time, size, bodies, marks, free, shapes, free_shapes, grid, neighbours, schedule, dirty,
           counters, sensors, filtering, gathering);
 }
