@@ -6,7 +6,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -14,56 +13,50 @@
 
 namespace kinesphere {
 
-/// A box in steps from some corner, ends included. Rounding all coordinates down keeps overlaps: boxes with a
+/// A box in whole steps, ends included, of which only the last 16 bits are kept: enough to compare it with
+/// boxes that lie within `farthest` steps of it. Rounding all coordinates down keeps overlaps: boxes with a
 /// point in common have a step in common.
 struct StepBox {
-  using Step = std::int16_t;
+  using Step = std::uint16_t;
+  static constexpr int farthest = 0x7fff;
+
   std::array<Step, 3> lower;
   std::array<Step, 3> upper;
 
-  /// Those that are farther away than steps can tell become the least or the largest. One number beyond each
-  /// of these is left, for a box that overlaps nothing.
-  static constexpr Step least = std::numeric_limits<Step>::min() + 1;
-  static constexpr Step largest = std::numeric_limits<Step>::max() - 1;
-  static Step clamped(std::int64_t steps) {
-    return static_cast<Step>(std::clamp<std::int64_t>(steps, least, largest));
-  }
-  static constexpr StepBox nothing() {
-    constexpr Step above = largest + 1;
-    constexpr Step below = least - 1;
-    return {{above, above, above}, {below, below, below}};
-  }
-
   bool overlaps(const StepBox& other) const {
-    return lower[0] <= other.upper[0] && other.lower[0] <= upper[0] && lower[1] <= other.upper[1] &&
-           other.lower[1] <= upper[1] && lower[2] <= other.upper[2] && other.lower[2] <= upper[2];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (is_after(lower[axis], other.upper[axis]) || is_after(other.lower[axis], upper[axis])) return false;
+    return true;
   }
   /// On its longest axis.
-  int extent() const { return std::max({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]}); }
+  int extent() const {
+    const auto on_axis = [this](std::size_t axis) { return static_cast<Step>(upper[axis] - lower[axis]); };
+    return std::max({on_axis(0), on_axis(1), on_axis(2)});
+  }
   friend bool operator==(const StepBox&, const StepBox&) = default;
+
+ private:
+  static bool is_after(Step a, Step b) { return static_cast<Step>(b - a) > farthest; }
 };
 
-/// Boxes of bodies, coordinate by coordinate. A place that is free overlaps nothing.
+/// Boxes of bodies, coordinate by coordinate.
 class alignas(16) BoxBlock {
  public:
   static constexpr std::size_t width = 8;
   /// A set of places: bit k for place k.
   using Places = unsigned;
 
-  BoxBlock() {
-    for (std::size_t place = 0; place < width; ++place) clear(place);
-  }
-
+  std::size_t size() const { return size_; }
+  bool is_full() const { return size_ == width; }
+  void push(const StepBox& box, std::uint32_t body) { put(size_++, box, body); }
+  void pop() { put(--size_, {}, 0); }
+  /// At a place below size().
   void put(std::size_t place, const StepBox& box, std::uint32_t body) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       lower_[axis][place] = box.lower[axis];
       upper_[axis][place] = box.upper[axis];
     }
     bodies_[place] = body;
-  }
-  void clear(std::size_t place) { put(place, StepBox::nothing(), nobody); }
-  bool is_free(std::size_t place) const {
-    return bodies_[place] == nobody && box(place) == StepBox::nothing();
   }
   StepBox box(std::size_t place) const {
     return {{lower_[0][place], lower_[1][place], lower_[2][place]},
@@ -74,17 +67,14 @@ class alignas(16) BoxBlock {
   /// A box that others are compared with.
   class Query {
    public:
-    Query() = default;
     explicit Query(const StepBox& box) {
-      for (std::size_t axis = 0; axis < 3; ++axis) set(axis, box.lower[axis], box.upper[axis]);
-    }
-    void set(std::size_t axis, StepBox::Step lower, StepBox::Step upper) {
 #if defined(__SSE2__)
-      lower_[axis] = _mm_set1_epi16(lower);
-      upper_[axis] = _mm_set1_epi16(upper);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        lower_[axis] = _mm_set1_epi16(static_cast<short>(box.lower[axis]));
+        upper_[axis] = _mm_set1_epi16(static_cast<short>(box.upper[axis]));
+      }
 #else
-      box_.lower[axis] = lower;
-      box_.upper[axis] = upper;
+      box_ = box;
 #endif
     }
 
@@ -100,25 +90,26 @@ class alignas(16) BoxBlock {
   /// Those whose boxes overlap it.
   [[gnu::always_inline]] Places overlapping(const Query& query) const {
 #if defined(__SSE2__)
+    // Negative where one ends before the other begins.
     const auto apart = [&](std::size_t axis) {
       const auto load = [](const std::array<StepBox::Step, width>& steps) {
         return _mm_load_si128(reinterpret_cast<const __m128i*>(steps.data()));
       };
-      return _mm_or_si128(_mm_cmpgt_epi16(load(lower_[axis]), query.upper_[axis]),
-                          _mm_cmpgt_epi16(query.lower_[axis], load(upper_[axis])));
+      return _mm_or_si128(_mm_sub_epi16(query.upper_[axis], load(lower_[axis])),
+                          _mm_sub_epi16(load(upper_[axis]), query.lower_[axis]));
     };
     const __m128i any = _mm_or_si128(_mm_or_si128(apart(0), apart(1)), apart(2));
-    return static_cast<Places>(_mm_movemask_epi8(_mm_packs_epi16(any, any)) & 0xff) ^ 0xffu;
+    return ~static_cast<Places>(_mm_movemask_epi8(_mm_packs_epi16(any, any))) & places();
 #else
     return overlapping_one_by_one(query.box_);
 #endif
   }
   /// The same without vector instructions.
   Places overlapping_one_by_one(const StepBox& query) const {
-    Places places = 0;
-    for (std::size_t place = 0; place < width; ++place)
-      if (box(place).overlaps(query)) places |= 1u << place;
-    return places;
+    Places found = 0;
+    for (std::size_t place = 0; place < size_; ++place)
+      if (box(place).overlaps(query)) found |= 1u << place;
+    return found;
   }
 
   /// Calls visit(place) for each of them.
@@ -129,16 +120,18 @@ class alignas(16) BoxBlock {
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [lower, upper, bodies] = self;
-    archive(lower, upper, bodies);
+    auto& [lower, upper, bodies, count] = self;
+    archive(lower, upper, bodies, count);
   }
+  bool is_sound() const { return size_ <= width; }
 
  private:
-  static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+  Places places() const { return (1u << size_) - 1u; }
 
-  std::array<std::array<StepBox::Step, width>, 3> lower_;
-  std::array<std::array<StepBox::Step, width>, 3> upper_;
-  std::array<std::uint32_t, width> bodies_;
+  std::array<std::array<StepBox::Step, width>, 3> lower_{};
+  std::array<std::array<StepBox::Step, width>, 3> upper_{};
+  std::array<std::uint32_t, width> bodies_{};
+  std::uint32_t size_ = 0;
 };
 
 }  // namespace kinesphere

@@ -35,12 +35,29 @@ FloatBox::FloatBox(const Box& box)
     : lower{rounded_down(box.lower.x), rounded_down(box.lower.y), rounded_down(box.lower.z)},
       upper{rounded_up(box.upper.x), rounded_up(box.upper.y), rounded_up(box.upper.z)} {}
 
-StepBox HashGrid::Steps::in(const CellIndex& cell) const {
-  const auto step = [](std::int64_t at, std::int32_t cell_there) {
-    return StepBox::clamped(at - (static_cast<std::int64_t>(cell_there) << cell_bits));
+StepBox HashGrid::Steps::low_bits() const {
+  const auto low = [](const std::array<std::int64_t, 3>& steps) {
+    return std::array{static_cast<StepBox::Step>(steps[0]), static_cast<StepBox::Step>(steps[1]),
+                      static_cast<StepBox::Step>(steps[2])};
   };
-  return {{step(lower[0], cell.x), step(lower[1], cell.y), step(lower[2], cell.z)},
-          {step(upper[0], cell.x), step(upper[1], cell.y), step(upper[2], cell.z)}};
+  return {low(lower), low(upper)};
+}
+
+bool HashGrid::Steps::is_narrow() const {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (upper[axis] - lower[axis] > StepBox::farthest / 2) return false;
+  return true;
+}
+
+HashGrid::Steps HashGrid::Steps::seen_from(const CellIndex& cell) const {
+  Steps part = *this;
+  const std::array<std::int64_t, 3> index{cell.x, cell.y, cell.z};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::int64_t origin = index[axis] << cell_bits;
+    part.lower[axis] = std::max(lower[axis], origin);
+    part.upper[axis] = std::min(upper[axis], origin + steps_per_cell - 1);
+  }
+  return part;
 }
 
 double HashGrid::CellRange::count() const {
@@ -93,20 +110,19 @@ void HashGrid::Level::insert(const FloatBox& box, std::uint32_t body) {
     ++empty_cells_;
   }
   const std::uint32_t first = slots_[slot].first_block;
-  if (blocks_[first].size == BoxBlock::width) {
+  if (blocks_[first].boxes.is_full()) {
     const std::uint32_t full = take_block();
     blocks_[full] = blocks_[first];
-    blocks_[first] = {.boxes = {}, .size = 0, .next = full};
-  } else if (blocks_[first].size == 0) {
+    blocks_[first] = {.boxes = {}, .next = full};
+  } else if (blocks_[first].boxes.size() == 0) {
     --empty_cells_;
   }
-  put(steps, index, blocks_[first], blocks_[first].size++, body);
+  blocks_[first].boxes.push(steps.low_bits(), body);
   ++bodies_;
+  widen_reach(steps);
 }
 
-void HashGrid::Level::put(const Steps& steps, const CellIndex& index, Block& block, std::size_t place,
-                          std::uint32_t body) {
-  block.boxes.put(place, steps.in(index), body);
+void HashGrid::Level::widen_reach(const Steps& steps) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     reach_[axis] = std::max(reach_[axis], steps.upper[axis] - steps.lower[axis]);
 }
@@ -115,7 +131,7 @@ HashGrid::Level::Standing HashGrid::Level::find(const CellIndex& index, std::uin
   const std::uint32_t first = slots_[slot_of(index)].first_block;
   Standing at{first, first, 0};
   while (blocks_[at.block].boxes.body(at.place) != body) {
-    if (++at.place < blocks_[at.block].size) continue;
+    if (++at.place < blocks_[at.block].boxes.size()) continue;
     at.block = blocks_[at.block].next;
     at.place = 0;
   }
@@ -127,7 +143,8 @@ bool HashGrid::Level::move_in_cell(const FloatBox& from, const FloatBox& to, std
   const CellIndex index = steps.cell();
   if (cell_of(from) != index) return false;
   const Standing at = find(index, body);
-  put(steps, index, blocks_[at.block], at.place, body);
+  blocks_[at.block].boxes.put(at.place, steps.low_bits(), body);
+  widen_reach(steps);
   return true;
 }
 
@@ -135,11 +152,11 @@ bool HashGrid::Level::move_in_cell(const FloatBox& from, const FloatBox& to, std
 void HashGrid::Level::erase(const FloatBox& box, std::uint32_t body) {
   const Standing at = find(cell_of(box), body);
   Block& front = blocks_[at.first_block];
-  const std::size_t last = --front.size;
+  const std::size_t last = front.boxes.size() - 1;
   blocks_[at.block].boxes.put(at.place, front.boxes.box(last), front.boxes.body(last));
-  front.boxes.clear(last);
+  front.boxes.pop();
   --bodies_;
-  if (front.size > 0) return;
+  if (front.boxes.size() > 0) return;
   if (const std::uint32_t full = front.next; full != none) {
     front = blocks_[full];
     blocks_[full] = {};
@@ -154,7 +171,7 @@ void HashGrid::Level::rehash() {
   std::vector<Slot> kept;
   for (const Slot& slot : slots_) {
     if (slot.is_free()) continue;
-    if (blocks_[slot.first_block].size > 0) {
+    if (blocks_[slot.first_block].boxes.size() > 0) {
       kept.push_back(slot);
     } else {
       free_blocks_.push_back(slot.first_block);
@@ -295,7 +312,7 @@ std::optional<std::string> HashGrid::check(std::uint32_t body, const Box& box) c
 bool HashGrid::Level::stands_in(const CellIndex& index, const Block& block, std::size_t place,
                                 const FloatBox& box) const {
   const Steps steps = steps_of(box);
-  if (steps.cell() != index || block.boxes.box(place) != steps.in(index)) return false;
+  if (steps.cell() != index || block.boxes.box(place) != steps.low_bits()) return false;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (steps.upper[axis] - steps.lower[axis] > reach_[axis]) return false;
   return slots_[slot_of(index)].index == index;
@@ -307,17 +324,16 @@ bool HashGrid::Level::chains_are_sound() const {
   const auto meet = [&](std::uint32_t block) {
     if (block >= blocks_.size() || met[block]) return false;
     met[block] = true;
-    for (std::size_t place = 0; place < BoxBlock::width; ++place)
-      if (blocks_[block].boxes.is_free(place) != (place >= blocks_[block].size)) return false;
-    return true;
+    return blocks_[block].boxes.is_sound();
   };
   for (const std::uint32_t block : free_blocks_)
-    if (!meet(block) || blocks_[block].size != 0 || blocks_[block].next != none) return false;
+    if (!meet(block) || blocks_[block].boxes.size() != 0 || blocks_[block].next != none) return false;
   for (const Slot& slot : slots_)
     for (std::uint32_t block = slot.first_block; block != none; block = blocks_[block].next) {
-      if (!meet(block) || blocks_[block].size > BoxBlock::width) return false;
-      if (block != slot.first_block && blocks_[block].size != BoxBlock::width) return false;
-      if (blocks_[block].size == 0 && blocks_[block].next != none) return false;
+      if (!meet(block)) return false;
+      const BoxBlock& boxes = blocks_[block].boxes;
+      if (block != slot.first_block && !boxes.is_full()) return false;
+      if (boxes.size() == 0 && blocks_[block].next != none) return false;
     }
   return std::find(met.begin(), met.end(), false) == met.end();
 }
@@ -334,7 +350,7 @@ bool HashGrid::Level::is_sound() const {
   for (const Slot& slot : slots_) {
     if (slot.is_free()) continue;
     ++cells;
-    if (blocks_[slot.first_block].size == 0) ++empty;
+    if (blocks_[slot.first_block].boxes.size() == 0) ++empty;
   }
   // The search for a cell ends at a free slot.
   if (cells != cells_ || empty != empty_cells_) return false;

@@ -81,9 +81,14 @@ class HashGrid {
   struct Steps {
     std::array<std::int64_t, 3> lower;
     std::array<std::int64_t, 3> upper;
+
     /// The cell of the lower corner.
     CellIndex cell() const { return {cell_on(lower[0]), cell_on(lower[1]), cell_on(lower[2])}; }
-    StepBox in(const CellIndex& cell) const;
+    StepBox low_bits() const;
+    /// No wider than half of what a StepBox can be compared over.
+    bool is_narrow() const;
+    /// The same for boxes that begin in the cell: its part between them and the end of the cell.
+    Steps seen_from(const CellIndex& cell) const;
     static std::int32_t cell_on(std::int64_t step) { return static_cast<std::int32_t>(step >> cell_bits); }
   };
   struct CellRange {
@@ -96,14 +101,13 @@ class HashGrid {
   };
   /// Some bodies of a cell. All blocks of a cell but the first one are full.
   struct Block {
-    BoxBlock boxes;
-    std::uint32_t size = 0;
+    BoxBlock boxes{};
     std::uint32_t next = none;
 
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
-      auto& [held, count, following] = self;
-      archive(held, count, following);
+      auto& [held, following] = self;
+      archive(held, following);
     }
   };
   /// Of the table of cells.
@@ -189,7 +193,7 @@ class HashGrid {
       std::size_t place;
     };
     Standing find(const CellIndex& index, std::uint32_t body) const;
-    void put(const Steps& steps, const CellIndex& index, Block& block, std::size_t place, std::uint32_t body);
+    void widen_reach(const Steps& steps);
     std::uint32_t take_block();
     void rehash();
     bool chains_are_sound() const;
@@ -248,14 +252,8 @@ void HashGrid::Level::for_each_overlap(const FloatBox& box, Visit& visit) const 
   const Steps steps = steps_of(box);
   const CellRange range = cells_around(steps);
   const double length_per_step = 1.0 / steps_per_length_;
-  BoxBlock::Query query;
-  const auto look_from = [&](std::size_t axis, std::int32_t cell) {
-    const std::int64_t origin = static_cast<std::int64_t>(cell) << cell_bits;
-    query.set(axis, StepBox::clamped(steps.lower[axis] - origin),
-              StepBox::clamped(steps.upper[axis] - origin));
-  };
-  const auto visit_cell = [&](std::uint32_t first_block) __attribute__((always_inline)) {
-    for (std::uint32_t number = first_block; number != none; number = blocks_[number].next) {
+  const auto visit_cell = [&](const Slot& slot, const BoxBlock::Query& query) {
+    for (std::uint32_t number = slot.first_block; number != none; number = blocks_[number].next) {
       const BoxBlock& boxes = blocks_[number].boxes;
       BoxBlock::for_each(boxes.overlapping(query), [&](std::size_t place) {
         if constexpr (std::is_invocable_v<Visit, std::uint32_t, double>) {
@@ -266,37 +264,29 @@ void HashGrid::Level::for_each_overlap(const FloatBox& box, Visit& visit) const 
       });
     }
   };
-  if (range.count() > static_cast<double>(cells_)) {
-    for (const Slot& slot : slots_) {
-      if (slot.is_free() || !range.contains(slot.index)) continue;
-      look_from(0, slot.index.x);
-      look_from(1, slot.index.y);
-      look_from(2, slot.index.z);
-      visit_cell(slot.first_block);
-    }
+  if (range.count() > static_cast<double>(cells_) || !steps.is_narrow()) {
+    for (const Slot& slot : slots_)
+      if (!slot.is_free() && range.contains(slot.index))
+        visit_cell(slot, BoxBlock::Query(steps.seen_from(slot.index).low_bits()));
     return;
   }
+  const BoxBlock::Query query(steps.low_bits());
   const int shift = hash_shift();
-  for (std::int32_t z = range.first.z; z <= range.last.z; ++z) {
-    look_from(2, z);
+  for (std::int32_t z = range.first.z; z <= range.last.z; ++z)
     for (std::int32_t y = range.first.y; y <= range.last.y; ++y) {
-      look_from(1, y);
       std::uint64_t hashed = hash({range.first.x, y, z});
       for (std::int32_t x = range.first.x; x <= range.last.x; ++x, hashed += step_x) {
         const Slot& slot = slots_[slot_of({x, y, z}, hashed, shift)];
-        if (slot.is_free()) continue;
-        look_from(0, x);
-        visit_cell(slot.first_block);
+        if (!slot.is_free()) visit_cell(slot, query);
       }
     }
-  }
 }
 
 template <class Visit>
 void HashGrid::Level::for_each_entry(Visit visit) const {
   for (const Slot& slot : slots_)
     for (std::uint32_t block = slot.first_block; block != none; block = blocks_[block].next)
-      for (std::size_t place = 0; place < blocks_[block].size; ++place)
+      for (std::size_t place = 0; place < blocks_[block].boxes.size(); ++place)
         visit(slot.index, blocks_[block], place);
 }
 
@@ -305,7 +295,7 @@ void HashGrid::Level::for_each_cell(Visit& visit) const {
   for (const Slot& slot : slots_) {
     std::size_t count = 0;
     for (std::uint32_t block = slot.first_block; block != none; block = blocks_[block].next)
-      count += blocks_[block].size;
+      count += blocks_[block].boxes.size();
     if (count == 0) continue;
     const auto [x, y, z] = slot.index;
     const Vec3 lower = Vec3{1.0 * x, 1.0 * y, 1.0 * z} * edge();
