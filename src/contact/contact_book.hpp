@@ -110,6 +110,8 @@ class ContactBook {
              !holds(event);
     });
   }
+  /// Nothing is to be delivered.
+  bool is_quiet() const { return ended_.empty() && pending_.empty(); }
   /// The next event that still holds after what the caller did at the ones before it; first of all the ends
   /// that the caller brought about, which stay as they were then. `is_there(id)` tells whether a body has not
   /// gone, `sphere(number)` gives it as it is now.

@@ -152,7 +152,9 @@ Result<std::optional<Event>> World::Engine::advance(double until, const Probe& p
     if (gathering_) {
       if (auto gathered = gather(); !gathered) return gathered.error();
     }
-    if (std::optional<Event> event = deliver()) return event;
+    if (!book_.is_quiet()) {
+      if (std::optional<Event> event = deliver()) return event;
+    }
     gathering_ = true;
     if (auto settled = settle_all(); !settled) return settled.error();
     gathering_ = false;

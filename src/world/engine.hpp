@@ -259,7 +259,10 @@ class World::Engine {
   // settling.cpp: facts.
   void mark_dirty(std::uint32_t number);
   void void_facts(std::uint32_t number);
-  Result<void> settle_all();
+  Result<void> settle_all() {
+    return dirty_.empty() && book_.changed().empty() ? Result<void>() : settle_everything();
+  }
+  Result<void> settle_everything();
   Result<void> settle_round(const std::vector<std::uint32_t>& round);
   Vec3 shift_to_meet(std::uint32_t a, std::uint32_t b) const;
   Bound seen_from(std::uint32_t a, std::uint32_t b) const;

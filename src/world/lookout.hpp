@@ -57,49 +57,36 @@ class World::Engine::Lookout {
     return glance.apart(others, enough_, room, &homes);
   }
   /// The same of one neighbour, by a closer look.
-  bool is_apart_from(std::uint32_t partner) const {
-    return meets_bare(partner) &&
-           encounter(partner).stay_apart(time_for(partner),
-                                         sensed_at(partner) + engine_.definition_.contact_tolerance);
+  struct Look {
+    bool apart;
+    double until;  ///< if not apart: they cannot meet sooner; now, if fresh reports are needed
+  };
+  Look look_at(std::uint32_t partner) const {
+    const Body& other = engine_.bodies_[partner];
+    if (!bare_ || other.is_fixed()) return {false, now_};
+    MovedBound moved(other.bound, now_);
+    if (engine_.space_.repeats()) moved.centre += engine_.shift_to_meet(number_, partner);
+    const Encounter pair(own_, moved);
+    const double sensed = engine_.sensors_.any() ? engine_.reach_of_pair(body_, other) : 0.0;
+    const double near = sensed + engine_.definition_.contact_tolerance;
+    const double boxes_end = std::min(body_.box_end, other.box_end);
+    if (pair.stay_apart(std::min(boxes_end, enough_) - now_, near)) return {true, now_};
+    if (pair.is_near(near)) return {false, now_};
+    const double room = sensed + engine_.rounding_room();
+    return {false, rounding::sum_down(now_, pair.meeting(boxes_end - now_, room))};
   }
-  /// One or the other.
+  /// Nothing can happen between the two until this time; +infinity: until their boxes end. Now, if fresh
+  /// reports are needed.
   double left_alone_until(std::uint32_t partner) const {
-    return is_apart_from(partner) ? enough_for(partner) : meeting_with(partner);
+    const Look look = look_at(partner);
+    if (!look.apart) return look.until;
+    const double boxes_end = std::min(body_.box_end, engine_.bodies_[partner].box_end);
+    return enough_ < boxes_end ? enough_ : infinity;
   }
   /// When a look at those that are apart is needed again; +infinity: when a box ends.
   double enough() const { return enough_ < body_.box_end ? enough_ : infinity; }
-  /// The same of one partner.
-  double enough_for(std::uint32_t partner) const {
-    const double boxes_end = std::min(body_.box_end, engine_.sketches_[partner].end);
-    return enough_ < boxes_end ? enough_ : infinity;
-  }
-
-  /// They cannot meet sooner; +infinity: until their boxes end. Now, if a closer look is needed, or fresh
-  /// reports.
-  double meeting_with(std::uint32_t partner) const {
-    if (!meets_bare(partner)) return now_;
-    const Encounter pair = encounter(partner);
-    const double sensed = sensed_at(partner);
-    if (pair.is_near(sensed + engine_.definition_.contact_tolerance)) return now_;
-    const double boxes_end = std::min(body_.box_end, engine_.sketches_[partner].end);
-    return rounding::sum_down(now_, pair.meeting(boxes_end - now_, sensed + engine_.rounding_room()));
-  }
 
  private:
-  bool meets_bare(std::uint32_t partner) const { return bare_ && !engine_.bodies_[partner].is_fixed(); }
-  [[gnu::always_inline]] Encounter encounter(std::uint32_t partner) const {
-    MovedBound moved(engine_.bodies_[partner].bound, now_);
-    if (engine_.space_.repeats()) moved.centre += engine_.shift_to_meet(number_, partner);
-    return {own_, moved};
-  }
-  double time_for(std::uint32_t partner) const {
-    return std::min({body_.box_end, engine_.sketches_[partner].end, enough_}) - now_;
-  }
-  /// Beyond this gap neither of the two senses the other.
-  double sensed_at(std::uint32_t partner) const {
-    return engine_.sensors_.any() ? engine_.reach_of_pair(body_, engine_.bodies_[partner]) : 0.0;
-  }
-
   static constexpr double beyond_first = 2.0;
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 

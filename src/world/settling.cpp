@@ -31,7 +31,7 @@ void World::Engine::void_facts(std::uint32_t number) {
   mark_dirty(number);
 }
 
-Result<void> World::Engine::settle_all() {
+Result<void> World::Engine::settle_everything() {
   auto& changed = book_.changed();
   while (!changed.empty()) {
     const auto [a, b] = changed.back();
@@ -42,8 +42,10 @@ Result<void> World::Engine::settle_all() {
   while (!dirty_.empty()) {
     round_.clear();
     round_.swap(dirty_);
-    std::sort(round_.begin(), round_.end());
-    round_.erase(std::unique(round_.begin(), round_.end()), round_.end());
+    if (round_.size() > 1) {
+      std::sort(round_.begin(), round_.end());
+      round_.erase(std::unique(round_.begin(), round_.end()), round_.end());
+    }
     // Some have been removed or disabled since.
     std::erase_if(round_, [this](std::uint32_t number) { return !marks_[number].dirty; });
     if (auto settled = settle_round(round_); !settled) return settled;
@@ -136,12 +138,13 @@ Result<void> World::Engine::look_around(std::uint32_t number) {
     for (Lanes rest = ~apart & ((1u << few.size()) - 1u); rest != 0; rest &= rest - 1) {
       const Neighbours::Place place = few[static_cast<std::size_t>(std::countr_zero(rest))];
       const std::uint32_t partner = all[place].partner;
-      if (lookout.is_apart_from(partner)) {
+      const Lookout::Look look = lookout.look_at(partner);
+      if (look.apart) {
         any_apart = true;
         continue;
       }
-      if (const double until = lookout.meeting_with(partner); until > time_) {
-        neighbours_.watch(number, place, until);
+      if (look.until > time_) {
+        neighbours_.watch(number, place, look.until);
       } else {
         if (auto settled = settle_pair(number, place); !settled) return settled;
         if (marks_[number].dirty) return {};
