@@ -58,22 +58,31 @@ double World::Engine::box_length(const Body& body) const {
   return space_.repeats() ? std::min(length, longest_in_period(body)) : length;
 }
 
+/// Where the body goes, straight on from now for this long: both ends of its way, with the radius that it has
+/// at the end.
+Box World::Engine::box_of_way(const MovedBound& moved, double length) const {
+  const Vec3 end = moved.centre + moved.velocity * length;
+  const double half = moved.radius_after(length) + rounding_room();
+  const Vec3 radius{half, half, half};
+  const Vec3 lower{std::min(moved.centre.x, end.x), std::min(moved.centre.y, end.y),
+                   std::min(moved.centre.z, end.z)};
+  const Vec3 upper{std::max(moved.centre.x, end.x), std::max(moved.centre.y, end.y),
+                   std::max(moved.centre.z, end.z)};
+  return {lower - radius, upper + radius};
+}
+
 /// The body may stay in its box for a good while yet, after a kick for one: then its neighbours are still
-/// those that it has. It stays in the box that holds both ends of its way, with the radius that it has at the
-/// end.
+/// those that it has.
 bool World::Engine::keep_box(std::uint32_t number) {
   Body& body = bodies_[number];
   if (body.is_fixed() || body.box_end <= time_) return false;
   const MovedBound moved(reach(body), time_);
   double length = box_length(body);
   for (int attempt = 0; attempt < most_lengths_tried; ++attempt, length *= 0.75) {
-    const Vec3 end = moved.centre + moved.velocity * length;
-    const double radius = moved.radius_after(length) + rounding_room();
+    const Box way = box_of_way(moved, length);
     bool inside = true;
-    for (int axis = 0; axis < definition_.dimensions; ++axis) {
-      inside = inside && body.box.lower[axis] <= std::min(moved.centre[axis], end[axis]) - radius &&
-               std::max(moved.centre[axis], end[axis]) + radius <= body.box.upper[axis];
-    }
+    for (int axis = 0; axis < definition_.dimensions; ++axis)
+      inside = inside && body.box.lower[axis] <= way.lower[axis] && way.upper[axis] <= body.box.upper[axis];
     if (!inside) continue;
     body.box_end = time_ + length;
     return body.box_end > time_;
@@ -85,7 +94,7 @@ void World::Engine::register_box(std::uint32_t number) {
   Body& body = bodies_[number];
   if (body.is_fixed()) return register_shape(number);
   body.box_end = just_after(time_ + (body.turned ? turned_part : 1.0) * box_length(body));
-  body.box = box_of_way(body);
+  body.box = box_until_end(body);
   bring_home(body);
   body.turned = false;
   grid_.set(number, body.box);
@@ -110,17 +119,19 @@ void World::Engine::sketch_box(std::uint32_t number) {
 /// Contains the body until its box_end. One that was kicked lately may be kicked again, and go anywhere: it
 /// gets as much room on all sides as the longest way needs, but no more than makes the box as wide as it may
 /// be where space repeats.
-Box World::Engine::box_of_way(const Body& body) const {
-  Box box = swept_box(reach(body), time_, body.box_end);
+Box World::Engine::box_until_end(const Body& body) const {
+  const MovedBound moved(reach(body), time_);
+  // A planned turn is known better than as a larger radius.
+  Box box = moved.acceleration == Vec3{} ? box_of_way(moved, body.box_end - time_)
+                                         : swept_box(reach(body), time_, body.box_end);
   if (body.turned) {
-    const Vec3 centre = body.bound.centre_at(time_);
-    const Vec3 up = box.upper - centre;
-    const Vec3 down = centre - box.lower;
+    const Vec3 up = box.upper - moved.centre;
+    const Vec3 down = moved.centre - box.lower;
     const double room = std::max({up.x, up.y, up.z, down.x, down.y, down.z});
     for (int axis = 0; axis < 3; ++axis) {
       const double half = space_.repeats(axis) ? std::min(room, 0.5 * widest_in_period(body, axis)) : room;
-      box.lower[axis] = std::min(box.lower[axis], centre[axis] - half);
-      box.upper[axis] = std::max(box.upper[axis], centre[axis] + half);
+      box.lower[axis] = std::min(box.lower[axis], moved.centre[axis] - half);
+      box.upper[axis] = std::max(box.upper[axis], moved.centre[axis] + half);
     }
   }
   return space_.within(box);
@@ -133,7 +144,7 @@ void World::Engine::bring_home(Body& body) const {
   if (images == Vec3{}) return;
   body.bound.position -= space_.shift_of(images);
   body.image += images;
-  body.box = box_of_way(body);
+  body.box = box_until_end(body);
 }
 
 /// How wide the box of a body may be on an axis that repeats, by space/space.hpp (2); a little less, for
@@ -143,11 +154,11 @@ double World::Engine::widest_in_period(const Body& body, int axis) const {
          4.0 * body.definition.position_error;
 }
 
-/// How long a box of a body may last to be no wider than that: the box of a bound grows by at most (|v| + 2
-/// e1) s + (|g| / 2 + A) s^2 on an axis.
+/// How long a box of a body may last to be no wider than that: it grows by at most (|v| + 2 e1) s + (|g| / 2
+/// + A) s^2 on an axis.
 double World::Engine::longest_in_period(const Body& body) const {
   const Bound& bound = body.bound;
-  const double radius = reach(body).radius;
+  const double radius = reach(body).radius + rounding_room();
   double longest = infinity;
   for (int axis = 0; axis < 3; ++axis) {
     if (!space_.repeats(axis)) continue;

@@ -34,6 +34,7 @@
 #include <utility>
 #include <vector>
 
+#include "bound/encounter.hpp"
 #include "bound/glance.hpp"
 #include "contact/contact_book.hpp"
 #include "contact/outlook.hpp"
@@ -248,7 +249,8 @@ class World::Engine {
   void register_box(std::uint32_t number);
   void find_neighbours(std::uint32_t number);
   void bring_home(Body& body) const;
-  Box box_of_way(const Body& body) const;
+  Box box_of_way(const MovedBound& moved, double length) const;
+  Box box_until_end(const Body& body) const;
   double widest_in_period(const Body& body, int axis) const;
   double longest_in_period(const Body& body) const;
 
