@@ -63,6 +63,13 @@ class alignas(16) BoxBlock {
             {upper_[0][place], upper_[1][place], upper_[2][place]}};
   }
   std::uint32_t body(std::size_t place) const { return bodies_[place]; }
+  /// The place of a body, or width if it is not here.
+  std::size_t find(std::uint32_t body) const {
+    Places found = 0;
+    for (std::size_t place = 0; place < width; ++place)
+      found |= static_cast<Places>(bodies_[place] == body) << place;
+    return static_cast<std::size_t>(std::countr_zero((found & places()) | 1u << width));
+  }
 
   /// A box that others are compared with.
   class Query {

@@ -10,16 +10,13 @@
 namespace kinesphere {
 namespace {
 
-/// The next float below one that is not -infinity.
-float just_below(float value) {
-  if (value == 0.0f) return -std::numeric_limits<float>::denorm_min();
-  const auto bits = std::bit_cast<std::int32_t>(value);
-  return std::bit_cast<float>(value > 0.0f ? bits - 1 : bits + 1);
-}
-
+/// The largest float that is not above. Without branches, as half of all numbers are rounded up at first.
 float rounded_down(double value) {
   const float nearest = static_cast<float>(value);
-  return static_cast<double>(nearest) <= value ? nearest : just_below(nearest);
+  const auto above = static_cast<std::int32_t>(static_cast<double>(nearest) > value);
+  const auto bits = std::bit_cast<std::int32_t>(nearest);
+  const std::int32_t sign = (bits >> 31) | 1;
+  return std::bit_cast<float>(bits - above * sign);
 }
 
 float rounded_up(double value) { return -rounded_down(-value); }
@@ -68,6 +65,13 @@ double HashGrid::CellRange::count() const {
 HashGrid::Steps HashGrid::Level::steps_of(const FloatBox& box) const {
   return {{step_at(box.lower[0]), step_at(box.lower[1]), step_at(box.lower[2])},
           {step_at(box.upper[0]), step_at(box.upper[1]), step_at(box.upper[2])}};
+}
+
+/// Of a position that is beyond them, in steps.
+double HashGrid::Level::outermost(float position) const {
+  constexpr float farthest = std::numeric_limits<float>::max();
+  const double steps = std::clamp(position, -farthest, farthest) * steps_per_length_;
+  return std::clamp(steps, -coordinate_limit, coordinate_limit);
 }
 
 HashGrid::CellIndex HashGrid::Level::cell_of(const FloatBox& box) const {
@@ -129,13 +133,11 @@ void HashGrid::Level::widen_reach(const Steps& steps) {
 
 HashGrid::Level::Standing HashGrid::Level::find(const CellIndex& index, std::uint32_t body) const {
   const std::uint32_t first = slots_[slot_of(index)].first_block;
-  Standing at{first, first, 0};
-  while (blocks_[at.block].boxes.body(at.place) != body) {
-    if (++at.place < blocks_[at.block].boxes.size()) continue;
-    at.block = blocks_[at.block].next;
-    at.place = 0;
+  for (std::uint32_t block = first;; block = blocks_[block].next) {
+    const BoxBlock& boxes = blocks_[block].boxes;
+    const std::size_t place = boxes.find(body);
+    if (place < boxes.size()) return {first, block, place};
   }
-  return at;
 }
 
 bool HashGrid::Level::move_in_cell(const FloatBox& from, const FloatBox& to, std::uint32_t body) {

@@ -160,12 +160,12 @@ class HashGrid {
     CellIndex cell_of(const FloatBox& box) const;
     /// A position in whole steps, rounded down, within what cell coordinates can hold.
     std::int64_t step_at(float position) const {
-      constexpr float farthest = std::numeric_limits<float>::max();
-      double steps = std::clamp(position, -farthest, farthest) * steps_per_length_;
-      if (!(std::abs(steps) <= coordinate_limit)) steps = std::copysign(coordinate_limit, steps);
+      double steps = position * steps_per_length_;
+      if (!(std::abs(steps) <= coordinate_limit)) steps = outermost(position);
       const auto towards_zero = static_cast<std::int64_t>(steps);
       return towards_zero - static_cast<std::int64_t>(steps < static_cast<double>(towards_zero));
     }
+    double outermost(float position) const;
     /// The cells in which boxes that overlap this one are registered.
     CellRange cells_around(const Steps& box) const;
 

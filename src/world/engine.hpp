@@ -271,6 +271,12 @@ class World::Engine {
   /// Whether the facts about a pair hold no longer than its boxes, also while it touches: one watch stands
   /// for all its thresholds, or for one image.
   bool facts_end_with_boxes() const { return sensors_.any() || space_.repeats(); }
+  /// A sphere that touches and senses nothing.
+  bool is_bare(std::uint32_t number) const {
+    return !bodies_[number].is_fixed() && book_.partners_of(number).empty() &&
+           book_.crossings_of(number).empty();
+  }
+  bool lookout_tells_all(std::uint32_t number, std::uint32_t partner) const;
   Result<void> settle_changed(std::uint32_t a, std::uint32_t b);
   Result<void> look_around(std::uint32_t number);
   std::span<const Neighbours::Place> unwatched(std::uint32_t number);

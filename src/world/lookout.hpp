@@ -17,8 +17,7 @@ class World::Engine::Lookout {
         body_(engine.bodies_[number]),
         own_(body_.bound, engine.time_),
         now_(engine.time_),
-        bare_(!body_.is_fixed() && engine.book_.partners_of(number).empty() &&
-              engine.book_.crossings_of(number).empty()) {
+        bare_(engine.is_bare(number)) {
     expect(std::min(body_.box_end, body_.wall_time));
   }
 
@@ -29,16 +28,6 @@ class World::Engine::Lookout {
       first_ = time;
       enough_ = now_ + beyond_first * (first_ - now_);
     }
-  }
-
-  /// Reports that are not fresh tell no more of the two than left_alone_until().
-  bool knows_all_of(std::uint32_t partner) const {
-    const Body& other = engine_.bodies_[partner];
-    if (!bare_ || other.is_fixed()) return false;
-    if (!engine_.sensors_.any()) return true;
-    const auto sensed =
-        engine_.sensors_.largest(body_.definition, other.definition, [](double) { return false; });
-    return sensed == engine_.reach_of_pair(body_, other);
   }
 
   /// Which of these neighbours, four at most, can be left alone for as long as is enough.

@@ -170,6 +170,15 @@ std::span<const Neighbours::Place> World::Engine::unwatched(std::uint32_t number
   return std::span(unwatched_).first(count);
 }
 
+/// Reports that are not fresh tell no more of the two than Lookout::look_at().
+bool World::Engine::lookout_tells_all(std::uint32_t number, std::uint32_t partner) const {
+  if (!is_bare(number) || bodies_[partner].is_fixed()) return false;
+  if (!sensors_.any()) return true;
+  const Body& a = bodies_[number];
+  const Body& b = bodies_[partner];
+  return sensors_.largest(a.definition, b.definition, [](double) { return false; }) == reach_of_pair(a, b);
+}
+
 /// Records a fact about a body and a neighbour that cannot be left alone, probing them as far as that needs.
 Result<void> World::Engine::settle_pair(std::uint32_t number, Neighbours::Place place) {
   const auto [watch, partner, mirror] = neighbours_.of(number)[place];
@@ -181,7 +190,7 @@ Result<void> World::Engine::settle_pair(std::uint32_t number, Neighbours::Place 
   }
   while (!marks_[number].dirty && !marks_[partner].dirty) {
     const bool fresh = bodies_[number].fresh(time_) && bodies_[partner].fresh(time_);
-    if (fresh || !Lookout(*this, number).knows_all_of(partner)) {
+    if (fresh || !lookout_tells_all(number, partner)) {
       const bool known = visit_pair(number, partner, [=, this](const Bound& bound, const auto& other) {
         return look_at_pair(number, place, bound, other);
       });
