@@ -28,9 +28,9 @@ Space::Wrapped Space::wrapped(const Vec3& point) const {
   if (!repeats_) return result;
   const Vec3 way = point - lower_;
   for (int axis = 0; axis < 3; ++axis) {
-    if (!repeats(axis)) continue;
     double& images = result.images[axis];
     double& position = result.position[axis];
+    if (!repeats(axis) || (lower_[axis] <= position && position < upper_[axis])) continue;
     images = std::floor(way[axis] * per_period_[axis]);
     position = point[axis] - images * period_[axis];
     // Rounding may have taken it across the border.
@@ -74,6 +74,8 @@ Space::Images Space::images_near(const Box& box, const HashGrid& grid) const {
     const double reach = std::min(half_width, 0.5 * period_[axis]) + margin * size;
     const double lower = lower_[axis] - reach;
     const double upper = upper_[axis] + reach;
+    // Far from both borders there is one image only.
+    if (upper - period_[axis] < box.lower[axis] && box.upper[axis] < lower + period_[axis]) continue;
     if (!(box.upper[axis] - box.lower[axis] < period_[axis])) {
       images.box.lower[axis] = lower;
       images.box.upper[axis] = upper;

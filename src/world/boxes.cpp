@@ -55,7 +55,7 @@ double World::Engine::reach_of_pair(const Body& a, const Body& b) const {
 double World::Engine::box_length(const Body& body) const {
   const double speed = norm(body.bound.velocity) + body.definition.velocity_error;
   const double length = body.horizon->length(speed, body.largest_acceleration());
-  return space_.repeats() ? std::min(length, longest_in_period(body)) : length;
+  return space_.repeats() ? longest_in_period(body, length) : length;
 }
 
 /// Where the body goes, straight on from now for this long: both ends of its way, with the radius that it has
@@ -154,17 +154,19 @@ double World::Engine::widest_in_period(const Body& body, int axis) const {
          4.0 * body.definition.position_error;
 }
 
-/// How long a box of a body may last to be no wider than that: it grows by at most (|v| + 2 e1) s + (|g| / 2
+/// How long a box of a body may last, `length` at most, to be no wider than that: it grows by at most (|v| +
+/// 2 e1) s + (|g| / 2
 /// + A) s^2 on an axis.
-double World::Engine::longest_in_period(const Body& body) const {
+double World::Engine::longest_in_period(const Body& body, double length) const {
   const Bound& bound = body.bound;
   const double radius = reach(body).radius + rounding_room();
-  double longest = infinity;
+  double longest = length;
   for (int axis = 0; axis < 3; ++axis) {
     if (!space_.repeats(axis)) continue;
     const double speed = std::abs(bound.velocity[axis]) + 2.0 * bound.growth_speed;
     const double a = 0.5 * std::abs(bound.planned_acceleration[axis]) + bound.growth_acceleration;
     const double way = std::max(widest_in_period(body, axis) - 2.0 * radius, 0.0);
+    if ((speed + a * longest) * longest <= way) continue;
     const double divisor = speed + std::sqrt(speed * speed + 4.0 * a * way);
     if (divisor > 0.0) longest = std::min(longest, 2.0 * way / divisor);
   }

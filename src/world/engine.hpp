@@ -252,7 +252,7 @@ class World::Engine {
   Box box_of_way(const MovedBound& moved, double length) const;
   Box box_until_end(const Body& body) const;
   double widest_in_period(const Body& body, int axis) const;
-  double longest_in_period(const Body& body) const;
+  double longest_in_period(const Body& body, double length) const;
 
   Sketch sketch_of(const Body& body) const;
   Home home_of(const Body& body) const;
