@@ -1,0 +1,241 @@
+// A glance at four sketches: whom it finds apart does not meet, and it is not blind; four lanes at once give
+// the bits of one by one.
+#include "bound/glance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <string>
+#include <vector>
+
+#include "bound/encounter.hpp"
+#include "support/bound_cases.hpp"
+#include "support/exact_certificates.hpp"
+
+namespace kinesphere {
+namespace {
+
+using exact::Wide;
+
+constexpr std::uint64_t seed = 2211;
+constexpr std::uint64_t cases_per_family = 4000;
+
+/// One who looks, and four who are looked at.
+struct Scene {
+  Bound own;
+  std::array<Bound, lane_count> others;
+  std::array<double, lane_count> ends;  ///< of what is known of the others
+  double own_end, until;
+  double now, room;
+
+  double end_of(std::size_t lane) const { return std::min({until, own_end, ends[lane]}); }
+  /// The pair of a lane, for as long as a glance looks at it.
+  PairCase pair(std::size_t lane) const {
+    PairCase c;
+    c.a = own;
+    c.b = others[lane];
+    c.from = now;
+    c.horizon = end_of(lane);
+    c.distance = room;
+    return c;
+  }
+};
+
+/// The second body of a pair, and others like it.
+Scene scene_of(Random& random, PairCase c) {
+  Scene scene{.own = c.a, .own_end = c.horizon, .until = c.horizon, .now = c.from};
+  scene.room = std::max(c.distance, 0.0);
+  const double length = norm(c.b.position - c.a.position);
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    scene.others[lane] = c.b;
+    scene.ends[lane] = c.from + random.uniform(0.0, 2.0) * (c.horizon - c.from);
+    if (lane > 0) scene.others[lane].position += length * random.uniform() * random.unit_vector();
+    if (lane > 1) scene.others[lane].velocity = c.a.velocity + norm(c.b.velocity) * random.point_in_ball();
+  }
+  return scene;
+}
+
+template <class Number>
+Lanes glance_at(const Scene& scene, double beside, const typename Glance<Number>::Homes* homes) {
+  const Sketch own(scene.own, scene.own_end, beside);
+  std::array<Sketch, lane_count> others;
+  for (std::size_t lane = 0; lane < lane_count; ++lane)
+    others[lane] = Sketch(scene.others[lane], scene.ends[lane], beside);
+  return Glance<Number>(own, scene.now)
+      .apart({&others[0], &others[1], &others[2], &others[3]}, scene.until, scene.room, homes);
+}
+
+Lanes glance_at(const Scene& scene) {
+  const Lanes apart = glance_at<Four>(scene, 0.0, nullptr);
+  EXPECT_EQ(apart, glance_at<FourPlain>(scene, 0.0, nullptr));
+  return apart;
+}
+
+bool is_apart(Lanes lanes, std::size_t lane) { return (lanes >> lane) % 2 == 1; }
+
+PairCase tiny(Random& random) {
+  PairCase c = families::everyday(random);
+  const double scale = std::ldexp(1.0, -30 - static_cast<int>(random.bits() % 120));
+  for (Bound* bound : {&c.a, &c.b}) {
+    bound->position *= scale;
+    bound->velocity *= scale;
+    bound->planned_acceleration *= scale;
+    bound->radius *= scale;
+    bound->growth_speed *= scale;
+    bound->growth_acceleration *= scale;
+  }
+  c.distance *= scale;
+  return c;
+}
+
+std::vector<Family> families_here() {
+  std::vector<Family> families = all_families;
+  families.push_back({"tiny", tiny});
+  return families;
+}
+
+class Glances : public testing::TestWithParam<Family> {
+ protected:
+  template <class Check>
+  void for_each_scene(std::uint64_t index, Check check) {
+    for (std::uint64_t k = 0; k < cases_per_family && !HasFailure(); ++k) {
+      Random random = Random::at(seed, k, index);
+      const Scene scene = scene_of(random, GetParam().draw(random));
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", case " << k);
+      check(scene, random);
+    }
+  }
+};
+
+TEST_P(Glances, find_nobody_apart_who_may_meet) {
+  for_each_scene(0, [](const Scene& scene, Random&) {
+    const Lanes apart = glance_at(scene);
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      if (!is_apart(apart, lane)) continue;
+      const PairCase c = scene.pair(lane);
+      EXPECT_GT(exact::earliest_meeting(c.a, c.b, c.from, c.horizon, c.distance, 0), Wide(c.horizon))
+          << "lane " << lane << "\n"
+          << c;
+    }
+  });
+}
+
+/// What is clear to double precision with some room is clear at a glance.
+TEST_P(Glances, find_those_apart_who_are_by_more_than_single_precision_can_tell) {
+  for_each_scene(1, [](const Scene& scene, Random&) {
+    const Lanes apart = glance_at(scene);
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      const PairCase c = scene.pair(lane);
+      const double end = std::max({scene.own_end, scene.ends[lane], c.from});
+      const double size = length_scale(c.a, end) + length_scale(c.b, end) + c.distance;
+      const double duration = c.horizon - c.from;
+      // Where squares of single-precision numbers exist.
+      if (!(size < 0x1p40 && duration < 0x1p19)) continue;
+      const MovedBound a(c.a, c.from), b(c.b, c.from);
+      const double way = norm(a.velocity - b.velocity) * duration;
+      if (!(norm(a.centre - b.centre) > 0x1p-20 && way > 0x1p-20 && norm(a.velocity - b.velocity) > 0x1p-20))
+        continue;
+      if (Encounter(a, b).stay_apart(duration, c.distance + 0x1p-14 * size)) {
+        EXPECT_TRUE(is_apart(apart, lane)) << "lane " << lane << "\n" << c;
+      }
+    }
+  });
+}
+
+TEST_P(Glances, see_the_image_whose_home_is_nearest) {
+  for_each_scene(2, [](const Scene& scene, Random& random) {
+    const double size = norm_one(scene.own.position) + norm_one(scene.others[0].position);
+    const Vec3 period{2.0 * size, random.bits() % 2 == 0 ? 0.0 : 3.0 * size, size};
+    std::array<Home, lane_count + 1> homes;
+    std::array<Vec3, lane_count + 1> centres;
+    for (std::size_t k = 0; k < homes.size(); ++k) {
+      for (int axis = 0; axis < 3; ++axis) {
+        centres[k][axis] = random.uniform() * period[axis];
+        homes[k].centre[static_cast<std::size_t>(axis)] = static_cast<float>(centres[k][axis]);
+      }
+    }
+    Scene seen = scene;
+    Lanes clear = all_lanes;
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if (period[axis] == 0.0) continue;
+        const double way = (centres[lane][axis] - centres[lane_count][axis]) / period[axis];
+        seen.others[lane].position[axis] -= std::floor(way + 0.5) * period[axis];
+        if (std::abs(std::abs(way) - 0.5) < 1e-6) clear &= ~(1u << lane);
+      }
+    }
+    const auto look = [&](auto number) {
+      using Number = decltype(number);
+      const typename Glance<Number>::Homes all{
+          period, &homes[lane_count], {&homes[0], &homes[1], &homes[2], &homes[3]}};
+      return glance_at<Number>(scene, norm_one(period), &all);
+    };
+    const Lanes apart = look(Four(0.0f));
+    EXPECT_EQ(apart, look(FourPlain(0.0f)));
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      if (!is_apart(apart & clear, lane)) continue;
+      const PairCase c = seen.pair(lane);
+      EXPECT_GT(exact::earliest_meeting(c.a, c.b, c.from, c.horizon, c.distance, 0), Wide(c.horizon))
+          << "lane " << lane << "\n"
+          << c;
+    }
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(OfAllKinds, Glances, testing::ValuesIn(families_here()),
+                         [](const auto& family) { return std::string(family.param.name); });
+
+TEST(Sketch, of_nothing_is_apart_from_nothing) {
+  Random random = Random::at(seed, 0, 9);
+  Scene scene = scene_of(random, families::everyday(random));
+  const Sketch own(scene.own, scene.own_end, 0.0);
+  const Sketch nothing;
+  EXPECT_EQ(
+      Glance<>(own, scene.now).apart({&nothing, &nothing, &nothing, &nothing}, scene.until, 0.0, nullptr),
+      0u);
+  EXPECT_EQ(Glance<>(nothing, scene.now).apart({&own, &own, &own, &own}, scene.until, 0.0, nullptr), 0u);
+}
+
+/// Numbers of all kinds.
+float any_number(Random& random) {
+  const auto bits = static_cast<std::uint32_t>(random.bits());
+  switch (random.bits() % 4) {
+    case 0:
+      return std::bit_cast<float>(bits);
+    case 1:
+      return static_cast<float>(random.uniform(-2.0, 2.0));
+    default:
+      return static_cast<float>(static_cast<int>(bits % 7) - 3);
+  }
+}
+
+TEST(Four, do_what_one_by_one_does) {
+  using Numbers = std::array<float, lane_count>;
+  for (std::uint64_t k = 0; k < 20000; ++k) {
+    Random random = Random::at(seed, k, 10);
+    std::array<Numbers, 4> rows;
+    for (Numbers& row : rows)
+      for (float& number : row) number = any_number(random);
+    const auto results = [&](auto zero) {
+      using Number = decltype(zero);
+      const auto columns = Number::columns({rows[0].data(), rows[1].data(), rows[2].data(), rows[3].data()});
+      const auto& [a, b, c, d] = columns;
+      return std::array{a + b > zero,
+                        a - b > c,
+                        a * b > d,
+                        abs(a) > abs(b),
+                        zero > a * c,
+                        a > b,
+                        (a + b) * c > d,
+                        if_greater(a, b, c) > d,
+                        a - a > zero,
+                        zero > a - a,
+                        d > if_greater(a, b, c)};
+    };
+    ASSERT_EQ(results(Four(0.0f)), results(FourPlain(0.0f))) << "seed " << seed << ", case " << k;
+  }
+}
+
+}  // namespace
+}  // namespace kinesphere
