@@ -49,7 +49,8 @@ Scene scene_of(Random& random, PairCase c) {
   const double length = norm(c.b.position - c.a.position);
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     scene.others[lane] = c.b;
-    scene.ends[lane] = c.from + random.uniform(0.0, 2.0) * (c.horizon - c.from);
+    const double part = lane == 0 ? 1.0 : random.uniform(0.0, 2.0);
+    scene.ends[lane] = c.from + part * (c.horizon - c.from);
     if (lane > 0) scene.others[lane].position += length * random.uniform() * random.unit_vector();
     if (lane > 1) scene.others[lane].velocity = c.a.velocity + norm(c.b.velocity) * random.point_in_ball();
   }
@@ -89,9 +90,38 @@ PairCase tiny(Random& random) {
   return c;
 }
 
+/// Neither moves at first, and one turns towards the other.
+PairCase falling(Random& random) {
+  const Vec3 down = random.unit_vector();
+  const double way = random.uniform(1.0, 3.0);
+  PairCase c;
+  c.a = {.position = 5.0 * random.point_in_ball(), .radius = 0.25};
+  c.b = {.position = c.a.position - (0.5 + way) * down, .planned_acceleration = down, .radius = 0.25};
+  c.horizon = std::sqrt(2.0 * way) * random.uniform(0.95, 1.05);
+  return c;
+}
+
+/// Straight ways that miss or meet by about what single precision can tell.
+PairCase marginal(Random& random) {
+  PairCase c;
+  c.a = {.position = 100.0 * random.unit_vector(), .velocity = random.unit_vector(), .radius = 0.5};
+  c.b = {.position = c.a.position + random.uniform(2.0, 5.0) * random.unit_vector(),
+         .velocity = random.unit_vector(),
+         .radius = 0.5};
+  c.horizon = random.uniform(0.5, 5.0);
+  const Vec3 offset = c.b.position - c.a.position;
+  const Vec3 velocity = c.b.velocity - c.a.velocity;
+  const double nearest = std::clamp(-dot(offset, velocity) / norm_squared(velocity), 0.0, c.horizon);
+  const double error = std::ldexp(100.0, -20 - static_cast<int>(random.bits() % 6));
+  c.distance = std::max(0.0, norm(offset + velocity * nearest) - 1.0 + random.uniform(-1.0, 1.0) * error);
+  return c;
+}
+
 std::vector<Family> families_here() {
   std::vector<Family> families = all_families;
   families.push_back({"tiny", tiny});
+  families.push_back({"falling", falling});
+  families.push_back({"marginal", marginal});
   return families;
 }
 
