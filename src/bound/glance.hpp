@@ -54,6 +54,8 @@ struct alignas(64) Sketch {
 /// Where space repeats: the body is to be seen in the image in which its home is nearest.
 struct Home {
   std::array<float, 4> centre{};  ///< of its box, and 0
+
+  friend bool operator==(const Home&, const Home&) = default;
 };
 
 /// From one body at one instant.

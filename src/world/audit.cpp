@@ -80,6 +80,9 @@ class World::Engine::Audit {
     if (b.is_fixed()) return check_fixed(number);
     if (engine_.marks_[number].dirty) return;
     if (!engine_.space_.is_narrow(b.box)) find("registration", name(number) + " has too wide a box");
+    if (!(engine_.sketches_[number] == engine_.sketch_of(b)) ||
+        (engine_.space_.repeats() && !(engine_.homes_[number] == engine_.home_of(b))))
+      find("registration", name(number) + " is not where others see it at a glance");
     if (!exact(b)) return;
     const Vec3 room = Vec3{1.0, 1.0, 1.0} * (0.25 * engine_.definition_.contact_tolerance);
     Box box{b.box.lower - room, b.box.upper + room};

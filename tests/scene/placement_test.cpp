@@ -77,7 +77,7 @@ TEST(Placement, relaxation_is_the_same_on_every_machine) {
     for (int axis = 0; axis < 3; ++axis)
       hash = hash * 0x100000001b3u + std::bit_cast<std::uint64_t>(centre[axis]);
   }
-  EXPECT_EQ(hash, 0x988a189dbb0d97bfu) << std::hex << hash;
+  EXPECT_EQ(hash, 0x5839daa3bdfd4114u) << std::hex << hash;
 }
 
 INSTANTIATE_TEST_SUITE_P(Placement, Seeds, ::testing::Range<std::uint64_t>(1, 4));

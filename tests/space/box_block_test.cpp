@@ -18,100 +18,109 @@ namespace {
 constexpr std::uint64_t seed = 3101;
 constexpr int rounds = 20000;
 
-StepBox everything() {
-  return {{StepBox::least, StepBox::least, StepBox::least},
-          {StepBox::largest, StepBox::largest, StepBox::largest}};
+/// Boxes lie within this many steps of each other: that is half of what can be told from 16 bits.
+constexpr int span = 16000;
+
+/// Whole numbers, of which boxes keep the last 16 bits.
+struct WideBox {
+  std::array<int, 3> lower;
+  std::array<int, 3> upper;
+
+  StepBox low_bits() const {
+    const auto low = [](const std::array<int, 3>& steps) {
+      return std::array{static_cast<StepBox::Step>(steps[0]), static_cast<StepBox::Step>(steps[1]),
+                        static_cast<StepBox::Step>(steps[2])};
+    };
+    return {low(lower), low(upper)};
+  }
+};
+
+bool have_a_step_in_common(const WideBox& a, const WideBox& b) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (std::max(a.lower[axis], b.lower[axis]) > std::min(a.upper[axis], b.upper[axis])) return false;
+  return true;
 }
 
 /// Few enough for edges to coincide often.
-StepBox::Step awkward(Random& random) {
-  static const std::vector<StepBox::Step> values{
-      StepBox::least, StepBox::least + 1, -4096, -1, 0, 1, 4095, 4096, 8191, StepBox::largest};
+int awkward(Random& random) {
+  static const std::vector<int> values{0, 1, 2, 4095, 4096, 4097, span - 1, span};
   return values[random.bits() % values.size()];
 }
-StepBox::Step everyday(Random& random) { return static_cast<StepBox::Step>(random.uniform(-5000.0, 5000.0)); }
+int everyday(Random& random) { return static_cast<int>(random.uniform(0.0, span)); }
 
-StepBox draw(Random& random, StepBox::Step (*number)(Random&)) {
-  StepBox box;
+WideBox draw(Random& random, int origin, int (*number)(Random&)) {
+  WideBox box;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const StepBox::Step a = number(random);
-    const StepBox::Step b = number(random);
+    const int a = origin + number(random);
+    const int b = origin + number(random);
     std::tie(box.lower[axis], box.upper[axis]) = std::minmax({a, b});
   }
   return box;
 }
 
 /// A box that touches the other one, or misses it by one step, on one axis.
-StepBox beside(Random& random, const StepBox& other) {
-  StepBox box = draw(random, everyday);
+WideBox beside(Random& random, int origin, const WideBox& other) {
+  WideBox box = draw(random, origin, everyday);
   const std::size_t axis = random.bits() % 3;
   const int apart = random.bits() % 2 == 0 ? 0 : 1;
   if (random.bits() % 2 == 0) {
-    box.lower[axis] = StepBox::clamped(other.upper[axis] + apart);
-    box.upper[axis] = StepBox::clamped(box.lower[axis] + 100);
+    box.lower[axis] = other.upper[axis] + apart;
+    box.upper[axis] = box.lower[axis] + 100;
   } else {
-    box.upper[axis] = StepBox::clamped(other.lower[axis] - apart);
-    box.lower[axis] = StepBox::clamped(box.upper[axis] - 100);
+    box.upper[axis] = other.lower[axis] - apart;
+    box.lower[axis] = box.upper[axis] - 100;
   }
   return box;
 }
 
-bool have_a_step_in_common(const StepBox& a, const StepBox& b) {
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (std::max(a.lower[axis], b.lower[axis]) > std::min(a.upper[axis], b.upper[axis])) return false;
-  return true;
-}
-
-/// Some places of a block in use, and what should be in them.
+/// A block that is not always full, and what should be in it.
 struct Mirrored {
   BoxBlock block;
-  std::array<std::optional<StepBox>, BoxBlock::width> boxes;
+  std::vector<WideBox> boxes;
 
-  void put(std::size_t place, const StepBox& box) {
-    block.put(place, box, static_cast<std::uint32_t>(place) + 7);
-    boxes[place] = box;
+  void push(const WideBox& box) {
+    block.push(box.low_bits(), static_cast<std::uint32_t>(boxes.size()) + 7);
+    boxes.push_back(box);
   }
-  void clear(std::size_t place) {
-    block.clear(place);
-    boxes[place].reset();
-  }
-  BoxBlock::Places overlapping(const StepBox& query) const {
+  BoxBlock::Places overlapping(const WideBox& query) const {
     BoxBlock::Places places = 0;
-    for (std::size_t place = 0; place < BoxBlock::width; ++place)
-      if (boxes[place] && have_a_step_in_common(*boxes[place], query)) places |= 1u << place;
+    for (std::size_t place = 0; place < boxes.size(); ++place)
+      if (have_a_step_in_common(boxes[place], query)) places |= 1u << place;
     return places;
   }
 };
 
-class BoxBlocks : public testing::TestWithParam<std::pair<const char*, StepBox (*)(Random&, Mirrored&)>> {};
+using Draw = WideBox (*)(Random&, int origin, Mirrored&);
+
+class BoxBlocks : public testing::TestWithParam<std::pair<const char*, Draw>> {};
 
 TEST_P(BoxBlocks, overlap_what_has_a_step_in_common_with_the_query) {
   std::array<int, BoxBlock::width + 1> found{};
   for (std::uint64_t round = 0; round < rounds; ++round) {
     Random random = Random::at(seed, round, 0);
+    const int origin = static_cast<int>(random.bits() % 200000) - 100000;
     Mirrored mirrored;
-    const StepBox box = GetParam().second(random, mirrored);
-    const BoxBlock::Query query(box);
+    const WideBox box = GetParam().second(random, origin, mirrored);
     const BoxBlock::Places expected = mirrored.overlapping(box);
-    ASSERT_EQ(mirrored.block.overlapping(query), expected) << "seed " << seed << ", round " << round;
-    ASSERT_EQ(mirrored.block.overlapping_one_by_one(box), expected) << "seed " << seed << ", round " << round;
+    ASSERT_EQ(mirrored.block.overlapping(BoxBlock::Query(box.low_bits())), expected)
+        << "seed " << seed << ", round " << round;
+    ASSERT_EQ(mirrored.block.overlapping_one_by_one(box.low_bits()), expected)
+        << "seed " << seed << ", round " << round;
     ++found[static_cast<std::size_t>(std::popcount(expected))];
   }
   for (std::size_t count = 0; count < 3; ++count) EXPECT_GT(found[count], 0) << count;
 }
 
-template <StepBox::Step (*number)(Random&)>
-StepBox draw_all(Random& random, Mirrored& mirrored) {
-  for (std::size_t place = 0; place < BoxBlock::width; ++place) {
-    if (random.bits() % 4 != 0) mirrored.put(place, draw(random, number));
-    if (random.bits() % 8 == 0) mirrored.clear(place);
-  }
-  return draw(random, number);
+template <int (*number)(Random&)>
+WideBox draw_all(Random& random, int origin, Mirrored& mirrored) {
+  for (auto count = random.bits() % (BoxBlock::width + 1); count > 0; --count)
+    mirrored.push(draw(random, origin, number));
+  return draw(random, origin, number);
 }
 
-StepBox draw_neighbours(Random& random, Mirrored& mirrored) {
-  const StepBox query = draw(random, everyday);
-  for (std::size_t place = 0; place < BoxBlock::width; ++place) mirrored.put(place, beside(random, query));
+WideBox draw_neighbours(Random& random, int origin, Mirrored& mirrored) {
+  const WideBox query = draw(random, origin, everyday);
+  for (std::size_t place = 0; place < BoxBlock::width; ++place) mirrored.push(beside(random, origin, query));
   return query;
 }
 
@@ -121,45 +130,47 @@ INSTANTIATE_TEST_SUITE_P(OfAllKinds, BoxBlocks,
                                          std::pair{"touching", &draw_neighbours}),
                          [](const auto& kind) { return std::string(kind.param.first); });
 
-TEST(BoxBlock, has_free_places_that_overlap_nothing) {
+TEST(BoxBlock, holds_what_was_pushed_and_not_popped) {
+  const StepBox box{{1, 2, 3}, {4, 5, 6}};
   BoxBlock block;
-  const BoxBlock::Query all(everything());
-  EXPECT_EQ(block.overlapping(all), 0u);
-  EXPECT_EQ(block.overlapping_one_by_one(everything()), 0u);
-  for (std::size_t place = 0; place < BoxBlock::width; ++place) {
-    EXPECT_TRUE(block.is_free(place));
-    block.put(place, everything(), 5);
-    EXPECT_FALSE(block.is_free(place));
-    EXPECT_EQ(block.overlapping(all), 1u << place);
-    EXPECT_EQ(block.box(place), everything());
-    EXPECT_EQ(block.body(place), 5u);
-    block.clear(place);
-    EXPECT_TRUE(block.is_free(place));
-    EXPECT_EQ(block.overlapping(all), 0u);
+  for (std::uint32_t body = 0; body < BoxBlock::width; ++body) {
+    EXPECT_EQ(block.size(), body);
+    EXPECT_FALSE(block.is_full());
+    EXPECT_EQ(block.find(body + 20), BoxBlock::width);
+    block.push(box, body + 20);
+    EXPECT_EQ(block.find(body + 20), body);
+    EXPECT_EQ(block.body(body), body + 20);
+    EXPECT_EQ(block.box(body), box);
+    EXPECT_EQ(block.overlapping(BoxBlock::Query(box)), (2u << body) - 1u);
   }
+  EXPECT_TRUE(block.is_full());
+  block.put(2, {{10, 10, 10}, {11, 11, 11}}, 50);
+  EXPECT_EQ(block.find(50), 2u);
+  EXPECT_EQ(block.find(22), BoxBlock::width);
+  EXPECT_EQ(block.overlapping(BoxBlock::Query(box)), 0xffu & ~4u);
+  block.pop();
+  EXPECT_EQ(block.find(27), BoxBlock::width);
+  EXPECT_EQ(block.overlapping(BoxBlock::Query(box)), 0x7fu & ~4u);
 }
 
-TEST(BoxBlock, comes_back_from_an_archive_with_its_free_places) {
+TEST(BoxBlock, comes_back_from_an_archive) {
   BoxBlock block, back;
-  const StepBox box{{-1, 0, 2}, {5, StepBox::largest, 3}};
-  block.put(2, box, 9);
+  const StepBox box{{65535, 0, 2}, {5, 32767, 3}};
+  block.push(box, 9);
   ByteWriter writer;
   writer(block);
   ByteReader reader(writer.bytes());
   reader(back);
   EXPECT_FALSE(reader.failed());
-  EXPECT_EQ(back.overlapping(BoxBlock::Query(everything())), 4u);
-  EXPECT_EQ(back.box(2), box);
-  EXPECT_EQ(back.body(2), 9u);
-  for (std::size_t place = 0; place < BoxBlock::width; ++place) EXPECT_EQ(back.is_free(place), place != 2);
+  EXPECT_TRUE(back.is_sound());
+  EXPECT_EQ(back.size(), 1u);
+  EXPECT_EQ(back.overlapping(BoxBlock::Query(box)), 1u);
+  EXPECT_EQ(back.box(0), box);
+  EXPECT_EQ(back.body(0), 9u);
 }
 
-TEST(StepBox, clamps_steps_that_are_too_many) {
-  EXPECT_EQ(StepBox::clamped(32766), StepBox::largest);
-  EXPECT_EQ(StepBox::clamped(32767), StepBox::largest);
-  EXPECT_EQ(StepBox::clamped(std::int64_t{1} << 50), StepBox::largest);
-  EXPECT_EQ(StepBox::clamped(-32768), StepBox::least);
-  EXPECT_EQ((StepBox{{0, -5, 2}, {3, 4, 2}}.extent()), 9);
+TEST(StepBox, has_an_extent_across_the_end_of_its_numbers) {
+  EXPECT_EQ((StepBox{{0, 65530, 2}, {3, 4, 2}}.extent()), 10);
 }
 
 TEST(BoxBlock, visits_places_once_and_in_ascending_order) {
