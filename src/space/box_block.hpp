@@ -66,8 +66,17 @@ class alignas(16) BoxBlock {
   /// The place of a body, or width if it is not here.
   std::size_t find(std::uint32_t body) const {
     Places found = 0;
+#if defined(__SSE2__)
+    const __m128i wanted = _mm_set1_epi32(static_cast<int>(body));
+    const auto equal = [&](std::size_t first) {
+      return _mm_cmpeq_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(&bodies_[first])), wanted);
+    };
+    const __m128i any = _mm_packs_epi32(equal(0), equal(width / 2));
+    found = static_cast<Places>(_mm_movemask_epi8(_mm_packs_epi16(any, any)));
+#else
     for (std::size_t place = 0; place < width; ++place)
       found |= static_cast<Places>(bodies_[place] == body) << place;
+#endif
     return static_cast<std::size_t>(std::countr_zero((found & places()) | 1u << width));
   }
 
