@@ -15,7 +15,6 @@ class World::Engine::Lookout {
       : engine_(engine),
         number_(number),
         body_(engine.bodies_[number]),
-        own_(body_.bound, engine.time_),
         now_(engine.time_),
         bare_(engine.is_bare(number)) {
     expect(std::min(body_.box_end, body_.wall_time));
@@ -55,7 +54,7 @@ class World::Engine::Lookout {
     if (!bare_ || other.is_fixed()) return {false, now_};
     MovedBound moved(other.bound, now_);
     if (engine_.space_.repeats()) moved.centre += engine_.shift_to_meet(number_, partner);
-    const Encounter pair(own_, moved);
+    const Encounter pair(MovedBound(body_.bound, now_), moved);
     const double sensed = engine_.sensors_.any() ? engine_.reach_of_pair(body_, other) : 0.0;
     const double near = sensed + engine_.definition_.contact_tolerance;
     const double boxes_end = std::min(body_.box_end, other.box_end);
@@ -82,7 +81,6 @@ class World::Engine::Lookout {
   const Engine& engine_;
   std::uint32_t number_;
   const Body& body_;
-  MovedBound own_;
   double now_;
   /// It touches and senses nothing.
   bool bare_;
