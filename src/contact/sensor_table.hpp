@@ -6,13 +6,18 @@
 #include <optional>
 #include <vector>
 
-#include "kinesphere/body.hpp"
 #include "kinesphere/sensor.hpp"
 
 namespace kinesphere {
 
 /// Nothing farther away than this is sensed (length): the largest distance, or 0.
 double reach_of(const Sensor& sensor);
+
+/// What sensors need to know of a body.
+struct Sensing {
+  SensorClass sensor_class;
+  std::uint64_t category;  ///< of its filter
+};
 
 class SensorTable {
  public:
@@ -28,11 +33,11 @@ class SensorTable {
 
   /// The largest distance at which either of the two senses the other and that is not `known`(distance).
   template <class Known>
-  std::optional<double> largest(const BodyDefinition& a, const BodyDefinition& b, Known known) const {
+  std::optional<double> largest(const Sensing& a, const Sensing& b, Known known) const {
     std::optional<double> found;
-    const auto consider = [&](const BodyDefinition& watcher, const BodyDefinition& watched) {
+    const auto consider = [&](const Sensing& watcher, const Sensing& watched) {
       const Sensor& sensor = of(watcher.sensor_class);
-      if ((sensor.mask & watched.filter.category) == 0) return;
+      if ((sensor.mask & watched.category) == 0) return;
       for (const double distance : sensor.distances)
         if ((!found || distance > *found) && !known(distance)) found = distance;
     };
@@ -41,7 +46,7 @@ class SensorTable {
     return found;
   }
   /// Whether one of the two senses the other at this distance.
-  bool senses(const BodyDefinition& a, const BodyDefinition& b, double distance) const {
+  bool senses(const Sensing& a, const Sensing& b, double distance) const {
     return largest(a, b, [=](double other) { return other != distance; }).has_value();
   }
 

@@ -31,12 +31,16 @@ World::Engine::Answers::Answers(const Engine& engine) : engine_(engine), now_(en
   });
 }
 
+Bound World::Engine::Answers::present(std::uint32_t number) const {
+  return present_bound(body(number), engine_.change_since_report(number), now_);
+}
+
 /// A begin is told where the gap of fresh reports is at most the tolerance, and each report may be e0 away
 /// from the true body and counts it as larger by e0. Grown by as much, bounds that do not meet tell that
 /// there is no begin.
 Bound World::Engine::Answers::guarded(std::uint32_t number) const {
-  Bound bound = present_bound(body(number), now_);
-  bound.radius += engine_.definition_.contact_tolerance + 2.0 * body(number).definition.position_error;
+  Bound bound = present(number);
+  bound.radius += engine_.definition_.contact_tolerance + 2.0 * body(number).position_error;
   return bound;
 }
 
@@ -177,7 +181,7 @@ void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t
   std::vector<std::uint32_t> beyond_grid;
   for (auto at = numbers.begin(); at != numbers.end(); ++at) {
     const std::uint32_t number = *at;
-    const Box box = body(number).is_fixed() ? body(number).box
+    const Box box = body(number).is_fixed() ? engine_.box(number)
                     : horizon < infinity    ? swept_box(guarded(number), now_, horizon)
                                             : everywhere;
     if (fits_grid(box) && engine_.space_.is_narrow(box)) {
@@ -193,8 +197,8 @@ void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t
 }
 
 DistanceLimits World::Engine::Answers::distance(std::uint32_t a, std::uint32_t b, double time) const {
-  const Bound first = present_bound(body(a), now_);
-  Bound second = present_bound(body(b), now_);
+  const Bound first = present(a);
+  Bound second = present(b);
   second.position += engine_.space_.shift_to_nearest(second.centre_at(time), first.centre_at(time));
   const Extent extent_of_a = engine_.extent(a, first);
   const Extent extent_of_b = engine_.extent(b, second);
@@ -204,8 +208,7 @@ DistanceLimits World::Engine::Answers::distance(std::uint32_t a, std::uint32_t b
       [time](const Bound& bound, const auto& partner) { return gap_limits(bound, partner, time); });
   // The upper limit of bounds is about the reported bodies: the true ones may be off by what the radii hold
   // beyond their own.
-  const double excess =
-      (first.radius - body(a).definition.radius) + (second.radius - body(b).definition.radius);
+  const double excess = (first.radius - body(a).radius) + (second.radius - body(b).radius);
   const double upper = rounding::sum_up(gap.upper, 2.0 * excess);
   if (!std::isfinite(gap.lower) || !std::isfinite(upper)) return {-infinity, infinity, false};
   return {gap.lower, upper, false};

@@ -59,9 +59,7 @@ class World::Engine::Audit {
   }
 
   /// A noisy report may lie outside what an earlier one promised, though the body does not.
-  static bool exact(const Body& body) {
-    return body.definition.position_error == 0.0 && body.definition.velocity_error == 0.0;
-  }
+  static bool exact(const Body& body) { return body.position_error == 0.0 && body.bound.growth_speed == 0.0; }
 
   void check_absence(std::uint32_t number) {
     if (engine_.grid_.contains(number)) find("registration", name(number) + " is not here but registered");
@@ -75,17 +73,17 @@ class World::Engine::Audit {
 
   void check_registration(std::uint32_t number) {
     const Body& b = body(number);
-    if (const auto wrong = engine_.grid_.check(number, b.box))
+    if (const auto wrong = engine_.grid_.check(number, engine_.box(number)))
       find("registration", name(number) + " " + *wrong);
     if (b.is_fixed()) return check_fixed(number);
     if (engine_.marks_[number].dirty) return;
-    if (!engine_.space_.is_narrow(b.box)) find("registration", name(number) + " has too wide a box");
-    if (!(engine_.sketches_[number] == engine_.sketch_of(b)) ||
-        (engine_.space_.repeats() && !(engine_.homes_[number] == engine_.home_of(b))))
+    if (!engine_.space_.is_narrow(engine_.box(number)))
+      find("registration", name(number) + " has too wide a box");
+    if (!(engine_.sketches_[number] == engine_.sketch_of(b)))
       find("registration", name(number) + " is not where others see it at a glance");
     if (!exact(b)) return;
     const Vec3 room = Vec3{1.0, 1.0, 1.0} * (0.25 * engine_.definition_.contact_tolerance);
-    Box box{b.box.lower - room, b.box.upper + room};
+    Box box{engine_.box(number).lower - room, engine_.box(number).upper + room};
     if (engine_.space_.is_flat()) std::tie(box.lower.z, box.upper.z) = std::pair(-infinity, infinity);
     const double exit = earliest_exit(engine_.reach(b), box, now_, b.box_end);
     if (too_late(b.box_end, exit, now_))
@@ -94,7 +92,7 @@ class World::Engine::Audit {
 
   void check_fixed(std::uint32_t number) {
     const Body& b = body(number);
-    if (!(b.box == engine_.box_of(b)) || b.box_end != infinity)
+    if (!(engine_.box(number) == engine_.box_of_fixed(number)) || b.box_end != infinity)
       find("registration", name(number) + " is fixed but not registered where its shape is");
     for (const Neighbour& one : engine_.neighbours_.of(number))
       if (one.watches()) find("certificate", name(number) + " is fixed but watches another");
@@ -152,8 +150,9 @@ class World::Engine::Audit {
   void check_crossings(std::uint32_t a, std::uint32_t b) {
     for (const Crossing& crossing : engine_.book_.crossings_of(a)) {
       if (crossing.partner != b) continue;
-      const bool senses = engine_.may_meet(a, b) &&
-                          engine_.sensors_.senses(body(a).definition, body(b).definition, crossing.distance);
+      const bool senses =
+          engine_.may_meet(a, b) &&
+          engine_.sensors_.senses(engine_.sensing_of(a), engine_.sensing_of(b), crossing.distance);
       if (!engine_.book_.is_within(b, a, crossing.distance))
         find("sensor", pair(a, b) + " sense each other on one side only");
       if (!senses) find("sensor", pair(a, b) + " are within a distance that neither senses");
@@ -182,8 +181,8 @@ class World::Engine::Audit {
 
   bool boxes_overlap(std::uint32_t a, std::uint32_t b) const {
     const Vec3 shift = engine_.shift_to_meet(a, b);
-    const Box other{body(b).box.lower + shift, body(b).box.upper + shift};
-    return FloatBox(body(a).box).overlaps(FloatBox(other));
+    const Box other{engine_.box(b).lower + shift, engine_.box(b).upper + shift};
+    return FloatBox(engine_.box(a)).overlaps(FloatBox(other));
   }
 
   double earliest_change(std::uint32_t a, std::uint32_t b, const Threshold& threshold) const {

@@ -14,6 +14,13 @@ constexpr int most_lengths_tried = 5;
 /// A box with room on all sides is as large as one ahead of its body that lasts this part as long.
 constexpr double turned_part = 0.4;
 
+Vec3 centre_of(const Box& box) { return 0.5 * (box.lower + box.upper); }
+
+double width_of(const Box& box) {
+  const Vec3 size = box.upper - box.lower;
+  return std::max({size.x, size.y, size.z});
+}
+
 }  // namespace
 
 /// New bodies begin with a horizon that lets them go about a quarter of the distance between them.
@@ -22,11 +29,11 @@ void World::Engine::choose_first_horizons(const std::vector<std::uint32_t>& roun
   Vec3 upper = -lower;
   int count = 0;
   for (const std::uint32_t number : round) {
-    if (bodies_[number].horizon || bodies_[number].is_fixed()) continue;
+    if (bodies_[number].horizon.is_chosen() || bodies_[number].is_fixed()) continue;
     ++count;
     for (int axis = 0; axis < 3; ++axis) {
-      lower[axis] = std::min(lower[axis], bodies_[number].box.lower[axis]);
-      upper[axis] = std::max(upper[axis], bodies_[number].box.upper[axis]);
+      lower[axis] = std::min(lower[axis], boxes_[number].lower[axis]);
+      upper[axis] = std::max(upper[axis], boxes_[number].upper[axis]);
     }
   }
   if (count == 0) return;
@@ -35,26 +42,26 @@ void World::Engine::choose_first_horizons(const std::vector<std::uint32_t>& roun
       std::ldexp(std::max({size.x, size.y, size.z}), -std::ilogb(count) / definition_.dimensions);
   const double way = spacing > 0.0 ? 0.25 * spacing : definition_.contact_tolerance;
   for (const std::uint32_t number : round)
-    if (!bodies_[number].horizon && !bodies_[number].is_fixed())
-      bodies_[number].horizon = Horizon::of_new_body(way, definition_.contact_tolerance);
+    if (!bodies_[number].horizon.is_chosen() && !bodies_[number].is_fixed())
+      bodies_[number].horizon = Horizon(way, definition_.contact_tolerance);
 }
 
 /// Contains all that the body can touch or sense.
 Bound World::Engine::reach(const Body& body) const {
   Bound bound = body.bound;
-  if (sensors_.any()) bound.radius += sensors_.reach(body.definition.sensor_class);
+  if (sensors_.any()) bound.radius += sensors_.reach(body.sensor_class);
   return bound;
 }
 
 /// How far the gap of the two can be from one that means something: no sensor distance of either is larger.
 double World::Engine::reach_of_pair(const Body& a, const Body& b) const {
-  return std::max(sensors_.reach(a.definition.sensor_class), sensors_.reach(b.definition.sensor_class));
+  return std::max(sensors_.reach(a.sensor_class), sensors_.reach(b.sensor_class));
 }
 
 /// How long a new box of the body would last.
 double World::Engine::box_length(const Body& body) const {
-  const double speed = norm(body.bound.velocity) + body.definition.velocity_error;
-  const double length = body.horizon->length(speed, body.largest_acceleration());
+  const double speed = norm(body.bound.velocity) + body.bound.growth_speed;
+  const double length = body.horizon.length(speed, body.largest_acceleration());
   return space_.repeats() ? longest_in_period(body, length) : length;
 }
 
@@ -76,13 +83,14 @@ Box World::Engine::box_of_way(const MovedBound& moved, double length) const {
 bool World::Engine::keep_box(std::uint32_t number) {
   Body& body = bodies_[number];
   if (body.is_fixed() || body.box_end <= time_) return false;
+  const Box& box = boxes_[number];
   const MovedBound moved(reach(body), time_);
   double length = box_length(body);
   for (int attempt = 0; attempt < most_lengths_tried; ++attempt, length *= 0.75) {
     const Box way = box_of_way(moved, length);
     bool inside = true;
     for (int axis = 0; axis < definition_.dimensions; ++axis)
-      inside = inside && body.box.lower[axis] <= way.lower[axis] && way.upper[axis] <= body.box.upper[axis];
+      inside = inside && box.lower[axis] <= way.lower[axis] && way.upper[axis] <= box.upper[axis];
     if (!inside) continue;
     body.box_end = time_ + length;
     return body.box_end > time_;
@@ -94,10 +102,10 @@ void World::Engine::register_box(std::uint32_t number) {
   Body& body = bodies_[number];
   if (body.is_fixed()) return register_shape(number);
   body.box_end = just_after(time_ + (body.turned ? turned_part : 1.0) * box_length(body));
-  body.box = box_until_end(body);
-  bring_home(body);
+  boxes_[number] = box_until_end(body);
+  bring_home(number);
   body.turned = false;
-  grid_.set(number, body.box);
+  grid_.set(number, boxes_[number]);
 }
 
 /// As others see it at a glance, until its box ends. A fixed body needs a closer look.
@@ -105,15 +113,13 @@ Sketch World::Engine::sketch_of(const Body& body) const {
   return body.is_fixed() ? Sketch() : Sketch(body.bound, body.box_end, norm_one(space_.period()));
 }
 
-Home World::Engine::home_of(const Body& body) const {
-  const Vec3 centre = 0.5 * (body.box.lower + body.box.upper);
-  return {{static_cast<float>(centre.x), static_cast<float>(centre.y), static_cast<float>(centre.z), 0.0f}};
-}
-
 /// What others see of a body that has got another box, or another end of it.
 void World::Engine::sketch_box(std::uint32_t number) {
   sketches_[number] = sketch_of(bodies_[number]);
-  if (space_.repeats()) homes_[number] = home_of(bodies_[number]);
+  if (!space_.repeats()) return;
+  const Vec3 home = centre_of(boxes_[number]);
+  homes_[number] = {
+      {static_cast<float>(home.x), static_cast<float>(home.y), static_cast<float>(home.z), 0.0f}};
 }
 
 /// Contains the body until its box_end. One that was kicked lately may be kicked again, and go anywhere: it
@@ -138,20 +144,19 @@ Box World::Engine::box_until_end(const Body& body) const {
 }
 
 /// Moves the body to the image in which the centre of its box lies in the primary box.
-void World::Engine::bring_home(Body& body) const {
+void World::Engine::bring_home(std::uint32_t number) {
   if (!space_.repeats()) return;
-  const Vec3 images = space_.wrapped(0.5 * (body.box.lower + body.box.upper)).images;
+  const Vec3 images = space_.wrapped(centre_of(boxes_[number])).images;
   if (images == Vec3{}) return;
-  body.bound.position -= space_.shift_of(images);
-  body.image += images;
-  body.box = box_until_end(body);
+  bodies_[number].bound.position -= space_.shift_of(images);
+  images_[number] += images;
+  boxes_[number] = box_until_end(bodies_[number]);
 }
 
 /// How wide the box of a body may be on an axis that repeats, by space/space.hpp (2); a little less, for
 /// rounding.
 double World::Engine::widest_in_period(const Body& body, int axis) const {
-  return (0.5 - 0x1p-10) * space_.period()[axis] - book_.rule().release_gap() -
-         4.0 * body.definition.position_error;
+  return (0.5 - 0x1p-10) * space_.period()[axis] - book_.rule().release_gap() - 4.0 * body.position_error;
 }
 
 /// How long a box of a body may last, `length` at most, to be no wider than that: it grows by at most (|v| +
@@ -175,9 +180,7 @@ double World::Engine::longest_in_period(const Body& body, double length) const {
 
 /// What brings body b to the image in which body a may meet it while both boxes last: nearest by their boxes.
 Vec3 World::Engine::shift_to_meet(std::uint32_t a, std::uint32_t b) const {
-  const Box& box = bodies_[a].box;
-  const Box& other = bodies_[b].box;
-  return space_.shift_between_homes(0.5 * (other.lower + other.upper), 0.5 * (box.lower + box.upper));
+  return space_.shift_between_homes(centre_of(boxes_[b]), centre_of(boxes_[a]));
 }
 
 /// The bound of body b as body a has to reckon with it, where space repeats.
@@ -191,12 +194,12 @@ Bound World::Engine::seen_from(std::uint32_t a, std::uint32_t b) const {
 void World::Engine::find_neighbours(std::uint32_t number) {
   ++counters_.searches;
   Body& body = bodies_[number];
-  const double extent = body.box_extent();
+  const double extent = width_of(boxes_[number]);
   std::size_t larger = 0;
   partners_ = book_.partners_of(number);
   for (const Crossing& crossing : book_.crossings_of(number)) partners_.push_back(crossing.partner);
   const std::size_t known = partners_.size();
-  space_.for_each_overlap(grid_, body.box, [&](std::uint32_t other, double extent_of_other) {
+  space_.for_each_overlap(grid_, boxes_[number], [&](std::uint32_t other, double extent_of_other) {
     if (other == number) return;
     partners_.push_back(other);
     if (Horizon::is_larger(extent_of_other, extent)) ++larger;
@@ -205,7 +208,8 @@ void World::Engine::find_neighbours(std::uint32_t number) {
   counters_.candidates += candidates;
   neighbours_.replace(number, partners_);
   if (!body.is_fixed())
-    body.horizon->learn(candidates, larger, extent, 2.0 * reach(body).radius, definition_.dimensions);
+    body.horizon.learn(candidates, larger, extent, 2.0 * reach(body).radius, definition_.contact_tolerance,
+                       definition_.dimensions);
 }
 
 }  // namespace kinesphere

@@ -8,7 +8,7 @@ Bound World::Engine::bound_with(BodyId id, const BodyDefinition& changed) const 
   if (body.fresh(time_)) return bound_of(changed, {body.bound.position, body.bound.velocity}, time_);
   // The old promise held until now, and the next report comes before time moves on.
   Bound bound = body.bound;
-  bound.radius = changed.radius + (bound.radius - body.definition.radius);
+  bound.radius = changed.radius + (bound.radius - body.radius);
   return bound;
 }
 
@@ -39,35 +39,51 @@ void World::Engine::replace(std::uint32_t number, const Bound& bound) {
 }
 
 void World::Engine::teleport(BodyId id, const State& state) {
-  Body& body = bodies_[id.index];
   if (definition_.contacts == ContactMode::impacts) book_.release_all(id.index);
-  body.image = {};
-  replace(id.index, bound_of(body.definition, state, time_));
-  body.definition.position = state.position;
-  body.definition.velocity = state.velocity;
-  body.kicked_since_report = false;
+  if (space_.repeats()) images_[id.index] = {};
+  replace(id.index, bound_of(definition_of(id.index), state, time_));
+  forget_change(id.index);
 }
 
 void World::Engine::set_radius(BodyId id, double radius) {
-  Body& body = bodies_[id.index];
-  BodyDefinition changed = body.definition;
+  BodyDefinition changed = definition_of(id.index);
   changed.radius = radius;
-  if (body.enabled) replace(id.index, bound_with(id, changed));
-  body.definition = changed;
+  if (bodies_[id.index].enabled) replace(id.index, bound_with(id, changed));
+  bodies_[id.index].radius = radius;
 }
 
 void World::Engine::set_promise(BodyId id, const MotionPromise& promise) {
   Body& body = bodies_[id.index];
-  const BodyDefinition changed = with_promise(body.definition, promise);
+  const BodyDefinition changed = with_promise(definition_of(id.index), promise);
   if (body.enabled) replace(id.index, bound_with(id, changed));
-  body.definition = changed;
-  book_.set_largest_acceleration(id.index, body.largest_acceleration());
+  body.position_error = promise.position_error;
+  if (!body.enabled || !body.fresh(time_)) change_of(id.index).promise = promise;
+  book_.set_largest_acceleration(id.index, promise.acceleration_limit + norm(promise.planned_acceleration));
+}
+
+/// The change of the body, to be made or added to.
+Change& World::Engine::change_of(std::uint32_t number) {
+  Body& body = bodies_[number];
+  if (body.change_number == Body::none) {
+    changes_.push_back({number, std::nullopt, promise_of(definition_of(number))});
+    body.change_number = static_cast<std::uint32_t>(changes_.size() - 1);
+  }
+  return changes_[body.change_number];
+}
+
+/// It is in force, or the body has gone. The last one takes its place.
+void World::Engine::forget_change(std::uint32_t number) {
+  const std::uint32_t change = bodies_[number].change_number;
+  if (change == Body::none) return;
+  bodies_[changes_.back().body].change_number = change;
+  bodies_[number].change_number = Body::none;
+  changes_[change] = changes_.back();
+  changes_.pop_back();
 }
 
 void World::Engine::disable(BodyId id) {
   Body& body = bodies_[id.index];
   withdraw(id.index);
-  body.kicked_since_report = false;
   body.enabled = false;
 }
 
@@ -75,16 +91,14 @@ void World::Engine::enable(BodyId id, const State& state) {
   Body& body = bodies_[id.index];
   body.enabled = true;
   if (body.is_fixed()) return appear_fixed(id.index);
-  body.definition.position = state.position;
-  body.definition.velocity = state.velocity;
-  body.image = {};
-  appear(id.index, bound_now(body.definition));
+  if (space_.repeats()) images_[id.index] = {};
+  const BodyDefinition definition = definition_of(id.index);
+  forget_change(id.index);
+  appear(id.index, bound_of(definition, state, time_));
 }
 
 void World::Engine::set_filter(BodyId id, const Filter& filter) {
-  BodyDefinition& definition = bodies_[id.index].definition;
-  definition.filter = filter;
-  learn_filter(definition);
+  keep_filter(id.index, filter);
   refilter(id);
 }
 
@@ -95,25 +109,28 @@ void World::Engine::set_pair_filter(PairFilter filter) {
 }
 
 void World::Engine::set_solid(BodyId id, bool solid) {
-  BodyDefinition& definition = bodies_[id.index].definition;
-  definition.solid = solid;
-  learn_filter(definition);
+  bodies_[id.index].solid = solid;
+  if (!solid) filtering_ = true;
   refilter(id);
 }
 
 void World::Engine::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
   sensors_.set(sensor_class, sensor);
   for (std::uint32_t number = 0; number < bodies_.size(); ++number)
-    if (bodies_[number].definition.sensor_class == sensor_class) refilter(id_of(number));
+    if (bodies_[number].sensor_class == sensor_class) refilter(id_of(number));
 }
 
 void World::Engine::set_sensor_class(BodyId id, SensorClass sensor_class) {
-  bodies_[id.index].definition.sensor_class = sensor_class;
+  bodies_[id.index].sensor_class = sensor_class;
   refilter(id);
 }
 
-void World::Engine::learn_filter(const BodyDefinition& definition) {
-  if (definition.filter != Filter{} || !definition.solid) filtering_ = true;
+void World::Engine::keep_filter(std::uint32_t number, const Filter& filter) {
+  if (filter != Filter{}) {
+    filtering_ = true;
+    if (number >= filters_.size()) filters_.resize(number + std::size_t{1});
+  }
+  if (number < filters_.size()) filters_[number] = filter;
 }
 
 /// Nothing is known any more of who may touch or sense the body.
@@ -135,7 +152,7 @@ bool World::Engine::may_hold(const Event& event) const {
   const std::uint32_t a = event.first.index;
   const std::uint32_t b = event.second.index;
   if (!is_of_sensor(event.kind)) return may_touch(a, b);
-  return may_meet(a, b) && sensors_.senses(bodies_[a].definition, bodies_[b].definition, event.distance);
+  return may_meet(a, b) && sensors_.senses(sensing_of(a), sensing_of(b), event.distance);
 }
 
 }  // namespace kinesphere

@@ -21,9 +21,13 @@ std::uint32_t World::Engine::take_number() {
   if (free_.empty()) {
     number = static_cast<std::uint32_t>(bodies_.size());
     bodies_.emplace_back();
+    boxes_.emplace_back();
     marks_.emplace_back();
     sketches_.emplace_back();
-    if (space_.repeats()) homes_.emplace_back();
+    if (space_.repeats()) {
+      homes_.emplace_back();
+      images_.emplace_back();
+    }
     neighbours_.make_room(bodies_.size());
   } else {
     number = free_.back();
@@ -36,12 +40,22 @@ std::uint32_t World::Engine::take_number() {
 
 BodyId World::Engine::add(const BodyDefinition& definition) {
   const std::uint32_t number = take_number();
-  Body& body = bodies_[number];
-  body.definition = definition;
-  learn_filter(definition);
-  book_.add(number, body.largest_acceleration());
+  keep(number, definition);
   appear(number, bound_now(definition));
+  book_.add(number, bodies_[number].largest_acceleration());
   return id_of(number);
+}
+
+/// All but its state and its promise.
+void World::Engine::keep(std::uint32_t number, const BodyDefinition& definition) {
+  Body& body = bodies_[number];
+  body.radius = definition.radius;
+  body.position_error = definition.position_error;
+  body.solid = definition.solid;
+  body.sensor_class = definition.sensor_class;
+  body.user_data = definition.user_data;
+  keep_filter(number, definition.filter);
+  if (!definition.solid) filtering_ = true;
 }
 
 BodyId World::Engine::next_id(std::size_t additions_before) const {
@@ -54,9 +68,9 @@ void World::Engine::appear(std::uint32_t number, const Bound& bound) {
   Body& body = bodies_[number];
   body.bound = bound;
   body.box_end = time_;
-  body.box = box_now(bound);
-  bring_home(body);
-  grid_.set(number, body.box);
+  boxes_[number] = box_now(bound);
+  bring_home(number);
+  grid_.set(number, boxes_[number]);
   mark_dirty(number);
 }
 
@@ -75,6 +89,9 @@ void World::Engine::remove(BodyId id) {
   Body& body = bodies_[number];
   withdraw(number);
   if (body.is_fixed()) free_shapes_.push_back(body.shape_number);
+  forget_change(number);
+  keep_filter(number, {});
+  if (space_.repeats()) images_[number] = {};
   const std::uint32_t generation = body.generation + 1;
   body = Body{};
   body.generation = generation;
@@ -100,20 +117,42 @@ bool World::Engine::certainly_overlap(const Extent& a, const Extent& b) const {
   return gap_now(a, b).upper < -definition_.contact_tolerance;
 }
 
+BodyDefinition World::Engine::definition_of(std::uint32_t number) const {
+  const Body& body = bodies_[number];
+  const Bound& bound = body.bound;
+  BodyDefinition definition{.radius = body.radius,
+                            .acceleration_limit = bound.growth_acceleration,
+                            .planned_acceleration = bound.planned_acceleration,
+                            .position_error = body.position_error,
+                            .velocity_error = bound.growth_speed,
+                            .position = bound.position,
+                            .velocity = bound.velocity,
+                            .filter = filter_of(number),
+                            .solid = body.solid,
+                            .sensor_class = body.sensor_class,
+                            .user_data = body.user_data};
+  if (const Change* change = change_since_report(number)) {
+    definition = with_promise(definition, change->promise);
+    definition.velocity = change->kicked_to.value_or(bound.velocity);
+  }
+  return definition;
+}
+
 /// The body with its last report in the primary box, wherever the engine keeps it.
 BodyView World::Engine::view(std::uint32_t number) const {
   const Body& body = bodies_[number];
-  BodyView view{body.definition, body.bound,     body.box, std::min(body.box_end, body.look_time), {},
-                body.enabled,    body.is_fixed()};
+  BodyView view{
+      definition_of(number), body.bound,     boxes_[number], std::min(body.box_end, body.look_time), {},
+      body.enabled,          body.is_fixed()};
   if (!space_.repeats()) return view;
   const auto [position, images] = space_.wrapped(body.bound.position);
   const Vec3 shift = space_.shift_of(images);
   view.definition.position = view.bound.position = position;
-  view.box = {body.box.lower - shift, body.box.upper - shift};
+  view.box = {boxes_[number].lower - shift, boxes_[number].upper - shift};
   for (int axis = 0; axis < 3; ++axis) {
     constexpr double limit = 0x1p62;
     view.image[static_cast<std::size_t>(axis)] =
-        static_cast<std::int64_t>(std::clamp(body.image[axis] + images[axis], -limit, limit));
+        static_cast<std::int64_t>(std::clamp(images_[number][axis] + images[axis], -limit, limit));
   }
   return view;
 }
@@ -126,7 +165,7 @@ std::optional<BodyId> World::Engine::certain_overlap(BodyId id, const Extent& ex
     const Body& body = bodies_[other];
     const bool certain = other != id.index && !(extent.fixed && body.is_fixed()) &&
                          certainly_overlap(extent, this->extent(other)) &&
-                         may_touch(id, definition, id_of(other), body.definition);
+                         may_touch(id, definition, id_of(other), definition_of(other));
     if (certain && (!found || other < found->index)) found = id_of(other);
   });
   return found;
@@ -134,12 +173,11 @@ std::optional<BodyId> World::Engine::certain_overlap(BodyId id, const Extent& ex
 
 void World::Engine::kick(BodyId id, const Vec3& velocity) {
   Body& body = bodies_[id.index];
-  body.definition.velocity = velocity;
   body.turned = true;
   if (body.fresh(time_)) {
     body.bound.velocity = velocity;
   } else {
-    body.kicked_since_report = true;
+    change_of(id.index).kicked_to = velocity;
   }
   if (definition_.contacts == ContactMode::impacts) book_.release_all(id.index);
   void_facts(id.index);

@@ -43,67 +43,11 @@
 #include "kinesphere/world.hpp"
 #include "schedule/schedule.hpp"
 #include "space/space.hpp"
+#include "world/body.hpp"
 #include "world/extent.hpp"
-#include "world/horizon.hpp"
 #include "world/neighbours.hpp"
 
 namespace kinesphere {
-
-/// Of a body that moves.
-inline constexpr std::uint32_t no_shape = std::numeric_limits<std::uint32_t>::max();
-
-/// What others need to know of a body to settle a pair comes first, in two cache lines.
-struct alignas(64) Body {
-  Bound bound;             ///< since the last report
-  double box_end = 0.0;    ///< the body stays in its box until then
-  double wall_time = 0.0;  ///< no wall contact begins or ends before this or, if it is infinite, box_end
-  double look_time = std::numeric_limits<double>::infinity();  ///< of the next look around
-  bool alive = false;
-  bool enabled = true;
-  bool kicked_since_report = false;
-  bool turned = false;  ///< kicked since its box was made
-
-  std::uint32_t shape_number = no_shape;  ///< in the table of the shapes of fixed bodies
-  std::uint32_t generation = 0;
-  BodyDefinition definition;  ///< with the state of the last report
-  Box box;                    ///< contains the body, and all that it senses
-  /// Whole numbers: bound.position + image * period is on the path since the caller placed the body.
-  Vec3 image{};
-  std::optional<Horizon> horizon;
-
-  bool present() const { return alive && enabled; }
-  bool is_fixed() const { return shape_number != no_shape; }
-
-  template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
-    auto& [since_report, place_end, walls_until, looks_at, lives, takes_part, kicked, turns, own_shape,
-           own_generation, promised, place, images, ahead] = self;
-    archive(since_report, place_end, walls_until, looks_at, lives, takes_part, kicked, turns, own_shape,
-            own_generation, promised, place, images, ahead);
-  }
-
-  /// The world knows its present state.
-  bool fresh(double time) const { return bound.time == time || is_fixed(); }
-  double box_extent() const {
-    const Vec3 size = box.upper - box.lower;
-    return std::max({size.x, size.y, size.z});
-  }
-  double largest_acceleration() const {
-    return definition.acceleration_limit + norm(definition.planned_acceleration);
-  }
-};
-
-/// How far settling a body has come.
-struct Marks {
-  bool dirty = false;    ///< in the list of those to settle before time moves on
-  bool settled = false;  ///< in the present round
-
-  template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
-    auto& [unsettled, is_settled] = self;
-    archive(unsettled, is_settled);
-  }
-};
 
 class World::Engine {
  public:
@@ -127,7 +71,7 @@ class World::Engine {
   void set_solid(BodyId id, bool solid);
   void set_sensor(SensorClass sensor_class, const Sensor& sensor);
   void set_sensor_class(BodyId id, SensorClass sensor_class);
-  void set_user_data(BodyId id, std::uint64_t data) { bodies_[id.index].definition.user_data = data; }
+  void set_user_data(BodyId id, std::uint64_t data) { bodies_[id.index].user_data = data; }
 
   double time() const { return time_; }
   std::size_t size() const { return size_; }
@@ -143,6 +87,18 @@ class World::Engine {
   /// The ids that the next bodies added will have, in their order.
   BodyId next_id(std::size_t additions_before = 0) const;
   BodyView view(std::uint32_t number) const;
+  /// With the state of the last report, and with all changes since.
+  BodyDefinition definition_of(std::uint32_t number) const;
+  const Change* change_since_report(std::uint32_t number) const {
+    const std::uint32_t change = bodies_[number].change_number;
+    return change == Body::none ? nullptr : &changes_[change];
+  }
+  const Filter& filter_of(std::uint32_t number) const {
+    static constexpr Filter none{};
+    return number < filters_.size() ? filters_[number] : none;
+  }
+  /// Contains the body, and all that it senses.
+  const Box& box(std::uint32_t number) const { return boxes_[number]; }
   const Space& space() const { return space_; }
   /// Where a body with this definition would be now.
   Bound bound_now(const BodyDefinition& body) const;
@@ -150,7 +106,7 @@ class World::Engine {
   Bound bound_with(BodyId id, const BodyDefinition& changed) const;
   Box box_now(const Bound& bound) const { return space_.within(swept_box(bound, time_, time_)); }
   Box box_of(const Shape& shape) const;
-  Box box_of(const Body& fixed) const;
+  Box box_of_fixed(std::uint32_t number) const;
   /// What the body takes up, or would with another bound.
   Extent extent(std::uint32_t number) const { return extent(number, bodies_[number].bound); }
   Extent extent(std::uint32_t number, const Bound& bound) const {
@@ -172,8 +128,8 @@ class World::Engine {
     return {bound, true, std::holds_alternative<Ball>(shape) ? nullptr : &shape};
   }
   FixedDefinition fixed_definition(BodyId id) const {
-    const BodyDefinition& body = bodies_[id.index].definition;
-    return {shape(id.index), body.filter, body.solid, body.sensor_class, body.user_data};
+    const Body& body = bodies_[id.index];
+    return {shape(id.index), filter_of(id.index), body.solid, body.sensor_class, body.user_data};
   }
   const Shape& shape(std::uint32_t number) const { return shapes_[bodies_[number].shape_number]; }
   /// Whether the two overlap by more than the tolerance now, whatever the bodies do within them.
@@ -184,13 +140,16 @@ class World::Engine {
   std::optional<BodyId> certain_overlap(BodyId id, const Extent& extent,
                                         const BodyDefinition& definition) const;
   /// Whether the filters, and the predicate, let two bodies touch or sense each other.
-  bool may_meet(BodyId a, const BodyDefinition& body_a, BodyId b, const BodyDefinition& body_b) const {
-    return passes(body_a.filter, body_b.filter) && (!pair_filter_ || pair_filter_(a, b));
+  bool may_meet(BodyId a, const Filter& filter_a, BodyId b, const Filter& filter_b) const {
+    return passes(filter_a, filter_b) && (!pair_filter_ || pair_filter_(a, b));
   }
   bool may_touch(BodyId a, const BodyDefinition& body_a, BodyId b, const BodyDefinition& body_b) const {
-    return body_a.solid && body_b.solid && may_meet(a, body_a, b, body_b);
+    return body_a.solid && body_b.solid && may_meet(a, body_a.filter, b, body_b.filter);
   }
   const SensorTable& sensors() const { return sensors_; }
+  Sensing sensing_of(std::uint32_t number) const {
+    return {bodies_[number].sensor_class, filter_of(number).category};
+  }
   const ContactBook& book() const { return book_; }
   std::optional<AuditFinding> audit() const;
   // inspection.cpp
@@ -224,13 +183,16 @@ class World::Engine {
 
   // changes.cpp
   void replace(std::uint32_t number, const Bound& bound);
-  void learn_filter(const BodyDefinition& definition);
+  void keep(std::uint32_t number, const BodyDefinition& definition);
+  void keep_filter(std::uint32_t number, const Filter& filter);
+  Change& change_of(std::uint32_t number);
+  void forget_change(std::uint32_t number);
   bool may_meet(std::uint32_t a, std::uint32_t b) const {
     return !filtering_ || (!(bodies_[a].is_fixed() && bodies_[b].is_fixed()) &&
-                           may_meet(id_of(a), bodies_[a].definition, id_of(b), bodies_[b].definition));
+                           may_meet(id_of(a), filter_of(a), id_of(b), filter_of(b)));
   }
   bool may_touch(std::uint32_t a, std::uint32_t b) const {
-    return bodies_[a].definition.solid && bodies_[b].definition.solid && may_meet(a, b);
+    return bodies_[a].solid && bodies_[b].solid && may_meet(a, b);
   }
   bool may_hold(const Event& event) const;
 
@@ -248,14 +210,13 @@ class World::Engine {
   bool keep_box(std::uint32_t number);
   void register_box(std::uint32_t number);
   void find_neighbours(std::uint32_t number);
-  void bring_home(Body& body) const;
+  void bring_home(std::uint32_t number);
   Box box_of_way(const MovedBound& moved, double length) const;
   Box box_until_end(const Body& body) const;
   double widest_in_period(const Body& body, int axis) const;
   double longest_in_period(const Body& body, double length) const;
 
   Sketch sketch_of(const Body& body) const;
-  Home home_of(const Body& body) const;
   void sketch_box(std::uint32_t number);
 
   // settling.cpp: facts.
@@ -318,10 +279,11 @@ class World::Engine {
   bool bodies_are_sound() const;
   bool shapes_are_sound() const;
   bool neighbours_are_sound() const;
-  bool is_sound(const Body& body, const Marks& marks) const;
+  bool is_sound(std::uint32_t number) const;
+  bool changes_are_sound() const;
   bool contacts_of_fixed_are_sound() const;
-  bool is_sound_fixed(const Body& body, const Marks& marks) const;
-  bool image_is_sound(const Body& body) const;
+  bool is_sound_fixed(std::uint32_t number) const;
+  bool image_is_sound(std::uint32_t number) const;
   bool was_given_out(BodyId id) const;
 
   WorldDefinition definition_;
@@ -331,9 +293,15 @@ class World::Engine {
   double time_;
   std::size_t size_ = 0;
   std::vector<Body> bodies_;
+  std::vector<Box> boxes_;
+  std::vector<Change> changes_;
+  std::vector<Filter> filters_;  ///< of all bodies up to the last one that has another than the default
   std::vector<Marks> marks_;
   std::vector<Sketch> sketches_;  ///< of their bounds, until their boxes end; of no use while a body is dirty
   std::vector<Home> homes_;       ///< of their boxes, where space repeats
+  /// Where space repeats, whole numbers: bound.position + image * period is on the path since the caller
+  /// placed the body.
+  std::vector<Vec3> images_;
   std::vector<std::uint32_t> free_;
   std::vector<Shape> shapes_;  ///< of fixed bodies
   std::vector<std::uint32_t> free_shapes_;
@@ -362,12 +330,11 @@ class World::Engine {
 /// next one outward.
 template <class Visit>
 void World::Engine::for_each_threshold(std::uint32_t a, std::uint32_t b, Visit visit) const {
-  const BodyDefinition& first = bodies_[a].definition;
-  const BodyDefinition& second = bodies_[b].definition;
-  if (first.solid && second.solid) visit(Threshold{.within = book_.touch(a, b)});
+  if (bodies_[a].solid && bodies_[b].solid) visit(Threshold{.within = book_.touch(a, b)});
   if (!sensors_.any()) return;
   const auto crossed = [&](double distance) { return book_.is_within(a, b, distance); };
-  if (const auto next = sensors_.largest(first, second, crossed)) visit(Threshold{false, *next, true});
+  if (const auto next = sensors_.largest(sensing_of(a), sensing_of(b), crossed))
+    visit(Threshold{false, *next, true});
   if (const auto innermost = book_.innermost(a, b)) visit(Threshold{true, *innermost, true});
 }
 

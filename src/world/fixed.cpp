@@ -48,7 +48,8 @@ Shape World::Engine::as_kept(Shape shape) const {
 BodyId World::Engine::add_fixed(const FixedDefinition& definition) {
   const std::uint32_t number = take_number();
   Body& body = bodies_[number];
-  body.definition = body_of(definition);
+  const BodyDefinition at_rest = body_of(definition);
+  keep(number, at_rest);
   if (free_shapes_.empty()) {
     body.shape_number = static_cast<std::uint32_t>(shapes_.size());
     shapes_.push_back(definition.shape);
@@ -60,7 +61,7 @@ BodyId World::Engine::add_fixed(const FixedDefinition& definition) {
   filtering_ = true;
   book_.add(number, 0.0);
   book_.set_fixed(number);
-  body.bound = bound_now(body.definition);
+  body.bound = bound_now(at_rest);
   appear_fixed(number);
   return id_of(number);
 }
@@ -74,15 +75,15 @@ void World::Engine::appear_fixed(std::uint32_t number) {
 }
 
 /// Of a fixed body, with room for all that it senses around it.
-Box World::Engine::box_of(const Body& fixed) const {
-  const Vec3 room = Vec3{1.0, 1.0, 1.0} * sensors_.reach(fixed.definition.sensor_class);
-  const Box box = box_of(shapes_[fixed.shape_number]);
+Box World::Engine::box_of_fixed(std::uint32_t number) const {
+  const Vec3 room = Vec3{1.0, 1.0, 1.0} * sensors_.reach(bodies_[number].sensor_class);
+  const Box box = box_of(shape(number));
   return space_.within({box.lower - room, box.upper + room});
 }
 
 void World::Engine::register_shape(std::uint32_t number) {
-  bodies_[number].box = box_of(bodies_[number]);
-  grid_.set(number, bodies_[number].box);
+  boxes_[number] = box_of_fixed(number);
+  grid_.set(number, boxes_[number]);
 }
 
 }  // namespace kinesphere

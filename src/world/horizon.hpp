@@ -15,32 +15,25 @@ namespace kinesphere {
 /// cube, and it is least where D^2 = w^2 + (registration_cost + larger) / (4 density).
 class Horizon {
  public:
-  /// To be read into.
+  /// Of a body that has none yet, or to be read into.
   Horizon() = default;
-  /// Between these lengths the way is chosen: the longest is for a body that is alone, the shortest for one
-  /// among others at the same place, whom no smaller box would shut out.
-  Horizon(double first_way, double shortest_way, double longest_way)
-      : way_(std::clamp(first_way, shortest_way, longest_way)),
-        shortest_way_(shortest_way),
-        longest_way_(longest_way) {}
+  Horizon(double first_way, double contact_tolerance) : way_(possible(first_way, contact_tolerance)) {}
 
-  static Horizon of_new_body(double first_way, double contact_tolerance) {
-    return {first_way, 0x1p8 * contact_tolerance, 0x1p40 * contact_tolerance};
-  }
+  bool is_chosen() const { return way_ > 0.0; }
 
   /// Whether a box counts as `larger` beside one of the other extent.
   static bool is_larger(double extent, double than_extent) { return extent > 4.0 * than_extent; }
 
   /// Learns from a search with a box of this extent, and chooses the next way.
   void learn(std::size_t candidates, std::size_t larger, double box_extent, double body_width,
-             int dimensions = 3) {
-    const double reach = 2.0 * std::max(box_extent, shortest_way_);
+             double contact_tolerance, int dimensions = 3) {
+    const double reach = 2.0 * std::max(box_extent, shortest_way * contact_tolerance);
     const double size = dimensions == 2 ? reach * reach : reach * reach * reach;
     density_ += learning_rate * (static_cast<double>(candidates - larger) / size - density_);
     const double fixed_cost = registration_cost + static_cast<double>(larger);
     if (dimensions == 2) {
       const double best = std::sqrt(body_width * body_width + fixed_cost / (4.0 * density_));
-      way_ = std::clamp(std::clamp(best, 0.5 * way_, 2.0 * way_), shortest_way_, longest_way_);
+      way_ = possible(std::clamp(best, 0.5 * way_, 2.0 * way_), contact_tolerance);
       return;
     }
     const double w = body_width;
@@ -51,7 +44,7 @@ class Horizon {
       way -= excess / (6.0 * way * (way + w));
       way = std::clamp(way, 0.5 * way_, 2.0 * way_);
     }
-    way_ = std::clamp(way, shortest_way_, longest_way_);
+    way_ = possible(way, contact_tolerance);
   }
 
   /// The horizon (time) of a body with this speed and acceleration.
@@ -61,14 +54,13 @@ class Horizon {
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [way, shortest, longest_way, density] = self;
-    archive(way, shortest, longest_way, density);
+    auto& [way, density] = self;
+    archive(way, density);
   }
-  /// For one that was read: true when it could have been made and have learnt this.
+  /// For one that was read: true when it could have been chosen and have learnt this.
   bool is_sound(double contact_tolerance) const {
-    const Horizon made = of_new_body(way_, contact_tolerance);
-    return shortest_way_ == made.shortest_way_ && longest_way_ == made.longest_way_ && way_ == made.way_ &&
-           std::isfinite(way_) && density_ >= 0.0 && std::isfinite(density_);
+    return std::isfinite(way_) && way_ == possible(way_, contact_tolerance) && density_ >= 0.0 &&
+           std::isfinite(density_);
   }
 
  private:
@@ -76,11 +68,17 @@ class Horizon {
   static constexpr double learning_rate = 0.25;
   /// For a body at rest, in any unit of time: its horizon must be finite.
   static constexpr double longest = 0x1p100;
+  /// In contact tolerances: of a body among others at the same place, whom no smaller box would shut out.
+  static constexpr double shortest_way = 0x1p8;
+  /// In contact tolerances: of a body that is alone.
+  static constexpr double longest_way = 0x1p40;
 
-  double way_ = 0.0;
-  double shortest_way_ = 0.0;
-  double longest_way_ = 0.0;
-  double density_ = 0.0;
+  static double possible(double way, double contact_tolerance) {
+    return std::clamp(way, shortest_way * contact_tolerance, longest_way * contact_tolerance);
+  }
+
+  double way_ = 0.0;      ///< length; 0: none is chosen yet
+  double density_ = 0.0;  ///< bodies per volume, or per area in two dimensions
 };
 
 }  // namespace kinesphere

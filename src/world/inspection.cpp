@@ -32,11 +32,12 @@ class Stopwatch {
 Memory World::Engine::memory() const {
   Memory memory;
   memory.watches = heap_bytes(neighbours_);
-  memory.bodies = heap_bytes(bodies_);
+  memory.bodies = heap_bytes(bodies_, boxes_, changes_, filters_, marks_, sketches_, homes_, images_);
   memory.contacts = heap_bytes(book_);
   memory.grid = heap_bytes(grid_);
   memory.schedule = heap_bytes(schedule_);
-  memory.other = sizeof *this + heap_bytes(sensors_, free_, dirty_, probe_ids_, probe_states_, partners_);
+  memory.other = sizeof *this + heap_bytes(sensors_, free_, shapes_, free_shapes_, dirty_, probe_ids_,
+                                           probe_states_, partners_, round_, chosen_, unwatched_);
   return memory;
 }
 

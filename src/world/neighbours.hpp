@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -11,6 +12,8 @@
 #include <vector>
 
 namespace kinesphere {
+
+class HeapCounter;
 
 /// One side of a pair.
 struct Neighbour {
@@ -81,6 +84,7 @@ class Neighbours {
   static void transfer(Self& self, Archive& archive) {
     auto& [lists, stamps, stamp] = self;
     archive(lists);
+    if constexpr (std::same_as<Archive, HeapCounter>) archive(stamps);
     if constexpr (!std::is_const_v<Self>) stamps.assign(lists.size(), 0);
   }
   /// For those that were read: true when both sides of each pair know of each other, no pair is there twice,

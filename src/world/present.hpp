@@ -20,24 +20,29 @@ inline Place place_of(const Body& body, double now) {
   const double outer = bound.radius_at(now);
   const double size =
       norm_one(bound.position) + (norm_one(bound.velocity) + norm_one(bound.planned_acceleration) * s) * s;
-  const double deviation = outer - body.definition.radius + rounding::margin * (size + outer);
-  return {bound.centre_at(now), body.definition.radius + deviation, body.definition.radius - deviation};
+  const double deviation = outer - body.radius + rounding::margin * (size + outer);
+  return {bound.centre_at(now), body.radius + deviation, body.radius - deviation};
 }
 
 /// Contains the body from now on. A bound of a report before a kick, or before the body promised something
 /// else, tells only where the body is now and, but for a kick, how fast.
-inline Bound present_bound(const Body& body, double now) {
+inline Bound present_bound(const Body& body, const Change* change, double now) {
   const Bound& last = body.bound;
-  const BodyDefinition& promise = body.definition;
+  if (!change) return last;
+  const MotionPromise& promise = change->promise;
   const bool as_promised = last.growth_speed == promise.velocity_error &&
                            last.growth_acceleration == promise.acceleration_limit &&
                            last.planned_acceleration == promise.planned_acceleration;
-  if (as_promised && !body.kicked_since_report) return last;
+  if (as_promised && !change->kicked_to) return last;
   const Place place = place_of(body, now);
-  const Vec3 velocity = body.kicked_since_report ? promise.velocity : last.velocity_at(now);
-  Bound bound = bound_of(promise, {place.centre, velocity}, now);
-  bound.radius = place.outer;
-  if (!body.kicked_since_report) {
+  Bound bound{.time = now,
+              .position = place.centre,
+              .velocity = change->kicked_to.value_or(last.velocity_at(now)),
+              .planned_acceleration = promise.planned_acceleration,
+              .radius = place.outer,
+              .growth_speed = promise.velocity_error,
+              .growth_acceleration = promise.acceleration_limit};
+  if (!change->kicked_to) {
     const double s = now - last.time;
     const double speed =
         norm_one(last.velocity) + (norm_one(last.planned_acceleration) + last.growth_acceleration) * s;

@@ -74,13 +74,13 @@ void World::Engine::apply_report(std::uint32_t number, const State& answer) {
   State state = answer;
   if (space_.repeats())
     state.position += space_.shift_to_nearest(answer.position, body.bound.centre_at(time_));
-  const auto kicked_to = body.kicked_since_report ? std::optional(body.definition.velocity) : std::nullopt;
+  const BodyDefinition promise = definition_of(number);
+  const Change* change = change_since_report(number);
   const auto broken =
-      broken_promise(body.definition, body.bound, state, time_, kicked_to, definition_.contact_tolerance);
-  body.definition.position = state.position;
-  body.definition.velocity = state.velocity;
-  body.bound = bound_of(body.definition, state, time_);
-  body.kicked_since_report = false;
+      broken_promise(promise, body.bound, state, time_, change ? change->kicked_to : std::nullopt,
+                     definition_.contact_tolerance);
+  body.bound = bound_of(promise, state, time_);
+  forget_change(number);
   sketches_[number] = sketch_of(body);
   if (!broken) return;
   const Event violation = violation_event(time_, id_of(number),

@@ -176,7 +176,8 @@ bool World::Engine::lookout_tells_all(std::uint32_t number, std::uint32_t partne
   if (!sensors_.any()) return true;
   const Body& a = bodies_[number];
   const Body& b = bodies_[partner];
-  return sensors_.largest(a.definition, b.definition, [](double) { return false; }) == reach_of_pair(a, b);
+  const auto sensed = sensors_.largest(sensing_of(number), sensing_of(partner), [](double) { return false; });
+  return sensed == reach_of_pair(a, b);
 }
 
 /// Records a fact about a body and a neighbour that cannot be left alone, probing them as far as that needs.
@@ -216,7 +217,7 @@ bool World::Engine::look_at_pair(std::uint32_t number, Neighbours::Place place, 
   const double certificate_end = facts_end_with_boxes() ? boxes_end : infinity;
   const Horizons horizons{boxes_end, certificate_end};
   const bool fresh = a.fresh(time_) && b.fresh(time_);
-  const Promise sum{a.definition.velocity_error + b.definition.velocity_error,
+  const Promise sum{a.bound.growth_speed + b.bound.growth_speed,
                     a.largest_acceleration() + b.largest_acceleration()};
   std::optional<double> next_look = infinity;
   for_each_threshold(number, partner, [&](const Threshold& threshold) {
@@ -255,7 +256,7 @@ std::optional<double> World::Engine::judge(const Outlook<Partner>& outlook, cons
 /// Records how long no wall contact of the body can begin or end.
 Result<void> World::Engine::settle_walls(std::uint32_t number) {
   const bool touches = book_.walls_of(number) != 0;
-  if (!walls_ || (!touches && lies_inside(bodies_[number].box, *walls_))) {
+  if (!walls_ || (!touches && lies_inside(boxes_[number], *walls_))) {
     bodies_[number].wall_time = infinity;
     return {};
   }
@@ -276,7 +277,7 @@ Result<void> World::Engine::settle_walls(std::uint32_t number) {
 /// anything before its box ends.
 double World::Engine::judge_walls(std::uint32_t number) {
   const Body& body = bodies_[number];
-  const Promise promise{body.definition.velocity_error, body.largest_acceleration()};
+  const Promise promise{body.bound.growth_speed, body.largest_acceleration()};
   const Box near = walls_in_reach(book_.rule(), body.bound, *walls_, time_, body.box_end);
   double first = infinity;
   for (const Wall wall : walls) {

@@ -62,11 +62,12 @@ template <class Self, class Archive>
 void World::Engine::transfer(Self& self, Archive& archive) {
   // The definition comes first, as an engine is made from it, space and walls too; the last matter only
   // during advance().
-  auto& [definition, space, enclosure, book, time, size, bodies, marks, sketches, homes, free, shapes,
-         free_shapes, grid, neighbours, schedule, dirty, counters, sensors, pair_filter, filtering, gathering,
-         probe, probing_call, probing, probe_ids, probe_states, partners, round, chosen, unwatched] = self;
-  archive(book, time, size, bodies, marks, free, shapes, free_shapes, grid, neighbours, schedule, dirty,
-          counters, sensors, filtering, gathering);
+  auto& [definition, space, enclosure, book, time, size, bodies, boxes, changes, filters, marks, sketches,
+         homes, images, free, shapes, free_shapes, grid, neighbours, schedule, dirty, counters, sensors,
+         pair_filter, filtering, gathering, probe, probing_call, probing, probe_ids, probe_states, partners,
+         round, chosen, unwatched] = self;
+  archive(book, time, size, bodies, boxes, changes, filters, marks, images, free, shapes, free_shapes, grid,
+          neighbours, schedule, dirty, counters, sensors, filtering, gathering);
 }
 
 std::vector<std::byte> World::Engine::save() const {
@@ -106,7 +107,7 @@ Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const st
 const char* World::Engine::contradiction() const {
   if (!std::isfinite(time_)) return "time";
   if (!shapes_are_sound()) return "shapes";
-  if (!bodies_are_sound()) return "bodies";
+  if (!changes_are_sound() || !bodies_are_sound()) return "bodies";
   for (int number = 0; number <= std::numeric_limits<SensorClass>::max(); ++number)
     if (!check_sensor(sensors_.of(static_cast<SensorClass>(number)), definition_)) return "sensors";
   const auto known = [this](BodyId id) { return was_given_out(id); };
@@ -187,21 +188,34 @@ bool World::Engine::contacts_of_fixed_are_sound() const {
 }
 
 /// It must be as it was made.
-bool World::Engine::is_sound_fixed(const Body& body, const Marks& marks) const {
-  const Shape& shape = shapes_[body.shape_number];
-  if (!check_shape(shape, definition_, "restore")) return false;
-  const BodyDefinition made = body_of({shape, body.definition.filter, body.definition.solid,
-                                       body.definition.sensor_class, body.definition.user_data});
-  return same(body.definition, made) &&
+bool World::Engine::is_sound_fixed(std::uint32_t number) const {
+  const Body& body = bodies_[number];
+  const Marks& marks = marks_[number];
+  if (!check_shape(shape(number), definition_, "restore")) return false;
+  const BodyDefinition made = body_of(fixed_definition(id_of(number)));
+  return same(definition_of(number), made) &&
          same(body.bound, bound_of(made, {made.position, {}}, body.bound.time)) && body.bound.time <= time_ &&
-         std::isfinite(body.bound.time) && (!body.enabled || same(body.box, box_of(body))) &&
+         std::isfinite(body.bound.time) && (!body.enabled || same(boxes_[number], box_of_fixed(number))) &&
          body.box_end == infinity && body.wall_time == infinity && body.look_time == infinity &&
-         !body.horizon && !marks.settled && !body.kicked_since_report && !(marks.dirty && !body.enabled);
+         !body.horizon.is_chosen() && !marks.settled && body.change_number == Body::none &&
+         !(marks.dirty && !body.enabled);
+}
+
+/// Each change is that of one body, which lives.
+bool World::Engine::changes_are_sound() const {
+  const auto has = [this](const Body& body) { return body.change_number != Body::none; };
+  for (std::uint32_t change = 0; change < changes_.size(); ++change) {
+    const std::uint32_t number = changes_[change].body;
+    if (number >= bodies_.size() || bodies_[number].change_number != change || !bodies_[number].alive)
+      return false;
+  }
+  return std::count_if(bodies_.begin(), bodies_.end(), has) == std::ssize(changes_);
 }
 
 bool World::Engine::bodies_are_sound() const {
   const auto count = bodies_.size();
-  if (marks_.size() != count) return false;
+  if (boxes_.size() != count || marks_.size() != count || filters_.size() > count) return false;
+  if (images_.size() != (space_.repeats() ? count : 0)) return false;
   std::vector<bool> is_free(count, false);
   std::vector<bool> is_listed(count, false);
   for (const std::uint32_t number : free_) {
@@ -215,35 +229,41 @@ bool World::Engine::bodies_are_sound() const {
   for (std::size_t number = 0; number < count; ++number) {
     const Body& body = bodies_[number];
     if (body.alive == is_free[number] || (marks_[number].dirty && !is_listed[number]) ||
-        !is_sound(body, marks_[number]))
+        !is_sound(static_cast<std::uint32_t>(number)))
       return false;
   }
   return size_ + free_.size() == count;
 }
 
-bool World::Engine::is_sound(const Body& body, const Marks& marks) const {
-  if (body.is_fixed()) return is_sound_fixed(body, marks);
+bool World::Engine::is_sound(std::uint32_t number) const {
+  const Body& body = bodies_[number];
+  const Marks& marks = marks_[number];
+  if (body.is_fixed()) return is_sound_fixed(number);
   if (marks.settled) return false;
   // An index that is free is as its next body will find it.
-  if (!body.alive) return !marks.dirty && !body.kicked_since_report && !body.horizon;
+  if (!body.alive) return !marks.dirty && !body.horizon.is_chosen();
   WorldDefinition unbounded = definition_;
   unbounded.box.reset();
-  if (!check_body(body.definition, unbounded, "restore") ||
-      !check_radius(body.definition, no_body, definition_, "restore") ||
-      !kinesphere::is_sound(body.bound, time_, unbounded) || !kinesphere::is_sound(body.box) ||
-      !image_is_sound(body))
+  const BodyDefinition definition = definition_of(number);
+  if (!check_body(definition, unbounded, "restore") ||
+      !check_radius(definition, no_body, definition_, "restore") ||
+      !kinesphere::is_sound(body.bound, time_, unbounded) || !kinesphere::is_sound(boxes_[number]) ||
+      !image_is_sound(number))
     return false;
-  if (!body.enabled) return !marks.dirty && !body.kicked_since_report;
+  if (!body.enabled) return !marks.dirty;
+  // Before time moves on there is a report.
+  if (body.change_number != Body::none && !marks.dirty) return false;
   if (!std::isfinite(body.box_end) || body.box_end < time_ || std::isnan(body.wall_time) ||
       std::isnan(body.look_time))
     return false;
-  return body.horizon ? body.horizon->is_sound(definition_.contact_tolerance) : marks.dirty;
+  return body.horizon.is_chosen() ? body.horizon.is_sound(definition_.contact_tolerance) : marks.dirty;
 }
 
 /// Whole numbers, and none on axes that do not repeat.
-bool World::Engine::image_is_sound(const Body& body) const {
+bool World::Engine::image_is_sound(std::uint32_t number) const {
+  if (!space_.repeats()) return true;
   for (int axis = 0; axis < 3; ++axis) {
-    const double images = body.image[axis];
+    const double images = images_[number][axis];
     if (!(std::abs(images) <= 0x1p62) || std::floor(images) != images) return false;
     if (!space_.repeats(axis) && images != 0.0) return false;
   }

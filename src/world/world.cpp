@@ -61,7 +61,7 @@ Result<void> World::check_room(const BodyDefinition& body, BodyId id, std::strin
 
 /// Whether the body may be in this state now.
 Result<void> World::check_moved(BodyId id, const State& state, std::string_view call) const {
-  BodyDefinition moved = engine_->table()[id.index].definition;
+  BodyDefinition moved = engine_->definition_of(id.index);
   if (auto valid = check_state(state, moved, id, definition(), call); !valid) return valid;
   moved.position = state.position;
   moved.velocity = state.velocity;
@@ -82,7 +82,7 @@ Result<void> World::check_growth(const BodyDefinition& changed, BodyId id, std::
                      " must keep the whole sphere in the box, but it would overlap the wall " +
                      std::string(name_of(*wall))};
   }
-  if (const auto other = engine_->certain_overlap(id, {bound}, body.definition))
+  if (const auto other = engine_->certain_overlap(id, {bound}, changed))
     return overlap_error(call, *other, text_of(*other), argument);
   return {};
 }
@@ -186,7 +186,7 @@ Result<void> World::disable(BodyId body) {
 Result<void> World::set_radius(BodyId body, double radius) {
   auto valid = check_moving(body, "set_radius");
   if (!valid) return valid;
-  BodyDefinition changed = engine_->table()[body.index].definition;
+  BodyDefinition changed = engine_->definition_of(body.index);
   changed.radius = radius;
   valid = check_radius(changed, body, definition(), "set_radius");
   if (valid) valid = check_growth(changed, body, "radius", "set_radius");
@@ -197,7 +197,7 @@ Result<void> World::set_radius(BodyId body, double radius) {
 Result<void> World::set_promise(BodyId body, const MotionPromise& promise) {
   auto valid = check_moving(body, "set_promise");
   if (!valid) return valid;
-  const BodyDefinition changed = with_promise(engine_->table()[body.index].definition, promise);
+  const BodyDefinition changed = with_promise(engine_->definition_of(body.index), promise);
   valid = check_promise(changed, body, definition(), "set_promise");
   if (valid) valid = check_growth(changed, body, "position_error", "set_promise");
   if (valid) changing(step::SetPromise{body, promise}).set_promise(body, promise);
@@ -233,7 +233,7 @@ Result<void> World::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
   auto valid = first_error(check_idle(engine_->probing(), "set_sensor"), check_sensor(sensor, definition()));
   const double reach = reach_of(sensor);
   for (const BodyId id : bodies()) {
-    const BodyDefinition& body = engine_->table()[id.index].definition;
+    const BodyDefinition body = engine_->definition_of(id.index);
     if (valid && body.sensor_class == sensor_class)
       valid = kinesphere::check_reach(reach, body, id, "sensor", definition(), "set_sensor");
   }
@@ -244,7 +244,7 @@ Result<void> World::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
 Result<void> World::set_sensor_class(BodyId body, SensorClass sensor_class) {
   auto valid = check_call(body, "set_sensor_class");
   if (!valid) return valid;
-  BodyDefinition changed = engine_->table()[body.index].definition;
+  BodyDefinition changed = engine_->definition_of(body.index);
   changed.sensor_class = sensor_class;
   valid = check_reach(changed, body, "sensor_class", "set_sensor_class");
   if (valid) changing(step::SetSensorClass{body, sensor_class}).set_sensor_class(body, sensor_class);
@@ -261,7 +261,7 @@ Result<void> World::set_user_data(BodyId body, std::uint64_t data) {
 
 Result<std::uint64_t> World::user_data(BodyId body) const {
   if (auto valid = check_alive(body, "user_data"); !valid) return valid.error();
-  return engine_->table()[body.index].definition.user_data;
+  return engine_->table()[body.index].user_data;
 }
 
 Result<std::optional<Event>> World::advance(double until, Probe probe) {

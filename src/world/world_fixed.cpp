@@ -65,8 +65,8 @@ Result<std::vector<BodyId>> World::add_fixed_all(std::span<const FixedDefinition
 Result<Shape> World::shape_of(BodyId body) const {
   if (auto valid = check_alive(body, "shape_of"); !valid) return valid.error();
   if (engine_->table()[body.index].is_fixed()) return engine_->shape(body.index);
-  const BodyDefinition& moving = engine_->table()[body.index].definition;
-  return Shape(Ball{moving.position, moving.radius});
+  const Body& moving = engine_->table()[body.index];
+  return Shape(Ball{moving.bound.position, moving.radius});
 }
 
 }  // namespace kinesphere

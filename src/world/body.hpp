@@ -1,0 +1,82 @@
+// A body as the engine keeps it.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "kinesphere/body.hpp"
+#include "kinesphere/bound.hpp"
+#include "world/horizon.hpp"
+
+namespace kinesphere {
+
+/// What the bound tells is not kept again: the state of the last report and, but for position_error, the
+/// promise. What others need to know of a body to settle a pair comes first, in two cache lines of three.
+struct alignas(64) Body {
+  /// In place of a number in a table.
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+  Bound bound{};           ///< since the last report
+  double box_end = 0.0;    ///< the body stays in its box until then
+  double wall_time = 0.0;  ///< no wall contact begins or ends before this or, if it is infinite, box_end
+  double look_time = std::numeric_limits<double>::infinity();  ///< of the next look around
+
+  bool alive = false;
+  bool enabled = true;
+  bool turned = false;  ///< kicked since its box was made
+  // As in BodyDefinition.
+  bool solid = true;
+  SensorClass sensor_class = 0;
+  std::uint32_t shape_number = none;   ///< in the table of the shapes of fixed bodies
+  std::uint32_t change_number = none;  ///< in the table of changes
+  std::uint32_t generation = 0;
+  double radius = 0.0;
+  double position_error = 0.0;
+  std::uint64_t user_data = 0;
+  Horizon horizon{};
+
+  bool present() const { return alive && enabled; }
+  bool is_fixed() const { return shape_number != none; }
+  /// The world knows its present state.
+  bool fresh(double time) const { return bound.time == time || is_fixed(); }
+  double largest_acceleration() const { return bound.growth_acceleration + norm(bound.planned_acceleration); }
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [since_report, place_end, walls_until, looks_at, lives, takes_part, turns, touches, senses_as,
+           own_shape, own_change, own_generation, size, error, data, ahead] = self;
+    archive(since_report, place_end, walls_until, looks_at, lives, takes_part, turns, touches, senses_as,
+            own_shape, own_change, own_generation, size, error, data, ahead);
+  }
+};
+static_assert(sizeof(Body) == 192);
+
+/// What the caller has changed about a body since its last report; the next report, or its return after it
+/// was disabled, puts it into force.
+struct Change {
+  std::uint32_t body = 0;
+  std::optional<Vec3> kicked_to{};  ///< its velocity
+  MotionPromise promise{};
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [whose, velocity, promised] = self;
+    archive(whose, velocity, promised);
+  }
+};
+
+/// How far settling a body has come.
+struct Marks {
+  bool dirty = false;    ///< in the list of those to settle before time moves on
+  bool settled = false;  ///< in the present round
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [unsettled, is_settled] = self;
+    archive(unsettled, is_settled);
+  }
+};
+
+}  // namespace kinesphere
