@@ -30,6 +30,13 @@ class HashGrid {
   void remove(std::uint32_t body);
   bool contains(std::uint32_t body) const { return body < places_.size() && places_[body].level >= 0; }
   std::size_t size() const { return size_; }
+  /// Each body that was ever registered has a number below this.
+  std::size_t numbers() const { return places_.size(); }
+  /// Of a body that is registered, or was: its box, rounded outward to single precision.
+  Box box(std::uint32_t body) const {
+    const auto& [lower, upper] = places_[body].box;
+    return {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}};
+  }
   /// Of the cells on the finest level in use: about four times the typical box (length).
   double finest_edge() const { return std::ldexp(1.0, finest_exponent_); }
 

@@ -92,7 +92,7 @@ class World::Engine::Audit {
 
   void check_fixed(std::uint32_t number) {
     const Body& b = body(number);
-    if (!(engine_.box(number) == engine_.box_of_fixed(number)) || b.box_end != infinity)
+    if (FloatBox(engine_.box(number)) != FloatBox(engine_.box_of_fixed(number)) || b.box_end != infinity)
       find("registration", name(number) + " is fixed but not registered where its shape is");
     for (const Neighbour& one : engine_.neighbours_.of(number))
       if (one.watches()) find("certificate", name(number) + " is fixed but watches another");

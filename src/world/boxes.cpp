@@ -31,9 +31,10 @@ void World::Engine::choose_first_horizons(const std::vector<std::uint32_t>& roun
   for (const std::uint32_t number : round) {
     if (bodies_[number].horizon.is_chosen() || bodies_[number].is_fixed()) continue;
     ++count;
+    const Box own = box(number);
     for (int axis = 0; axis < 3; ++axis) {
-      lower[axis] = std::min(lower[axis], boxes_[number].lower[axis]);
-      upper[axis] = std::max(upper[axis], boxes_[number].upper[axis]);
+      lower[axis] = std::min(lower[axis], own.lower[axis]);
+      upper[axis] = std::max(upper[axis], own.upper[axis]);
     }
   }
   if (count == 0) return;
@@ -83,7 +84,7 @@ Box World::Engine::box_of_way(const MovedBound& moved, double length) const {
 bool World::Engine::keep_box(std::uint32_t number) {
   Body& body = bodies_[number];
   if (body.is_fixed() || body.box_end <= time_) return false;
-  const Box& box = boxes_[number];
+  const Box box = this->box(number);
   const MovedBound moved(reach(body), time_);
   double length = box_length(body);
   for (int attempt = 0; attempt < most_lengths_tried; ++attempt, length *= 0.75) {
@@ -102,10 +103,13 @@ void World::Engine::register_box(std::uint32_t number) {
   Body& body = bodies_[number];
   if (body.is_fixed()) return register_shape(number);
   body.box_end = just_after(time_ + (body.turned ? turned_part : 1.0) * box_length(body));
-  boxes_[number] = box_until_end(body);
-  bring_home(number);
+  set_box(number, bring_home(number, box_until_end(body)));
   body.turned = false;
-  grid_.set(number, boxes_[number]);
+}
+
+void World::Engine::set_box(std::uint32_t number, const Box& box) {
+  if (space_.repeats()) boxes_[number] = box;
+  grid_.set(number, box);
 }
 
 /// As others see it at a glance, until its box ends. A fixed body needs a closer look.
@@ -143,14 +147,14 @@ Box World::Engine::box_until_end(const Body& body) const {
   return space_.within(box);
 }
 
-/// Moves the body to the image in which the centre of its box lies in the primary box.
-void World::Engine::bring_home(std::uint32_t number) {
-  if (!space_.repeats()) return;
-  const Vec3 images = space_.wrapped(centre_of(boxes_[number])).images;
-  if (images == Vec3{}) return;
+/// Moves the body to the image in which the centre of its box lies in the primary box. Returns the box there.
+Box World::Engine::bring_home(std::uint32_t number, const Box& box) {
+  if (!space_.repeats()) return box;
+  const Vec3 images = space_.wrapped(centre_of(box)).images;
+  if (images == Vec3{}) return box;
   bodies_[number].bound.position -= space_.shift_of(images);
   images_[number] += images;
-  boxes_[number] = box_until_end(bodies_[number]);
+  return box_until_end(bodies_[number]);
 }
 
 /// How wide the box of a body may be on an axis that repeats, by space/space.hpp (2); a little less, for
@@ -180,7 +184,7 @@ double World::Engine::longest_in_period(const Body& body, double length) const {
 
 /// What brings body b to the image in which body a may meet it while both boxes last: nearest by their boxes.
 Vec3 World::Engine::shift_to_meet(std::uint32_t a, std::uint32_t b) const {
-  return space_.shift_between_homes(centre_of(boxes_[b]), centre_of(boxes_[a]));
+  return space_.shift_between_homes(centre_of(box(b)), centre_of(box(a)));
 }
 
 /// The bound of body b as body a has to reckon with it, where space repeats.
@@ -194,12 +198,13 @@ Bound World::Engine::seen_from(std::uint32_t a, std::uint32_t b) const {
 void World::Engine::find_neighbours(std::uint32_t number) {
   ++counters_.searches;
   Body& body = bodies_[number];
-  const double extent = width_of(boxes_[number]);
+  const Box box = this->box(number);
+  const double extent = width_of(box);
   std::size_t larger = 0;
   partners_ = book_.partners_of(number);
   for (const Crossing& crossing : book_.crossings_of(number)) partners_.push_back(crossing.partner);
   const std::size_t known = partners_.size();
-  space_.for_each_overlap(grid_, boxes_[number], [&](std::uint32_t other, double extent_of_other) {
+  space_.for_each_overlap(grid_, box, [&](std::uint32_t other, double extent_of_other) {
     if (other == number) return;
     partners_.push_back(other);
     if (Horizon::is_larger(extent_of_other, extent)) ++larger;

@@ -21,10 +21,10 @@ std::uint32_t World::Engine::take_number() {
   if (free_.empty()) {
     number = static_cast<std::uint32_t>(bodies_.size());
     bodies_.emplace_back();
-    boxes_.emplace_back();
     marks_.emplace_back();
     sketches_.emplace_back();
     if (space_.repeats()) {
+      boxes_.emplace_back();
       homes_.emplace_back();
       images_.emplace_back();
     }
@@ -68,9 +68,7 @@ void World::Engine::appear(std::uint32_t number, const Bound& bound) {
   Body& body = bodies_[number];
   body.bound = bound;
   body.box_end = time_;
-  boxes_[number] = box_now(bound);
-  bring_home(number);
-  grid_.set(number, boxes_[number]);
+  set_box(number, bring_home(number, box_now(bound)));
   mark_dirty(number);
 }
 
@@ -142,13 +140,13 @@ BodyDefinition World::Engine::definition_of(std::uint32_t number) const {
 BodyView World::Engine::view(std::uint32_t number) const {
   const Body& body = bodies_[number];
   BodyView view{
-      definition_of(number), body.bound,     boxes_[number], std::min(body.box_end, body.look_time), {},
+      definition_of(number), body.bound,     box(number), std::min(body.box_end, body.look_time), {},
       body.enabled,          body.is_fixed()};
   if (!space_.repeats()) return view;
   const auto [position, images] = space_.wrapped(body.bound.position);
   const Vec3 shift = space_.shift_of(images);
   view.definition.position = view.bound.position = position;
-  view.box = {boxes_[number].lower - shift, boxes_[number].upper - shift};
+  view.box = {view.box.lower - shift, view.box.upper - shift};
   for (int axis = 0; axis < 3; ++axis) {
     constexpr double limit = 0x1p62;
     view.image[static_cast<std::size_t>(axis)] =

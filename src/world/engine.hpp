@@ -98,7 +98,7 @@ class World::Engine {
     return number < filters_.size() ? filters_[number] : none;
   }
   /// Contains the body, and all that it senses.
-  const Box& box(std::uint32_t number) const { return boxes_[number]; }
+  Box box(std::uint32_t number) const { return space_.repeats() ? boxes_[number] : grid_.box(number); }
   const Space& space() const { return space_; }
   /// Where a body with this definition would be now.
   Bound bound_now(const BodyDefinition& body) const;
@@ -210,7 +210,8 @@ class World::Engine {
   bool keep_box(std::uint32_t number);
   void register_box(std::uint32_t number);
   void find_neighbours(std::uint32_t number);
-  void bring_home(std::uint32_t number);
+  void set_box(std::uint32_t number, const Box& box);
+  Box bring_home(std::uint32_t number, const Box& box);
   Box box_of_way(const MovedBound& moved, double length) const;
   Box box_until_end(const Body& body) const;
   double widest_in_period(const Body& body, int axis) const;
@@ -283,6 +284,7 @@ class World::Engine {
   bool changes_are_sound() const;
   bool contacts_of_fixed_are_sound() const;
   bool is_sound_fixed(std::uint32_t number) const;
+  bool box_is_sound(std::uint32_t number) const;
   bool image_is_sound(std::uint32_t number) const;
   bool was_given_out(BodyId id) const;
 
@@ -293,13 +295,14 @@ class World::Engine {
   double time_;
   std::size_t size_ = 0;
   std::vector<Body> bodies_;
-  std::vector<Box> boxes_;
   std::vector<Change> changes_;
   std::vector<Filter> filters_;  ///< of all bodies up to the last one that has another than the default
   std::vector<Marks> marks_;
   std::vector<Sketch> sketches_;  ///< of their bounds, until their boxes end; of no use while a body is dirty
-  std::vector<Home> homes_;       ///< of their boxes, where space repeats
-  /// Where space repeats, whole numbers: bound.position + image * period is on the path since the caller
+  // Where space repeats.
+  std::vector<Box> boxes_;   ///< to the last digit: elsewhere the grid has them, rounded outward
+  std::vector<Home> homes_;  ///< of the boxes
+  /// Whole numbers: bound.position + image * period is on the path since the caller
   /// placed the body.
   std::vector<Vec3> images_;
   std::vector<std::uint32_t> free_;

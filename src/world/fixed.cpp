@@ -81,9 +81,6 @@ Box World::Engine::box_of_fixed(std::uint32_t number) const {
   return space_.within({box.lower - room, box.upper + room});
 }
 
-void World::Engine::register_shape(std::uint32_t number) {
-  boxes_[number] = box_of_fixed(number);
-  grid_.set(number, boxes_[number]);
-}
+void World::Engine::register_shape(std::uint32_t number) { set_box(number, box_of_fixed(number)); }
 
 }  // namespace kinesphere

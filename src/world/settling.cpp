@@ -256,7 +256,7 @@ std::optional<double> World::Engine::judge(const Outlook<Partner>& outlook, cons
 /// Records how long no wall contact of the body can begin or end.
 Result<void> World::Engine::settle_walls(std::uint32_t number) {
   const bool touches = book_.walls_of(number) != 0;
-  if (!walls_ || (!touches && lies_inside(boxes_[number], *walls_))) {
+  if (!walls_ || (!touches && lies_inside(box(number), *walls_))) {
     bodies_[number].wall_time = infinity;
     return {};
   }

@@ -62,11 +62,11 @@ template <class Self, class Archive>
 void World::Engine::transfer(Self& self, Archive& archive) {
   // The definition comes first, as an engine is made from it, space and walls too; the last matter only
   // during advance().
-  auto& [definition, space, enclosure, book, time, size, bodies, boxes, changes, filters, marks, sketches,
+  auto& [definition, space, enclosure, book, time, size, bodies, changes, filters, marks, sketches, boxes,
          homes, images, free, shapes, free_shapes, grid, neighbours, schedule, dirty, counters, sensors,
          pair_filter, filtering, gathering, probe, probing_call, probing, probe_ids, probe_states, partners,
          round, chosen, unwatched] = self;
-  archive(book, time, size, bodies, boxes, changes, filters, marks, images, free, shapes, free_shapes, grid,
+  archive(book, time, size, bodies, changes, filters, marks, boxes, images, free, shapes, free_shapes, grid,
           neighbours, schedule, dirty, counters, sensors, filtering, gathering);
 }
 
@@ -115,12 +115,12 @@ const char* World::Engine::contradiction() const {
     return "contacts";
   const auto present = static_cast<std::size_t>(
       std::count_if(bodies_.begin(), bodies_.end(), [](const Body& body) { return body.present(); }));
-  if (!grid_.is_sound() || grid_.size() != present) return "grid";
+  if (!grid_.is_sound() || grid_.size() != present || grid_.numbers() != bodies_.size()) return "grid";
   if (!neighbours_.is_sound(bodies_.size()) || !neighbours_are_sound()) return "neighbours";
   if (!schedule_.is_sound(bodies_.size()) || schedule_.next_time() < time_) return "schedule";
   for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
     const bool takes_part = bodies_[number].present();
-    if (grid_.contains(number) != takes_part) return "grid";
+    if (grid_.contains(number) != takes_part || (takes_part && !box_is_sound(number))) return "grid";
     if (!takes_part && schedule_.time_of(number) < infinity) return "schedule";
     if (!takes_part && (!book_.partners_of(number).empty() || !book_.crossings_of(number).empty() ||
                         book_.walls_of(number) != 0))
@@ -195,10 +195,9 @@ bool World::Engine::is_sound_fixed(std::uint32_t number) const {
   const BodyDefinition made = body_of(fixed_definition(id_of(number)));
   return same(definition_of(number), made) &&
          same(body.bound, bound_of(made, {made.position, {}}, body.bound.time)) && body.bound.time <= time_ &&
-         std::isfinite(body.bound.time) && (!body.enabled || same(boxes_[number], box_of_fixed(number))) &&
-         body.box_end == infinity && body.wall_time == infinity && body.look_time == infinity &&
-         !body.horizon.is_chosen() && !marks.settled && body.change_number == Body::none &&
-         !(marks.dirty && !body.enabled);
+         std::isfinite(body.bound.time) && body.box_end == infinity && body.wall_time == infinity &&
+         body.look_time == infinity && !body.horizon.is_chosen() && !marks.settled &&
+         body.change_number == Body::none && !(marks.dirty && !body.enabled);
 }
 
 /// Each change is that of one body, which lives.
@@ -214,8 +213,9 @@ bool World::Engine::changes_are_sound() const {
 
 bool World::Engine::bodies_are_sound() const {
   const auto count = bodies_.size();
-  if (boxes_.size() != count || marks_.size() != count || filters_.size() > count) return false;
-  if (images_.size() != (space_.repeats() ? count : 0)) return false;
+  const std::size_t where_space_repeats = space_.repeats() ? count : 0;
+  if (marks_.size() != count || filters_.size() > count) return false;
+  if (boxes_.size() != where_space_repeats || images_.size() != where_space_repeats) return false;
   std::vector<bool> is_free(count, false);
   std::vector<bool> is_listed(count, false);
   for (const std::uint32_t number : free_) {
@@ -247,8 +247,7 @@ bool World::Engine::is_sound(std::uint32_t number) const {
   const BodyDefinition definition = definition_of(number);
   if (!check_body(definition, unbounded, "restore") ||
       !check_radius(definition, no_body, definition_, "restore") ||
-      !kinesphere::is_sound(body.bound, time_, unbounded) || !kinesphere::is_sound(boxes_[number]) ||
-      !image_is_sound(number))
+      !kinesphere::is_sound(body.bound, time_, unbounded) || !image_is_sound(number))
     return false;
   if (!body.enabled) return !marks.dirty;
   // Before time moves on there is a report.
@@ -257,6 +256,13 @@ bool World::Engine::is_sound(std::uint32_t number) const {
       std::isnan(body.look_time))
     return false;
   return body.horizon.is_chosen() ? body.horizon.is_sound(definition_.contact_tolerance) : marks.dirty;
+}
+
+/// For one that is in the grid.
+bool World::Engine::box_is_sound(std::uint32_t number) const {
+  const Box exact = bodies_[number].is_fixed() ? box_of_fixed(number) : box(number);
+  if (space_.repeats() && !(kinesphere::is_sound(exact) && same(exact, boxes_[number]))) return false;
+  return FloatBox(grid_.box(number)) == FloatBox(exact);
 }
 
 /// Whole numbers, and none on axes that do not repeat.

@@ -26,7 +26,7 @@ TEST(Memory, GrowsWithTheBodiesAndBelongsToParts) {
   const Memory memory = crowd.world.memory();
   const std::size_t count = crowd.world.size();
   // What each part needs at least.
-  EXPECT_GE(memory.bodies, count * sizeof(BodyView));
+  EXPECT_GE(memory.bodies, count * sizeof(Bound));
   EXPECT_GE(memory.watches, crowd.world.certificates().size() * 16);
   EXPECT_GE(memory.contacts, count * 24);
   EXPECT_GE(memory.grid, count * 2 * 28);
