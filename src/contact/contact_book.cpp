@@ -8,23 +8,24 @@ namespace kinesphere {
 
 void ContactBook::add(std::uint32_t body, double largest_acceleration) {
   if (body >= entries_.size()) entries_.resize(body + 1);
-  entries_[body] =
-      Entry{.partners = {}, .crossings = {}, .zeno_interval = rule_.zeno_interval(largest_acceleration)};
+  entries_[body] = Entry{.zeno_interval = rule_.zeno_interval(largest_acceleration)};
+  partners_.clear(body);
+  crossings_.clear(body);
 }
 
 bool ContactBook::touch(std::uint32_t a, std::uint32_t b) const {
-  const auto& partners = entries_[a].partners;
+  const auto partners = partners_of(a);
   return std::find(partners.begin(), partners.end(), b) != partners.end();
 }
 
 bool ContactBook::is_within(std::uint32_t a, std::uint32_t b, double distance) const {
-  const auto& crossings = entries_[a].crossings;
+  const auto crossings = crossings_of(a);
   return std::find(crossings.begin(), crossings.end(), Crossing{b, distance}) != crossings.end();
 }
 
 std::optional<double> ContactBook::innermost(std::uint32_t a, std::uint32_t b) const {
   std::optional<double> least;
-  for (const Crossing& crossing : entries_[a].crossings)
+  for (const Crossing& crossing : crossings_of(a))
     if (crossing.partner == b && (!least || crossing.distance < *least)) least = crossing.distance;
   return least;
 }
@@ -41,24 +42,24 @@ void ContactBook::set_touching(const Event& contact, bool touching) {
     const Crossing of_a{b, contact.distance};
     const Crossing of_b{a, contact.distance};
     if (touching) {
-      entries_[a].crossings.push_back(of_a);
-      entries_[b].crossings.push_back(of_b);
+      crossings_.add(a, of_a);
+      crossings_.add(b, of_b);
     } else {
-      std::erase(entries_[a].crossings, of_a);
-      std::erase(entries_[b].crossings, of_b);
+      crossings_.erase(a, of_a);
+      crossings_.erase(b, of_b);
     }
   } else if (touching) {
-    entries_[a].partners.push_back(b);
-    entries_[b].partners.push_back(a);
+    partners_.add(a, b);
+    partners_.add(b, a);
   } else {
-    std::erase(entries_[a].partners, b);
-    std::erase(entries_[b].partners, a);
+    partners_.erase(a, b);
+    partners_.erase(b, a);
   }
 }
 
 void ContactBook::release_all(std::uint32_t body) {
-  for (const std::uint32_t partner : entries_[body].partners) std::erase(entries_[partner].partners, body);
-  entries_[body].partners.clear();
+  for (const std::uint32_t partner : partners_of(body)) partners_.erase(partner, body);
+  partners_.clear(body);
   entries_[body].walls = 0;
 }
 
@@ -142,11 +143,11 @@ bool ContactBook::contacts_are_sound(const std::optional<Box>& box) const {
     for (const Wall wall : walls)
       if (box && stands(*box, wall)) standing = static_cast<std::uint8_t>(standing | wall_bit(wall));
     if ((entry.walls & ~standing) != 0) return false;
-    for (const std::uint32_t partner : entry.partners) {
+    for (const std::uint32_t partner : partners_of(body)) {
       there.emplace_back(body, partner, contact);
       back.emplace_back(partner, body, contact);
     }
-    for (const Crossing& crossing : entry.crossings) {
+    for (const Crossing& crossing : crossings_of(body)) {
       if (!(crossing.distance >= 0.0)) return false;
       there.emplace_back(body, crossing.partner, crossing.distance);
       back.emplace_back(crossing.partner, body, crossing.distance);
@@ -184,8 +185,9 @@ bool ContactBook::is_sound(std::size_t bodies, double time, const std::optional<
     return false;
   };
   const auto change_is_sound = [&](const auto& pair) { return pair.first < bodies && pair.second < bodies; };
-  return entries_.size() == bodies && contacts_are_sound(box) && pending_.is_sound() &&
-         pending_.all_of(event_is_sound) && std::all_of(ended_.begin(), ended_.end(), event_is_sound) &&
+  return entries_.size() == bodies && partners_.size() <= bodies && crossings_.size() <= bodies &&
+         contacts_are_sound(box) && pending_.is_sound() && pending_.all_of(event_is_sound) &&
+         std::all_of(ended_.begin(), ended_.end(), event_is_sound) &&
          std::all_of(guards_told_.begin(), guards_told_.end(), event_is_sound) &&
          std::all_of(changed_.begin(), changed_.end(), change_is_sound);
 }

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "contact/chains.hpp"
 #include "contact/contact_event.hpp"
 #include "contact/contact_rule.hpp"
 #include "contact/event_set.hpp"
@@ -56,11 +57,12 @@ class ContactBook {
   // Who touches whom.
   bool touch(std::uint32_t a, std::uint32_t b) const;
   bool touches_wall(std::uint32_t body, Wall wall) const { return (walls_of(body) & wall_bit(wall)) != 0; }
-  const std::vector<std::uint32_t>& partners_of(std::uint32_t body) const { return entries_[body].partners; }
+  /// In the order in which the contacts began; good until one begins or ends with the body.
+  Chains<std::uint32_t>::List partners_of(std::uint32_t body) const { return partners_.of(body); }
   /// A set of wall_bit().
   std::uint8_t walls_of(std::uint32_t body) const { return entries_[body].walls; }
-  /// In the order in which they were crossed.
-  const std::vector<Crossing>& crossings_of(std::uint32_t body) const { return entries_[body].crossings; }
+  /// In the order in which they were crossed; good until the next one.
+  Chains<Crossing>::List crossings_of(std::uint32_t body) const { return crossings_.of(body); }
   bool is_within(std::uint32_t a, std::uint32_t b, double distance) const;
   /// The least sensor distance that the two are within.
   std::optional<double> innermost(std::uint32_t a, std::uint32_t b) const;
@@ -144,8 +146,9 @@ class ContactBook {
   /// All but the rules and the space, which follow from the world's definition.
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [rule, sensor_rule, space, entries, pending, ended, guards_told, changed] = self;
-    archive(entries, pending, ended, guards_told, changed);
+    auto& [rule, sensor_rule, space, entries, partners, crossings, pending, ended, guards_told, changed] =
+        self;
+    archive(entries, partners, crossings, pending, ended, guards_told, changed);
   }
   /// For one that was read in a world of this many bodies at `time`: true when contacts are mutual, and
   /// events are such as could be announced now. `box` has the walls that stand; `is_known(id)` tells whether
@@ -155,18 +158,16 @@ class ContactBook {
 
  private:
   struct Entry {
-    std::vector<std::uint32_t> partners;
-    std::vector<Crossing> crossings;
-    std::uint8_t walls = 0;
     double zeno_interval = 0.0;
     double last_contact = -std::numeric_limits<double>::infinity();
     std::uint32_t contacts_then = 0;  ///< at the time of the last one
+    std::uint8_t walls = 0;
     bool fixed = false;
 
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
-      auto& [touched, crossed, touched_walls, interval, last, count_then, is_fixed] = self;
-      archive(touched, crossed, touched_walls, interval, last, count_then, is_fixed);
+      auto& [interval, last, count_then, touched_walls, is_fixed] = self;
+      archive(interval, last, count_then, touched_walls, is_fixed);
     }
   };
 
@@ -193,6 +194,8 @@ class ContactBook {
   ContactRule sensor_rule_;
   Space space_;
   std::vector<Entry> entries_;
+  Chains<std::uint32_t> partners_;
+  Chains<Crossing> crossings_;
   EventSet pending_;
   std::set<Event, DeliveredBefore> ended_;  ///< by the caller's changes
   std::set<Event, DeliveredBefore> guards_told_;

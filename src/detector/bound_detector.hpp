@@ -78,7 +78,7 @@ class BoundDetector : public Detector {
   /// True when the two are in contact.
   bool touch(std::uint32_t a, std::uint32_t b) const { return book_.touch(a, b); }
   /// Partners in contact.
-  const std::vector<std::uint32_t>& touching(std::uint32_t number) const { return book_.partners_of(number); }
+  Chains<std::uint32_t>::List touching(std::uint32_t number) const { return book_.partners_of(number); }
   const WorldDefinition& definition() const { return definition_; }
   const ContactRule& rule() const { return book_.rule(); }
 

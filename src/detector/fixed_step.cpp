@@ -123,7 +123,8 @@ class FixedStep final : public Detector {
     for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
       if (!bodies_[number].present) continue;
       // Partners that have parted far may not be neighbours any more.
-      const std::vector<std::uint32_t> partners = book_.partners_of(number);
+      const auto touched = book_.partners_of(number);
+      const std::vector<std::uint32_t> partners(touched.begin(), touched.end());
       for (const std::uint32_t partner : partners)
         if (partner < number) look_at_pair(partner, number, true);
       for_each_neighbour(number, [&](std::uint32_t other) {

@@ -64,7 +64,7 @@ double World::Engine::Answers::recorded_of_walls(std::uint32_t number) const {
 
 void World::Engine::Answers::consider_touching(std::uint32_t number, Onset& first) const {
   if (first.touching) return;
-  const auto& partners = engine_.book_.partners_of(number);
+  const auto partners = engine_.book_.partners_of(number);
   if (!partners.empty())
     first = {now_, number, *std::min_element(partners.begin(), partners.end()), Wall::none, true};
   for (const Wall wall : walls)

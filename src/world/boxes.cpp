@@ -201,7 +201,8 @@ void World::Engine::find_neighbours(std::uint32_t number) {
   const Box box = this->box(number);
   const double extent = width_of(box);
   std::size_t larger = 0;
-  partners_ = book_.partners_of(number);
+  const auto touched = book_.partners_of(number);
+  partners_.assign(touched.begin(), touched.end());
   for (const Crossing& crossing : book_.crossings_of(number)) partners_.push_back(crossing.partner);
   const std::size_t known = partners_.size();
   space_.for_each_overlap(grid_, box, [&](std::uint32_t other, double extent_of_other) {

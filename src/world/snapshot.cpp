@@ -138,8 +138,8 @@ bool World::Engine::neighbours_are_sound() const {
     const auto is_neighbour = [&](std::uint32_t other) {
       return marks_[number].dirty || marks_[other].dirty || neighbours_.find(number, other).has_value();
     };
-    const auto& touched = book_.partners_of(number);
-    const auto& crossed = book_.crossings_of(number);
+    const auto touched = book_.partners_of(number);
+    const auto crossed = book_.crossings_of(number);
     if (!std::all_of(touched.begin(), touched.end(), is_neighbour) ||
         !std::all_of(crossed.begin(), crossed.end(),
                      [&](const Crossing& c) { return is_neighbour(c.partner); }))
@@ -169,8 +169,8 @@ bool World::Engine::contacts_of_fixed_are_sound() const {
   const auto lives_fixed = [&](BodyId id) { return id == id_of(id.index) && fixed(id.index); };
   for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
     if (!fixed(number)) continue;
-    const auto& partners = book_.partners_of(number);
-    const auto& crossings = book_.crossings_of(number);
+    const auto partners = book_.partners_of(number);
+    const auto crossings = book_.crossings_of(number);
     if (book_.walls_of(number) != 0 || std::any_of(partners.begin(), partners.end(), fixed) ||
         std::any_of(crossings.begin(), crossings.end(), [&](const Crossing& c) { return fixed(c.partner); }))
       return false;

@@ -226,8 +226,13 @@ void EventDrivenDetector::predict_partners(std::uint32_t number) {
     predict_pair(number, other);
   };
   subspaces_.for_each_neighbour(residents_[number].cells, meet);
-  // From the end: a prediction may find that a contact is over, and take it out.
-  for (std::size_t k = touching(number).size(); k-- > 0;) meet(touching(number)[k]);
+  // A copy: a prediction may find that a contact is over, and take it out.
+  const auto touched = touching(number);
+  std::vector<std::uint32_t> partners(touched.begin(), touched.end());
+  while (!partners.empty()) {
+    meet(partners.back());
+    partners.pop_back();
+  }
   predict_pair(number, number);
 }
 
