@@ -124,9 +124,11 @@ Result<void> World::Engine::settle_round(const std::vector<std::uint32_t>& round
 /// Records facts between a body and its neighbours, as far as nobody watches them: the inner loop of the
 /// engine.
 Result<void> World::Engine::look_around(std::uint32_t number) {
-  bodies_[number].look_time = infinity;
   const std::span<const Neighbours::Place> unsettled = unwatched(number);
-  if (unsettled.empty()) return {};
+  if (unsettled.empty()) {
+    bodies_[number].look_time = infinity;
+    return {};
+  }
   const std::vector<Neighbour>& all = neighbours_.of(number);
   Lookout lookout(*this, number);
   const Glance<> glance(sketches_[number], time_);
@@ -152,7 +154,8 @@ Result<void> World::Engine::look_around(std::uint32_t number) {
       lookout.expect(all[place].watch);
     }
   }
-  if (any_apart) bodies_[number].look_time = lookout.enough();
+  // Not before: a bad answer may have broken it off, and then it is due still.
+  bodies_[number].look_time = any_apart ? lookout.enough() : infinity;
   return {};
 }
 
