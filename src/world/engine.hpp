@@ -227,7 +227,8 @@ class World::Engine {
     return dirty_.empty() && book_.changed().empty() ? Result<void>() : settle_everything();
   }
   Result<void> settle_everything();
-  Result<void> settle_round(const std::vector<std::uint32_t>& round);
+  void order_in_space(std::vector<std::uint32_t>& round);
+  Result<void> settle_round(std::vector<std::uint32_t>& round);
   Vec3 shift_to_meet(std::uint32_t a, std::uint32_t b) const;
   Bound seen_from(std::uint32_t a, std::uint32_t b) const;
   /// Whether the facts about a pair hold no longer than its boxes, also while it touches: one watch stands
