@@ -15,6 +15,7 @@
 #include "contact/contact_rule.hpp"
 #include "contact/event_set.hpp"
 #include "contact/outlook.hpp"
+#include "memory/prefetch.hpp"
 
 namespace kinesphere {
 
@@ -53,6 +54,9 @@ class ContactBook {
     entries_[body].zeno_interval = 0.0;
     entries_[body].fixed = true;
   }
+
+  /// Of a body that will soon be asked for.
+  [[gnu::always_inline]] void fetch(std::uint32_t body) const { prefetch(entries_[body]); }
 
   // Who touches whom.
   bool touch(std::uint32_t a, std::uint32_t b) const;

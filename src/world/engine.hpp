@@ -228,6 +228,7 @@ class World::Engine {
   }
   Result<void> settle_everything();
   void order_in_space(std::vector<std::uint32_t>& round);
+  void fetch_ahead(const std::vector<std::uint32_t>& round, std::size_t k) const;
   Result<void> settle_round(std::vector<std::uint32_t>& round);
   Vec3 shift_to_meet(std::uint32_t a, std::uint32_t b) const;
   Bound seen_from(std::uint32_t a, std::uint32_t b) const;

@@ -11,6 +11,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "memory/prefetch.hpp"
+
 namespace kinesphere {
 
 class HeapCounter;
@@ -48,6 +50,8 @@ class Neighbours {
     lists_.resize(count);
     stamps_.resize(count, 0);
   }
+  /// Of a body that will soon be asked for.
+  [[gnu::always_inline]] void fetch(std::uint32_t body) const { prefetch(lists_[body]); }
   const std::vector<Neighbour>& of(std::uint32_t body) const { return lists_[body]; }
   /// Where `partner` stands in the list of the body. Cost: O(length of the list).
   std::optional<Place> find(std::uint32_t body, std::uint32_t partner) const;

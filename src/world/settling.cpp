@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 
+#include "memory/prefetch.hpp"
 #include "space/morton.hpp"
 #include "world/engine.hpp"
 #include "world/lookout.hpp"
@@ -106,6 +107,19 @@ void World::Engine::order_in_space(std::vector<std::uint32_t>& round) {
                  [](std::uint64_t key) { return static_cast<std::uint32_t>(key); });
 }
 
+/// What is kept of a body a few places after the k-th.
+[[gnu::always_inline]] inline void World::Engine::fetch_ahead(const std::vector<std::uint32_t>& round,
+                                                              std::size_t k) const {
+  constexpr std::size_t ahead = 8;
+  if (k + ahead >= round.size()) return;
+  const std::uint32_t coming = round[k + ahead];
+  prefetch(bodies_[coming]);
+  prefetch(sketches_[coming]);
+  neighbours_.fetch(coming);
+  grid_.fetch(coming);
+  book_.fetch(coming);
+}
+
 Result<void> World::Engine::settle_round(std::vector<std::uint32_t>& round) {
   RoundInProgress in_progress(*this, round);
   chosen_.clear();
@@ -117,7 +131,9 @@ Result<void> World::Engine::settle_round(std::vector<std::uint32_t>& round) {
   choose_first_horizons(round);
   order_in_space(round);
   chosen_.clear();
-  for (const std::uint32_t number : round) {
+  for (std::size_t k = 0; k < round.size(); ++k) {
+    const std::uint32_t number = round[k];
+    fetch_ahead(round, k);
     marks_[number].dirty = false;
     if (!keep_box(number)) {
       register_box(number);
@@ -125,8 +141,13 @@ Result<void> World::Engine::settle_round(std::vector<std::uint32_t>& round) {
     }
     sketch_box(number);
   }
-  for (const std::uint32_t number : chosen_) find_neighbours(number);
-  for (const std::uint32_t number : round) {
+  for (std::size_t k = 0; k < chosen_.size(); ++k) {
+    fetch_ahead(chosen_, k);
+    find_neighbours(chosen_[k]);
+  }
+  for (std::size_t k = 0; k < round.size(); ++k) {
+    const std::uint32_t number = round[k];
+    fetch_ahead(round, k);
     if (!bodies_[number].is_fixed()) {
       if (auto settled = settle_walls(number); !settled) return settled;
     }

@@ -1,0 +1,17 @@
+// Having the cache fetch what will soon be used.
+#pragma once
+
+#include <cstddef>
+
+namespace kinesphere {
+
+/// Whatever calls this and does nothing else has to be always_inline too: to GCC it has no effect, and a call
+/// of it is left out.
+template <class T>
+[[gnu::always_inline]] inline void prefetch(const T& object) {
+  constexpr std::size_t cache_line = 64;
+  const auto* const bytes = reinterpret_cast<const char*>(&object);
+  for (std::size_t at = 0; at < sizeof(T); at += cache_line) __builtin_prefetch(bytes + at);
+}
+
+}  // namespace kinesphere
