@@ -242,7 +242,7 @@ Result<void> World::Engine::wake(std::uint32_t number) {
     if (auto settled = look_around(number); !settled) return settled;
   }
   for (;;) {
-    const auto& all = neighbours_.of(number);
+    const auto all = neighbours_.of(number);
     const auto due =
         std::find_if(all.begin(), all.end(), [this](const Neighbour& one) { return one.watch <= time_; });
     if (due == all.end()) break;

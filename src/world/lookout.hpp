@@ -33,7 +33,7 @@ class World::Engine::Lookout {
   [[gnu::always_inline]] Lanes apart(const Glance<>& glance,
                                      std::span<const Neighbours::Place> places) const {
     if (!bare_) return 0;
-    const std::vector<Neighbour>& all = engine_.neighbours_.of(number_);
+    const std::span<const Neighbour> all = engine_.neighbours_.of(number_);
     Glance<>::Row others;
     for (std::size_t lane = 0; lane < lane_count; ++lane)
       others[lane] = &engine_.sketches_[all[places[std::min(lane, places.size() - 1)]].partner];

@@ -4,9 +4,15 @@
 #include <cmath>
 
 namespace kinesphere {
+namespace {
+
+/// What packing leaves to a list beyond what is there.
+constexpr std::uint32_t most_spare = 2;
+
+}  // namespace
 
 std::optional<Neighbours::Place> Neighbours::find(std::uint32_t body, std::uint32_t partner) const {
-  const auto& list = lists_[body];
+  const auto list = of(body);
   const auto found = std::find_if(list.begin(), list.end(),
                                   [partner](const Neighbour& other) { return other.partner == partner; });
   if (found == list.end()) return std::nullopt;
@@ -20,8 +26,8 @@ void Neighbours::replace(std::uint32_t body, std::span<const std::uint32_t> foun
     ++stamp_;
   }
   for (const std::uint32_t partner : found) stamps_[partner] = stamp_;
-  for (auto place = static_cast<Place>(lists_[body].size()); place-- > 0;) {
-    const std::uint32_t partner = lists_[body][place].partner;
+  for (auto place = lists_[body].size; place-- > 0;) {
+    const std::uint32_t partner = side(body, place).partner;
     if (stamps_[partner] == stamp_) {
       stamps_[partner] = seen;
     } else {
@@ -35,49 +41,98 @@ void Neighbours::replace(std::uint32_t body, std::span<const std::uint32_t> foun
   }
 }
 
-/// Room for one more. Lists are many and short: doubling them would leave a third of their memory empty.
-void Neighbours::make_room_for_one(std::vector<Neighbour>& list) {
-  if (list.size() == list.capacity()) list.reserve(list.size() + std::max<std::size_t>(4, list.size() / 4));
+/// Lists are many and short: to double them would leave a third of the memory empty.
+void Neighbours::add(std::uint32_t body, const Neighbour& neighbour) {
+  if (lists_[body].size == lists_[body].capacity)
+    move(body, lists_[body].size + std::max<std::uint32_t>(2, lists_[body].size / 8));
+  side(body, lists_[body].size++) = neighbour;
+}
+
+/// To a place of this capacity: a hole, if there is one, or at the end.
+void Neighbours::move(std::uint32_t body, std::uint32_t capacity) {
+  std::uint32_t first = none;
+  if (capacity < holes_.size() && holes_[capacity] != none) {
+    first = holes_[capacity];
+    holes_[capacity] = sides_[first].partner;
+  } else {
+    if (sides_.capacity() - sides_.size() < capacity) pack(capacity);
+    first = static_cast<std::uint32_t>(sides_.size());
+    sides_.resize(sides_.size() + capacity);
+  }
+  List& list = lists_[body];
+  std::copy_n(sides_.data() + list.first, list.size, sides_.data() + first);
+  if (0 < list.capacity && list.capacity < holes_.size()) {
+    sides_[list.first].partner = holes_[list.capacity];
+    holes_[list.capacity] = list.first;
+  }
+  list.first = first;
+  list.capacity = capacity;
+}
+
+/// Leaves no holes, and makes room for `room` more and for an eighth of all. Cost: O(all), once in so many
+/// moves that each pays for some copies.
+void Neighbours::pack(std::uint32_t room) {
+  std::size_t all = 0;
+  for (List& list : lists_) {
+    list.capacity = std::min(list.capacity, list.size + most_spare);
+    all += list.capacity;
+  }
+  std::vector<Neighbour> packed;
+  packed.reserve(room + all + all / 8);
+  packed.resize(all);
+  std::uint32_t next = 0;
+  for (List& list : lists_) {
+    const Neighbour* const from = sides_.data() + list.first;
+    for (Place place = 0; place < list.size; ++place) packed[next + place] = from[place];
+    list.first = next;
+    next += list.capacity;
+  }
+  sides_ = std::move(packed);
+  holes_.fill(none);
 }
 
 void Neighbours::link(std::uint32_t a, std::uint32_t b) {
-  make_room_for_one(lists_[a]);
-  make_room_for_one(lists_[b]);
-  const auto place_a = static_cast<Place>(lists_[a].size());
-  const auto place_b = static_cast<Place>(lists_[b].size());
-  lists_[a].push_back({.partner = b, .mirror = place_b});
-  lists_[b].push_back({.partner = a, .mirror = place_a});
+  const Place place_a = lists_[a].size;
+  const Place place_b = lists_[b].size;
+  add(a, {.partner = b, .mirror = place_b});
+  add(b, {.partner = a, .mirror = place_a});
+}
+
+void Neighbours::build(const std::vector<std::vector<Neighbour>>& lists) {
+  *this = {};
+  make_room(lists.size());
+  for (std::uint32_t body = 0; body < lists.size(); ++body)
+    for (const Neighbour& neighbour : lists[body]) add(body, neighbour);
 }
 
 void Neighbours::unlink(std::uint32_t body, Place place) {
-  const Neighbour gone = lists_[body][place];
+  const Neighbour gone = side(body, place);
   take_out(gone.partner, gone.mirror);
   take_out(body, place);
 }
 
 /// The last one takes its place.
 void Neighbours::take_out(std::uint32_t body, Place place) {
-  auto& list = lists_[body];
-  const Neighbour last = list.back();
-  list.pop_back();
-  if (place == list.size()) return;
-  list[place] = last;
-  lists_[last.partner][last.mirror].mirror = place;
+  const Place end = --lists_[body].size;
+  if (place == end) return;
+  const Neighbour last = side(body, end);
+  side(body, place) = last;
+  mirror_of(last).mirror = place;
 }
 
 void Neighbours::remove_all(std::uint32_t body) {
-  while (!lists_[body].empty()) unlink(body, static_cast<Place>(lists_[body].size() - 1));
+  while (lists_[body].size > 0) unlink(body, lists_[body].size - 1);
 }
 
 bool Neighbours::is_sound(std::size_t bodies) const {
   if (lists_.size() != bodies) return false;
   for (std::uint32_t body = 0; body < bodies; ++body) {
     std::vector<std::uint32_t> partners;
-    for (Place place = 0; place < lists_[body].size(); ++place) {
-      const auto& [watch, partner, mirror] = lists_[body][place];
-      if (std::isnan(watch) || partner >= bodies || partner == body || mirror >= lists_[partner].size())
+    for (Place place = 0; place < lists_[body].size; ++place) {
+      const auto& [watch, partner, mirror] = of(body)[place];
+      if (std::isnan(watch) || partner >= bodies || partner == body || mirror >= lists_[partner].size)
         return false;
-      const Neighbour& there = lists_[partner][mirror];
+      const Neighbour& there = of(partner)[mirror];
       if (there.partner != body || there.mirror != place) return false;
       const bool partner_does = there.watch < Neighbour::partner_does;
       if (partner_does != (watch == Neighbour::partner_does)) return false;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <concepts>
 #include <cstdint>
 #include <limits>
@@ -52,7 +53,10 @@ class Neighbours {
   }
   /// Of a body that will soon be asked for.
   [[gnu::always_inline]] void fetch(std::uint32_t body) const { prefetch(lists_[body]); }
-  const std::vector<Neighbour>& of(std::uint32_t body) const { return lists_[body]; }
+  /// Good until neighbours come or go.
+  std::span<const Neighbour> of(std::uint32_t body) const {
+    return std::span(sides_).subspan(lists_[body].first, lists_[body].size);
+  }
   /// Where `partner` stands in the list of the body. Cost: O(length of the list).
   std::optional<Place> find(std::uint32_t body, std::uint32_t partner) const;
 
@@ -64,7 +68,7 @@ class Neighbours {
   /// The pair is watched from the body's side, until `time`, which may be Neighbour::nobody, and not from the
   /// other. The other list is touched only if it has to change.
   void watch(std::uint32_t body, Place place, double time) {
-    Neighbour& here = lists_[body][place];
+    Neighbour& here = side(body, place);
     const double before = here.watch;
     here.watch = time;
     if (!here.watches()) {
@@ -75,34 +79,61 @@ class Neighbours {
   }
   void unwatch(std::uint32_t body, Place place) { watch(body, place, Neighbour::nobody); }
   void unwatch_all(std::uint32_t body) {
-    for (Place place = 0; place < lists_[body].size(); ++place) unwatch(body, place);
+    for (Place place = 0; place < lists_[body].size; ++place) unwatch(body, place);
   }
   /// The time until which one of the sides watches the pair, or +infinity.
   double watched_until(std::uint32_t body, Place place) const {
-    const Neighbour& here = lists_[body][place];
-    return here.watch == Neighbour::partner_does ? lists_[here.partner][here.mirror].watch : here.watch;
+    const Neighbour& here = of(body)[place];
+    return here.watch == Neighbour::partner_does ? of(here.partner)[here.mirror].watch : here.watch;
   }
 
-  /// Marks serve within a call only.
+  /// Bytes hold the lists, not where they stand; stamps serve within a call only.
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [lists, stamps, stamp] = self;
-    archive(lists);
-    if constexpr (std::same_as<Archive, HeapCounter>) archive(stamps);
-    if constexpr (!std::is_const_v<Self>) stamps.assign(lists.size(), 0);
+    if constexpr (std::same_as<Archive, HeapCounter>) {
+      archive(self.lists_, self.sides_, self.stamps_);
+    } else {
+      std::vector<std::vector<Neighbour>> lists(self.lists_.size());
+      for (std::uint32_t body = 0; body < lists.size(); ++body)
+        lists[body].assign(self.of(body).begin(), self.of(body).end());
+      archive(lists);
+      if constexpr (!std::is_const_v<Self>) self.build(lists);
+    }
   }
   /// For those that were read: true when both sides of each pair know of each other, no pair is there twice,
   /// and no more than one side watches it.
   bool is_sound(std::size_t bodies) const;
 
  private:
-  Neighbour& mirror_of(const Neighbour& side) { return lists_[side.partner][side.mirror]; }
-  static void make_room_for_one(std::vector<Neighbour>& list);
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::array<std::uint32_t, 64> no_holes() {
+    std::array<std::uint32_t, 64> holes;
+    holes.fill(none);
+    return holes;
+  }
+
+  /// A piece of the table of sides: those that are there, and room for more up to its capacity.
+  struct List {
+    std::uint32_t first = 0;
+    std::uint32_t size = 0;
+    std::uint32_t capacity = 0;
+  };
+
+  Neighbour& side(std::uint32_t body, Place place) { return sides_[lists_[body].first + place]; }
+  Neighbour& mirror_of(const Neighbour& one) { return side(one.partner, one.mirror); }
+  void add(std::uint32_t body, const Neighbour& neighbour);
+  void move(std::uint32_t body, std::uint32_t capacity);
+  void pack(std::uint32_t room);
+  void build(const std::vector<std::vector<Neighbour>>& lists);
   void link(std::uint32_t a, std::uint32_t b);
   void unlink(std::uint32_t body, Place place);
   void take_out(std::uint32_t body, Place place);
 
-  std::vector<std::vector<Neighbour>> lists_;
+  std::vector<List> lists_;
+  std::vector<Neighbour> sides_;
+  /// By capacity, what lists that have moved leave behind, until all are packed: the first one's place, where
+  /// `partner` is that of the next.
+  std::array<std::uint32_t, 64> holes_ = no_holes();
   std::vector<std::uint32_t> stamps_;  ///< by body: stamp_ for those found and not yet in the list
   std::uint32_t stamp_ = 0;
 };

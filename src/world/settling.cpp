@@ -168,7 +168,7 @@ Result<void> World::Engine::look_around(std::uint32_t number) {
     bodies_[number].look_time = infinity;
     return {};
   }
-  const std::vector<Neighbour>& all = neighbours_.of(number);
+  const std::span<const Neighbour> all = neighbours_.of(number);
   Lookout lookout(*this, number);
   const Glance<> glance(sketches_[number], time_);
   bool any_apart = false;
@@ -200,7 +200,7 @@ Result<void> World::Engine::look_around(std::uint32_t number) {
 
 /// Neighbours with whom a fact is to be recorded.
 std::span<const Neighbours::Place> World::Engine::unwatched(std::uint32_t number) {
-  const std::vector<Neighbour>& all = neighbours_.of(number);
+  const std::span<const Neighbour> all = neighbours_.of(number);
   if (unwatched_.size() < all.size()) unwatched_.resize(all.size());
   std::size_t count = 0;
   for (Neighbours::Place place = 0; place < all.size(); ++place) {
