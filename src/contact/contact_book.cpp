@@ -8,7 +8,8 @@ namespace kinesphere {
 
 void ContactBook::add(std::uint32_t body, double largest_acceleration) {
   if (body >= entries_.size()) entries_.resize(body + 1);
-  entries_[body] = Entry{.zeno_interval = rule_.zeno_interval(largest_acceleration)};
+  entries_[body] = Entry();
+  set_largest_acceleration(body, largest_acceleration);
   partners_.clear(body);
   crossings_.clear(body);
 }
@@ -101,7 +102,7 @@ bool ContactBook::still_begins(const Event& now) const {
 
 /// True when the body touched something less than its Zeno interval ago.
 bool ContactBook::is_repeated(const Event& begin, std::uint32_t body) const {
-  return begin.time - entries_[body].last_contact < entries_[body].zeno_interval;
+  return begin.time - entries_[body].last_contact < entries_[body].zeno_interval.value();
 }
 
 /// How many contacts of this instant each of the two has had at least. Walls and fixed bodies do not count:
@@ -111,7 +112,7 @@ std::uint32_t ContactBook::contacts_now(const Event& contact) const {
   for (const BodyId id : {contact.first, contact.second}) {
     if (id == no_body || entries_[id.index].fixed) continue;
     const Entry& entry = entries_[id.index];
-    least = std::min(least, entry.last_contact == contact.time ? entry.contacts_then : 0);
+    least = std::min(least, entry.last_contact == contact.time ? std::uint32_t{entry.contacts_then} : 0);
   }
   return least;
 }
@@ -127,7 +128,8 @@ void ContactBook::note_contact(Event& begin) {
 
 void ContactBook::note_contact(std::uint32_t body, double time) {
   Entry& entry = entries_[body];
-  entry.contacts_then = entry.last_contact == time ? entry.contacts_then + 1 : 1;
+  if (entry.last_contact != time) entry.contacts_then = 0;
+  if (entry.contacts_then < most_at_one_instant) ++entry.contacts_then;
   entry.last_contact = time;
 }
 
@@ -138,7 +140,7 @@ bool ContactBook::contacts_are_sound(const std::optional<Box>& box) const {
   std::vector<std::tuple<std::uint32_t, std::uint32_t, double>> back;
   for (std::uint32_t body = 0; body < entries_.size(); ++body) {
     const Entry& entry = entries_[body];
-    if (std::isnan(entry.last_contact) || !(entry.zeno_interval >= 0.0)) return false;
+    if (std::isnan(entry.last_contact) || !(entry.zeno_interval.value() >= 0.0)) return false;
     std::uint8_t standing = 0;
     for (const Wall wall : walls)
       if (box && stands(*box, wall)) standing = static_cast<std::uint8_t>(standing | wall_bit(wall));

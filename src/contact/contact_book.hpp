@@ -2,6 +2,7 @@
 // their way to the caller.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -46,12 +47,12 @@ class ContactBook {
   /// A body that touches nothing. `largest_acceleration` sets its Zeno interval.
   void add(std::uint32_t body, double largest_acceleration);
   void set_largest_acceleration(std::uint32_t body, double largest_acceleration) {
-    entries_[body].zeno_interval = rule_.zeno_interval(largest_acceleration);
+    entries_[body].zeno_interval = Coarse(rule_.zeno_interval(largest_acceleration));
   }
 
   /// A fixed body has no contacts of its own: whether one is a repeated one, its partner decides.
   void set_fixed(std::uint32_t body) {
-    entries_[body].zeno_interval = 0.0;
+    entries_[body].zeno_interval = Coarse();
     entries_[body].fixed = true;
   }
 
@@ -161,17 +162,34 @@ class ContactBook {
                 const std::function<bool(BodyId)>& is_known) const;
 
  private:
+  /// A number rounded to 20 bits after the first: of an interval that only marks events no more is needed.
+  class Coarse {
+   public:
+    Coarse() = default;
+    explicit Coarse(double value)
+        : upper_half_(static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(value) >> 32)) {}
+    double value() const { return std::bit_cast<double>(std::uint64_t{upper_half_} << 32); }
+
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+      archive(self.upper_half_);
+    }
+
+   private:
+    std::uint32_t upper_half_ = 0;
+  };
+
   struct Entry {
-    double zeno_interval = 0.0;
     double last_contact = -std::numeric_limits<double>::infinity();
-    std::uint32_t contacts_then = 0;  ///< at the time of the last one
+    Coarse zeno_interval;
+    std::uint16_t contacts_then = 0;  ///< at the time of the last one, most_at_one_instant at most
     std::uint8_t walls = 0;
     bool fixed = false;
 
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
-      auto& [interval, last, count_then, touched_walls, is_fixed] = self;
-      archive(interval, last, count_then, touched_walls, is_fixed);
+      auto& [last, interval, count_then, touched_walls, is_fixed] = self;
+      archive(last, interval, count_then, touched_walls, is_fixed);
     }
   };
 

@@ -18,6 +18,11 @@ bool lies_inside(const Box& inner, const Box& outer) {
          inner.upper.y < outer.upper.y && outer.lower.z < inner.lower.z && inner.upper.z < outer.upper.z;
 }
 
+/// A round of all bodies leaves much memory that others do not need.
+void let_go(std::vector<std::uint32_t>& numbers) {
+  if (numbers.capacity() > 1024 && numbers.size() < numbers.capacity() / 8) numbers.shrink_to_fit();
+}
+
 }  // namespace
 
 /// The body must be settled before time moves on. Facts about it stay.
@@ -51,6 +56,8 @@ Result<void> World::Engine::settle_everything() {
     // Some have been removed or disabled since.
     std::erase_if(round_, [this](std::uint32_t number) { return !marks_[number].dirty; });
     if (auto settled = settle_round(round_); !settled) return settled;
+    let_go(round_);
+    let_go(chosen_);
   }
   return {};
 }
