@@ -53,6 +53,33 @@ TEST(Kick, LastOfSeveralAtOneStopCounts) {
   EXPECT_EQ(events[0].second.index, 1u);
 }
 
+TEST(Kick, WaitsForTheReportWhileOthersThatWereKickedGo) {
+  Playground p;
+  std::vector<BodyId> bodies;
+  for (int k = 0; k < 6; ++k) bodies.push_back(p.add({.radius = 1, .position = {10.0 * k, 0, 0}}));
+  p.run(1.0);
+  for (int k = 0; k < 4; ++k) {
+    p.kick(bodies[static_cast<std::size_t>(k)], {0, 1.0 + k, 0});
+    p.world.set_promise(bodies[static_cast<std::size_t>(k)], {.acceleration_limit = 0.5 + k}).value();
+  }
+  p.world.remove(bodies[1]).value();
+  p.world.disable(bodies[0]).value();
+  p.world.enable(bodies[0], p.state(bodies[0])).value();
+  p.kick(bodies[4], {0, 0, 1});
+  p.kick(bodies[5], {0, 0, 1});
+  for (const int k : {2, 3}) {
+    const BodyDefinition definition = p.world.body(bodies[static_cast<std::size_t>(k)]).value().definition;
+    EXPECT_EQ(definition.velocity, (Vec3{0, 1.0 + k, 0}));
+    EXPECT_EQ(definition.acceleration_limit, 0.5 + k);
+  }
+  EXPECT_TRUE(p.run(2.0).empty());
+  for (const int k : {0, 2, 3}) {
+    const Bound bound = p.world.body(bodies[static_cast<std::size_t>(k)]).value().bound;
+    EXPECT_EQ(bound.velocity, (Vec3{0, 1.0 + k, 0}));
+    EXPECT_EQ(bound.growth_acceleration, 0.5 + k);
+  }
+}
+
 TEST(Kick, OfABodyFarFromTheEventCounts) {
   Playground p;
   const BodyId idle = p.add({.radius = 1, .acceleration_limit = 0.1, .position = {500, 0, 0}}, Vec3{});
