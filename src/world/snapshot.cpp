@@ -202,7 +202,7 @@ bool World::Engine::is_sound_fixed(std::uint32_t number) const {
 
 /// Each change is that of one body, which lives.
 bool World::Engine::changes_are_sound() const {
-  const auto has = [this](const Body& body) { return body.change_number != Body::none; };
+  const auto has = [](const Body& body) { return body.change_number != Body::none; };
   for (std::uint32_t change = 0; change < changes_.size(); ++change) {
     const std::uint32_t number = changes_[change].body;
     if (number >= bodies_.size() || bodies_[number].change_number != change || !bodies_[number].alive)
