@@ -230,6 +230,14 @@ TEST(HashGridQuery, of_the_whole_world_costs_no_more_than_the_bodies) {
   EXPECT_EQ(visits, 1000);
 }
 
+/// Longer than the low bits of positions can tell, and yet in fewer cells than there are.
+TEST(HashGridQuery, of_a_long_thin_box_finds_what_it_meets_and_no_more) {
+  MirroredGrid mirrored;
+  for (std::uint32_t body = 0; body < 400; ++body) mirrored.set(body, cube_at({1.0 * body, 0, 0}, 0.1));
+  for (const double half : {1.0, 3.0, 10.0, 30.0, 100.0})
+    EXPECT_TRUE(mirrored.same_overlaps(box_at({200, 0, 0}, {half, 0.05, 0.05}))) << half;
+}
+
 TEST(FloatBoxOf, a_box_contains_it_and_is_hardly_larger) {
   for (std::uint64_t k = 0; k < 100000; ++k) {
     Random random = Random::at(seed, k, 1);
