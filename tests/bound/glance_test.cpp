@@ -45,6 +45,7 @@ struct Scene {
 /// The second body of a pair, and others like it.
 Scene scene_of(Random& random, PairCase c) {
   Scene scene{.own = c.a, .own_end = c.horizon, .until = c.horizon, .now = c.from};
+  if (random.bits() % 2 == 0) scene.until = c.from + random.uniform(1.0, 2.0) * (c.horizon - c.from);
   scene.room = std::max(c.distance, 0.0);
   const double length = norm(c.b.position - c.a.position);
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
@@ -90,6 +91,26 @@ PairCase tiny(Random& random) {
   return c;
 }
 
+/// Straight ways so small and so slow that the squares of some products underflow, over times that are long
+/// enough to meet.
+PairCase small_and_slow(Random& random) {
+  PairCase c = families::everyday(random);
+  const double length = std::ldexp(1.0, -26 - static_cast<int>(random.bits() % 6));
+  const double slowness = std::ldexp(1.0, static_cast<int>(random.bits() % 20));
+  const double duration = c.horizon - c.from;
+  for (Bound* bound : {&c.a, &c.b}) {
+    bound->time = c.from;
+    bound->position *= length;
+    bound->velocity *= length / slowness;
+    bound->planned_acceleration = {};
+    bound->radius *= length;
+    bound->growth_speed = bound->growth_acceleration = 0.0;
+  }
+  c.horizon = c.from + duration * slowness;
+  c.distance *= length;
+  return c;
+}
+
 /// Neither moves at first, and one turns towards the other.
 PairCase falling(Random& random) {
   const Vec3 down = random.unit_vector();
@@ -120,6 +141,7 @@ PairCase marginal(Random& random) {
 std::vector<Family> families_here() {
   std::vector<Family> families = all_families;
   families.push_back({"tiny", tiny});
+  families.push_back({"small_and_slow", small_and_slow});
   families.push_back({"falling", falling});
   families.push_back({"marginal", marginal});
   return families;
@@ -160,12 +182,11 @@ TEST_P(Glances, find_those_apart_who_are_by_more_than_single_precision_can_tell)
       const double end = std::max({scene.own_end, scene.ends[lane], c.from});
       const double size = length_scale(c.a, end) + length_scale(c.b, end) + c.distance;
       const double duration = c.horizon - c.from;
-      // Where squares of single-precision numbers exist.
-      if (!(size < 0x1p40 && duration < 0x1p19)) continue;
       const MovedBound a(c.a, c.from), b(c.b, c.from);
-      const double way = norm(a.velocity - b.velocity) * duration;
-      if (!(norm(a.centre - b.centre) > 0x1p-20 && way > 0x1p-20 && norm(a.velocity - b.velocity) > 0x1p-20))
-        continue;
+      const double speed = norm(a.velocity - b.velocity);
+      // Where squares of single-precision numbers exist, also of products of places and velocities.
+      if (!(size < 0x1p40 && size * speed < 0x1p60 && duration < 0x1p19)) continue;
+      if (!(norm(a.centre - b.centre) > 0x1p-20 && speed * duration > 0x1p-20 && speed > 0x1p-20)) continue;
       if (Encounter(a, b).stay_apart(duration, c.distance + 0x1p-14 * size)) {
         EXPECT_TRUE(is_apart(apart, lane)) << "lane " << lane << "\n" << c;
       }
