@@ -91,12 +91,12 @@ PairCase tiny(Random& random) {
   return c;
 }
 
-/// Straight ways so small and so slow that the squares of some products underflow, over times that are long
-/// enough to meet.
-PairCase small_and_slow(Random& random) {
+/// Straight ways so small, and up to 2^most so slow, that the squares of some products underflow, over times
+/// that are long enough to meet.
+PairCase small_and_slow(Random& random, std::uint64_t most) {
   PairCase c = families::everyday(random);
   const double length = std::ldexp(1.0, -26 - static_cast<int>(random.bits() % 6));
-  const double slowness = std::ldexp(1.0, static_cast<int>(random.bits() % 20));
+  const double slowness = std::ldexp(1.0, static_cast<int>(random.bits() % most));
   const double duration = c.horizon - c.from;
   for (Bound* bound : {&c.a, &c.b}) {
     bound->time = c.from;
@@ -110,6 +110,8 @@ PairCase small_and_slow(Random& random) {
   c.distance *= length;
   return c;
 }
+PairCase slow(Random& random) { return small_and_slow(random, 20); }
+PairCase hardly_moving(Random& random) { return small_and_slow(random, 110); }
 
 /// Neither moves at first, and one turns towards the other.
 PairCase falling(Random& random) {
@@ -138,12 +140,32 @@ PairCase marginal(Random& random) {
   return c;
 }
 
+/// The like of bodies that have gone far together since their reports.
+PairCase far_gone(Random& random) {
+  PairCase c = marginal(random);
+  const Vec3 origin = c.a.position;
+  const Vec3 far = 1000.0 * random.unit_vector();
+  const bool turned = random.bits() % 2 == 0;
+  for (Bound* bound : {&c.a, &c.b}) {
+    bound->time = c.from - 1.0;
+    bound->position = bound->position - origin - bound->velocity;
+    if (turned) {
+      bound->planned_acceleration = 2.0 * far;
+    } else {
+      bound->velocity += far;
+    }
+  }
+  return c;
+}
+
 std::vector<Family> families_here() {
   std::vector<Family> families = all_families;
   families.push_back({"tiny", tiny});
-  families.push_back({"small_and_slow", small_and_slow});
+  families.push_back({"slow", slow});
+  families.push_back({"hardly_moving", hardly_moving});
   families.push_back({"falling", falling});
   families.push_back({"marginal", marginal});
+  families.push_back({"far_gone", far_gone});
   return families;
 }
 
