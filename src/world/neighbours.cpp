@@ -8,6 +8,8 @@ namespace {
 
 /// What packing leaves to a list beyond what is there.
 constexpr std::uint32_t most_spare = 2;
+/// In so small a table room is cheaper than packing.
+constexpr std::size_t few = std::size_t{1} << 14;
 
 }  // namespace
 
@@ -69,8 +71,8 @@ void Neighbours::move(std::uint32_t body, std::uint32_t capacity) {
   list.capacity = capacity;
 }
 
-/// Leaves no holes, and makes room for `room` more and for an eighth of all. Cost: O(all), once in so many
-/// moves that each pays for some copies.
+/// Leaves no holes, and makes room for `room` more and for an eighth of all; for as many again, if they are
+/// few. Cost: O(all), once in so many moves that each pays for some copies.
 void Neighbours::pack(std::uint32_t room) {
   std::size_t all = 0;
   for (List& list : lists_) {
@@ -78,7 +80,7 @@ void Neighbours::pack(std::uint32_t room) {
     all += list.capacity;
   }
   std::vector<Neighbour> packed;
-  packed.reserve(room + all + all / 8);
+  packed.reserve(room + all + std::max(all / 8, std::min(all, few)));
   packed.resize(all);
   std::uint32_t next = 0;
   for (List& list : lists_) {
