@@ -163,9 +163,8 @@ double World::Engine::widest_in_period(const Body& body, int axis) const {
   return (0.5 - 0x1p-10) * space_.period()[axis] - book_.rule().release_gap() - 4.0 * body.position_error;
 }
 
-/// How long a box of a body may last, `length` at most, to be no wider than that: it grows by at most (|v| +
-/// 2 e1) s + (|g| / 2
-/// + A) s^2 on an axis.
+/// How long a box of a body may last, `length` at most, to be no wider than that: on an axis it grows by at
+/// most (|v| + 2 e1) s + (|g| / 2 + A) s^2.
 double World::Engine::longest_in_period(const Body& body, double length) const {
   const Bound& bound = body.bound;
   const double radius = reach(body).radius + rounding_room();
