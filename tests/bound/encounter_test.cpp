@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <string>
 
-#include "support/bound_cases.hpp"
 #include "support/exact_certificates.hpp"
+#include "support/family_test.hpp"
 
 namespace kinesphere {
 namespace {
@@ -15,11 +15,10 @@ namespace {
 using exact::Wide;
 
 constexpr std::uint64_t seed = 2111;
-constexpr std::uint64_t cases_per_family = 4000;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Here `distance` is the room, which is not negative: radii are less instead.
-PairCase with_room(PairCase c) {
+PairCase with_room(PairCase c, Random&) {
   if (c.distance < 0.0) {
     c.a.radius = std::max(0.0, c.a.radius + c.b.radius + c.distance);
     c.b.radius = c.distance = 0.0;
@@ -80,22 +79,10 @@ std::vector<Family> families_here() {
   return families;
 }
 
-class Encounters : public testing::TestWithParam<Family> {
- protected:
-  /// Calls check(case) for each case of the family, until one fails.
-  template <class Check>
-  void for_each_case(std::uint64_t index, Check check) {
-    for (std::uint64_t k = 0; k < cases_per_family && !HasFailure(); ++k) {
-      Random random = Random::at(seed, k, index);
-      const PairCase c = with_room(GetParam().draw(random));
-      SCOPED_TRACE(testing::Message() << "seed " << seed << ", case " << k << "\n" << c);
-      check(c);
-    }
-  }
-};
+class Encounters : public FamilyTest<seed, with_room> {};
 
 TEST_P(Encounters, that_stay_apart_do_not_meet) {
-  for_each_case(0, [](const PairCase& c) {
+  for_each_case(0, [](const PairCase& c, Random&) {
     if (!encounter_of(c).stay_apart(c.horizon - c.from, c.distance)) return;
     EXPECT_GT(truth(c, -Wide(rounding_error(c, c.horizon))), Wide(c.horizon));
   });
@@ -117,7 +104,7 @@ PairCase straightened(const PairCase& c) {
 }
 
 TEST_P(Encounters, whose_straightened_ways_do_not_meet_stay_apart) {
-  for_each_case(1, [](const PairCase& c) {
+  for_each_case(1, [](const PairCase& c, Random&) {
     const Wide error = rounding_error(c, c.horizon);
     if (truth(straightened(c), error) <= Wide(c.horizon)) return;
     EXPECT_TRUE(encounter_of(c).stay_apart(c.horizon - c.from, c.distance));
@@ -125,7 +112,7 @@ TEST_P(Encounters, whose_straightened_ways_do_not_meet_stay_apart) {
 }
 
 TEST_P(Encounters, are_never_later_than_the_truth) {
-  for_each_case(2, [](const PairCase& c) {
+  for_each_case(2, [](const PairCase& c, Random&) {
     const double got = encounter_of(c).meeting(c.horizon - c.from, c.distance);
     const double end = std::min(c.horizon, c.from + got);
     const Wide latest = truth(c, -Wide(rounding_error(c, end)));
@@ -141,7 +128,7 @@ TEST_P(Encounters, are_never_later_than_the_truth) {
 TEST_P(Encounters, are_hardly_early) {
   if (std::string(GetParam().name).starts_with("grazing"))
     GTEST_SKIP() << "what rounding does to a length takes a long time there";
-  for_each_case(3, [](const PairCase& c) {
+  for_each_case(3, [](const PairCase& c, Random&) {
     const double got = encounter_of(c).meeting(c.horizon - c.from, c.distance);
     if (got == infinity) return;
     const double end = c.from + got;
@@ -157,7 +144,7 @@ TEST_P(Encounters, are_hardly_early) {
 }
 
 TEST_P(Encounters, meet_at_the_same_time_whatever_the_duration) {
-  for_each_case(4, [](const PairCase& c) {
+  for_each_case(4, [](const PairCase& c, Random&) {
     const double duration = c.horizon - c.from;
     const Encounter encounter = encounter_of(c);
     const double meeting = encounter.meeting(infinity, c.distance);
@@ -166,7 +153,7 @@ TEST_P(Encounters, meet_at_the_same_time_whatever_the_duration) {
 }
 
 TEST_P(Encounters, are_near_where_the_gap_is_within_the_room) {
-  for_each_case(5, [](const PairCase& c) {
+  for_each_case(5, [](const PairCase& c, Random&) {
     const Wide gap = gap_now(c);
     const Wide error = rounding_error(c, c.from);
     const Encounter encounter = encounter_of(c);
@@ -194,7 +181,7 @@ Wide reach(const MovedBound& moved, const Bound& bound, double from, Wide d) {
 }
 
 TEST_P(Encounters, have_bounds_that_stay_within_the_radius_of_a_straight_one) {
-  for_each_case(6, [](const PairCase& c) {
+  for_each_case(6, [](const PairCase& c, Random&) {
     const MovedBound moved(c.a, c.from);
     const double duration = c.horizon - c.from;
     const Wide error = Wide(0x1p-49) * length_scale(c.a, c.horizon);

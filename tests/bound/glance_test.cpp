@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "bound/encounter.hpp"
-#include "support/bound_cases.hpp"
 #include "support/exact_certificates.hpp"
+#include "support/family_test.hpp"
 
 namespace kinesphere {
 namespace {
@@ -19,7 +19,6 @@ namespace {
 using exact::Wide;
 
 constexpr std::uint64_t seed = 2211;
-constexpr std::uint64_t cases_per_family = 4000;
 
 /// One who looks, and four who are looked at.
 struct Scene {
@@ -42,8 +41,16 @@ struct Scene {
   }
 };
 
+/// As the pairs that it consists of.
+std::ostream& operator<<(std::ostream& out, const Scene& scene) {
+  for (std::size_t lane = 0; lane < lane_count; ++lane)
+    out << "lane " << lane << "\n" << scene.pair(lane) << "\n";
+  return out << std::hexfloat << "until " << scene.until << ", own end " << scene.own_end
+             << std::defaultfloat;
+}
+
 /// The second body of a pair, and others like it.
-Scene scene_of(Random& random, PairCase c) {
+Scene scene_of(const PairCase& c, Random& random) {
   Scene scene{.own = c.a, .own_end = c.horizon, .until = c.horizon, .now = c.from};
   if (random.bits() % 2 == 0) scene.until = c.from + random.uniform(1.0, 2.0) * (c.horizon - c.from);
   scene.room = std::max(c.distance, 0.0);
@@ -169,21 +176,10 @@ std::vector<Family> families_here() {
   return families;
 }
 
-class Glances : public testing::TestWithParam<Family> {
- protected:
-  template <class Check>
-  void for_each_scene(std::uint64_t index, Check check) {
-    for (std::uint64_t k = 0; k < cases_per_family && !HasFailure(); ++k) {
-      Random random = Random::at(seed, k, index);
-      const Scene scene = scene_of(random, GetParam().draw(random));
-      SCOPED_TRACE(testing::Message() << "seed " << seed << ", case " << k);
-      check(scene, random);
-    }
-  }
-};
+class Glances : public FamilyTest<seed, scene_of> {};
 
 TEST_P(Glances, find_nobody_apart_who_may_meet) {
-  for_each_scene(0, [](const Scene& scene, Random&) {
+  for_each_case(0, [](const Scene& scene, Random&) {
     const Lanes apart = glance_at(scene);
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       if (!is_apart(apart, lane)) continue;
@@ -197,7 +193,7 @@ TEST_P(Glances, find_nobody_apart_who_may_meet) {
 
 /// What is clear to double precision with some room is clear at a glance.
 TEST_P(Glances, find_those_apart_who_are_by_more_than_single_precision_can_tell) {
-  for_each_scene(1, [](const Scene& scene, Random&) {
+  for_each_case(1, [](const Scene& scene, Random&) {
     const Lanes apart = glance_at(scene);
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const PairCase c = scene.pair(lane);
@@ -217,7 +213,7 @@ TEST_P(Glances, find_those_apart_who_are_by_more_than_single_precision_can_tell)
 }
 
 TEST_P(Glances, see_the_image_whose_home_is_nearest) {
-  for_each_scene(2, [](const Scene& scene, Random& random) {
+  for_each_case(2, [](const Scene& scene, Random& random) {
     const double size = norm_one(scene.own.position) + norm_one(scene.others[0].position);
     const Vec3 period{2.0 * size, random.bits() % 2 == 0 ? 0.0 : 3.0 * size, size};
     std::array<Home, lane_count + 1> homes;
@@ -261,7 +257,7 @@ INSTANTIATE_TEST_SUITE_P(OfAllKinds, Glances, testing::ValuesIn(families_here())
 
 TEST(Sketch, of_nothing_is_apart_from_nothing) {
   Random random = Random::at(seed, 0, 9);
-  Scene scene = scene_of(random, families::everyday(random));
+  Scene scene = scene_of(families::everyday(random), random);
   const Sketch own(scene.own, scene.own_end, 0.0);
   const Sketch nothing;
   EXPECT_EQ(

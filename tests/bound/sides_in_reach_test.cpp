@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/bound_cases.hpp"
 #include "support/exact_certificates.hpp"
+#include "support/family_test.hpp"
 
 namespace kinesphere {
 namespace {
@@ -12,7 +12,6 @@ namespace {
 using exact::Wide;
 
 constexpr std::uint64_t seed = 3307;
-constexpr std::uint64_t cases_per_family = 4000;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct BoxCase {
@@ -20,6 +19,11 @@ struct BoxCase {
   Box box;
   double from, horizon, room;
 };
+
+std::ostream& operator<<(std::ostream& out, const BoxCase& c) {
+  return out << c.bound << std::hexfloat << "\nin " << c.box.lower << " to " << c.box.upper << ", from "
+             << c.from << ", horizon " << c.horizon << ", room " << c.room << std::defaultfloat;
+}
 
 /// What encounter.hpp grants to rounding.
 double rounding_error(const BoxCase& c) {
@@ -38,8 +42,7 @@ Box straightened_box(const Bound& bound, double from, double horizon) {
 
 /// The sides are about where the bound comes, or counts as coming, and the room beyond: from far outside to
 /// just there or just not.
-BoxCase draw(const Family& family, Random& random) {
-  const PairCase pair = family.draw(random);
+BoxCase in_a_box(const PairCase& pair, Random& random) {
   BoxCase c{pair.a, swept_box(pair.a, pair.from, pair.horizon), pair.from, pair.horizon, 0.0};
   if (chance(random, 0.7)) c.box = straightened_box(pair.a, pair.from, pair.horizon);
   const double scale = length_scale(c.bound, c.horizon);
@@ -58,23 +61,16 @@ bool is_cleared(const Box& near, int axis) {
   return near.lower[axis] == -infinity && near.upper[axis] == infinity;
 }
 
-class SidesInReach : public testing::TestWithParam<Family> {
- protected:
-  /// Calls check(case, sides_in_reach of it) for each case of the family, until one fails.
-  template <class Check>
-  void for_each_case(std::uint64_t index, Check check) {
-    for (std::uint64_t k = 0; k < cases_per_family && !HasFailure(); ++k) {
-      Random random = Random::at(seed, k, index);
-      const BoxCase c = draw(GetParam(), random);
-      SCOPED_TRACE(testing::Message() << "seed " << seed << ", case " << k << "\n" << c.bound);
-      check(c, sides_in_reach(MovedBound(c.bound, c.from), c.box, c.horizon - c.from, c.room));
-    }
-  }
-};
+Box near_sides(const BoxCase& c) {
+  return sides_in_reach(MovedBound(c.bound, c.from), c.box, c.horizon - c.from, c.room);
+}
+
+class SidesInReach : public FamilyTest<seed, in_a_box> {};
 
 TEST_P(SidesInReach, that_are_cleared_are_never_reached) {
   int cleared = 0;
-  for_each_case(0, [&](const BoxCase& c, const Box& near) {
+  for_each_case(0, [&](const BoxCase& c, Random&) {
+    const Box near = near_sides(c);
     const Wide least = Wide(c.room) - Wide(rounding_error(c));
     for (int axis = 0; axis < 3; ++axis) {
       if (!is_cleared(near, axis)) {
@@ -91,7 +87,8 @@ TEST_P(SidesInReach, that_are_cleared_are_never_reached) {
 }
 
 TEST_P(SidesInReach, are_cleared_where_the_straightened_way_stays_off) {
-  for_each_case(1, [](const BoxCase& c, const Box& near) {
+  for_each_case(1, [](const BoxCase& c, Random&) {
+    const Box near = near_sides(c);
     const Box way = straightened_box(c.bound, c.from, c.horizon);
     const double room = c.room + 2.0 * rounding_error(c);
     for (int axis = 0; axis < 3; ++axis) {

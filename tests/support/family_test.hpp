@@ -1,0 +1,28 @@
+// Tests that go through many cases of each family.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "support/bound_cases.hpp"
+
+namespace kinesphere {
+
+inline constexpr std::uint64_t cases_per_family = 4000;
+
+/// `make(pair, random)` makes a case, which can be printed, of each pair that is drawn.
+template <std::uint64_t seed, auto make>
+class FamilyTest : public testing::TestWithParam<Family> {
+ protected:
+  /// Calls check(case, random) for one case after the other, until one fails. Each series has other cases.
+  template <class Check>
+  void for_each_case(std::uint64_t series, Check check) {
+    for (std::uint64_t k = 0; k < cases_per_family; ++k) {
+      Random random = Random::at(seed, k, series);
+      const auto drawn = make(GetParam().draw(random), random);
+      check(drawn, random);
+      ASSERT_FALSE(HasFailure()) << "seed " << seed << ", case " << k << "\n" << drawn;
+    }
+  }
+};
+
+}  // namespace kinesphere
