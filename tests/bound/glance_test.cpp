@@ -83,9 +83,7 @@ Lanes glance_at(const Scene& scene) {
 
 bool is_apart(Lanes lanes, std::size_t lane) { return (lanes >> lane) % 2 == 1; }
 
-PairCase tiny(Random& random) {
-  PairCase c = families::everyday(random);
-  const double scale = std::ldexp(1.0, -30 - static_cast<int>(random.bits() % 120));
+PairCase scaled(PairCase c, double scale) {
   for (Bound* bound : {&c.a, &c.b}) {
     bound->position *= scale;
     bound->velocity *= scale;
@@ -96,6 +94,21 @@ PairCase tiny(Random& random) {
   }
   c.distance *= scale;
   return c;
+}
+
+PairCase tiny(Random& random) {
+  const PairCase c = families::everyday(random);
+  return scaled(c, std::ldexp(1.0, -30 - static_cast<int>(random.bits() % 120)));
+}
+
+/// They overlap by a part of their distance, the square of which is a few of the least numbers that there
+/// are.
+PairCase minute(Random& random) {
+  PairCase c = families::ballistic(random);
+  const double depth = 0.1 * random.uniform() * (c.a.radius + c.b.radius);
+  set_gap(c, random.unit_vector(), -depth);
+  c.distance = 0.0;
+  return scaled(c, std::ldexp(1.0, -75 + static_cast<int>(random.bits() % 3)));
 }
 
 /// Straight ways so small, and up to 2^most so slow, that the squares of some products underflow, over times
@@ -168,6 +181,7 @@ PairCase far_gone(Random& random) {
 std::vector<Family> families_here() {
   std::vector<Family> families = all_families;
   families.push_back({"tiny", tiny});
+  families.push_back({"minute", minute});
   families.push_back({"slow", slow});
   families.push_back({"hardly_moving", hardly_moving});
   families.push_back({"falling", falling});
@@ -185,8 +199,7 @@ TEST_P(Glances, find_nobody_apart_who_may_meet) {
       if (!is_apart(apart, lane)) continue;
       const PairCase c = scene.pair(lane);
       EXPECT_GT(exact::earliest_meeting(c.a, c.b, c.from, c.horizon, c.distance, 0), Wide(c.horizon))
-          << "lane " << lane << "\n"
-          << c;
+          << "lane " << lane;
     }
   });
 }
@@ -206,7 +219,7 @@ TEST_P(Glances, find_those_apart_who_are_by_more_than_single_precision_can_tell)
       if (!(size < 0x1p40 && size * speed < 0x1p60 && duration < 0x1p19)) continue;
       if (!(norm(a.centre - b.centre) > 0x1p-20 && speed * duration > 0x1p-20 && speed > 0x1p-20)) continue;
       if (Encounter(a, b).stay_apart(duration, c.distance + 0x1p-14 * size)) {
-        EXPECT_TRUE(is_apart(apart, lane)) << "lane " << lane << "\n" << c;
+        EXPECT_TRUE(is_apart(apart, lane)) << "lane " << lane;
       }
     }
   });

@@ -20,7 +20,7 @@ class FamilyTest : public testing::TestWithParam<Family> {
       Random random = Random::at(seed, k, series);
       const auto drawn = make(GetParam().draw(random), random);
       check(drawn, random);
-      ASSERT_FALSE(HasFailure()) << "seed " << seed << ", case " << k << "\n" << drawn;
+      if (HasFailure()) FAIL() << "seed " << seed << ", case " << k << "\n" << drawn;
     }
   }
 };
