@@ -189,6 +189,43 @@ TEST(BrokenPromise, SeveralAtOneInstantAreAllTold) {
   }
 }
 
+/// A body is to meet one that has to look at the floor soon. Asked then, it turns out to have gone to the
+/// other side, and to come back fast through another image than that in which the two have been seen.
+TEST(BrokenPromise, FoundOutAtAMeetingSettlesThePairInItsNewImage) {
+  const double speed = 100.0;
+  for (const double gap : {0.05, 0.2, 1.0}) {
+    for (const bool culprit_first : {false, true}) {
+      Playground p({.box = Box{{0, 0, 0}, {10, 10, 10}}, .periodic = {true, true, false}});
+      BodyId culprit{}, other{};
+      const auto add_culprit = [&] {
+        culprit = p.add({.radius = 0.5, .position = {3.0 + gap, 5, 0.51}, .velocity = {-1, 0, 0}});
+      };
+      if (culprit_first) add_culprit();
+      other = p.add({.radius = 0.5, .acceleration_limit = 1, .position = {2, 5, 0.51}}, Vec3{});
+      if (!culprit_first) add_culprit();
+      // Far from both: boxes are as large as bodies are sparse, and last beyond the next look at the floor.
+      p.add({.radius = 0.1, .position = {7, 0, 9}});
+      bool broken = false;
+      p.distort = [&](BodyId id, double time, State& state) {
+        if (id != culprit || time == 0.0 || broken) return;
+        broken = true;
+        p.set_position(culprit, state.position + Vec3{4.9, 0, 0});
+        p.set_velocity(culprit, {speed, 0, 0});
+        state = p.state(culprit);
+      };
+      const auto violation = p.advance(10.0);
+      ASSERT_TRUE(violation);
+      ASSERT_EQ(violation->kind, EventKind::bound_violation);
+      EXPECT_TRUE(is_clean(p.world));
+      const double way = p.state(other).position.x + 10.0 - p.state(culprit).position.x - 1.0;
+      const auto begin = p.advance(10.0);
+      ASSERT_TRUE(begin);
+      EXPECT_EQ(begin->kind, EventKind::contact_begin);
+      EXPECT_NEAR(begin->time, violation->time + way / speed, 1e-7) << "gap " << gap;
+    }
+  }
+}
+
 TEST(BrokenPromise, FaithfulReportsWithRoundingAreNone) {
   for (const double place : {0.0, 1e3, 1e6, 2.19e6}) {
     Playground p;
