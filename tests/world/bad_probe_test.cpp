@@ -190,6 +190,37 @@ TEST(BadAnswer, KicksAndNewBodiesBeforeTheRepetitionCount) {
   EXPECT_NEAR(events[0].time, time + 3.0, 1e-5);
 }
 
+/// A body that rests near the floor looks around as often as that may matter. When its reports begin to err
+/// towards one who comes, a look around finds the two nearer than the look before did, and has to ask.
+TEST(BadAnswer, InALookAroundHidesNoContact) {
+  std::size_t failures = 0;
+  for (int k = 0; k < 60; ++k) {
+    const double distance = 1.2 + 0.01 * k;
+    Playground p({.box = Box{{0, 0, 0}, {20, 20, 20}}});
+    const BodyId resting = p.add(
+        {.radius = 0.5, .acceleration_limit = 1, .position_error = 0.1, .position = {2, 10, 0.605}}, Vec3{});
+    p.add({.radius = 0.5, .position = {2 + distance, 10, 0.605}, .velocity = {-1, 0, 0}});
+    // Far from both: boxes are as large as bodies are sparse, and last for many looks.
+    p.add({.radius = 0.5, .position = {18, 2, 18}});
+    p.distort = [&](BodyId id, double, State& state) {
+      if (id == resting) state.position.x += 0.099;
+    };
+    bool ruin = false;
+    const auto good = p.probe();
+    const auto every_other_bad = [&](std::span<const BodyId> ids, double time, std::span<State> states) {
+      good(ids, time, states);
+      ruin = !ruin;
+      if (ruin) states.back().position.x = nan;
+    };
+    auto event = p.world.advance(10.0, every_other_bad);
+    for (; !event; ++failures) event = p.world.advance(10.0, every_other_bad);
+    ASSERT_TRUE(*event) << "distance " << distance;
+    EXPECT_EQ((*event)->kind, EventKind::contact_begin);
+    EXPECT_LE((*event)->time, distance - 1.0 + 1e-6) << "distance " << distance;
+  }
+  EXPECT_GT(failures, 100u);
+}
+
 TEST(Probe, MayNotCallTheWorldThatAskedIt) {
   Playground p;
   const BodyId a = p.add({.velocity = {1, 0, 0}});
