@@ -34,29 +34,6 @@ std::string text_of(BodyId body) {
   return text;
 }
 
-InputCheck& InputCheck::finite(const Subject& subject, double value) {
-  return require(std::isfinite(value), ErrorCode::not_finite, subject, "must be finite", value);
-}
-
-InputCheck& InputCheck::finite(const Subject& subject, const Vec3& value) {
-  return require(is_finite(value), ErrorCode::not_finite, subject, "must be finite", value);
-}
-
-InputCheck& InputCheck::positive(const Subject& subject, double value) {
-  return finite(subject, value).require(value > 0, ErrorCode::out_of_range, subject, "must be > 0", value);
-}
-
-InputCheck& InputCheck::not_negative(const Subject& subject, double value) {
-  return finite(subject, value).require(value >= 0, ErrorCode::out_of_range, subject, "must be >= 0", value);
-}
-
-InputCheck& InputCheck::within(const Subject& subject, const Vec3& value, double limit) {
-  const double largest = std::max({std::abs(value.x), std::abs(value.y), std::abs(value.z)});
-  return finite(subject, value)
-      .require(largest <= limit, ErrorCode::out_of_range, subject, "must be on each axis within +-", limit,
-               value);
-}
-
 InputCheck& InputCheck::box(const Subject& subject, const Box& box) {
   finite(subject, box.lower).finite(subject, box.upper);
   for (int axis = 0; axis < 3; ++axis)

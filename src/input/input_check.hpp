@@ -1,6 +1,8 @@
 // Checks of what a caller hands in: the first thing that is wrong becomes the error.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -30,7 +32,9 @@ struct Subject {
   std::optional<std::size_t> part_number = {};
 };
 
-/// Every check returns *this, so that checks read as one sentence:
+/// Nearly all input is fine, and words cost time: what is checked often is compiled into its caller, which
+/// then makes a Subject only for what is wrong. Every check returns *this, so that checks read as one
+/// sentence:
 ///   const auto check = InputCheck("Steered::create").start(states, time).positive({"interval"},
 ///   interval); if (check.error()) return *check.error();
 class InputCheck {
@@ -38,12 +42,26 @@ class InputCheck {
   /// `call` begins the message.
   explicit InputCheck(std::string_view call) : call_(call) {}
 
-  InputCheck& finite(const Subject& subject, double value);
-  InputCheck& finite(const Subject& subject, const Vec3& value);
-  InputCheck& positive(const Subject& subject, double value);
-  InputCheck& not_negative(const Subject& subject, double value);
+  [[gnu::always_inline]] InputCheck& finite(const Subject& subject, double value) {
+    return require(std::isfinite(value), ErrorCode::not_finite, subject, "must be finite", value);
+  }
+  [[gnu::always_inline]] InputCheck& finite(const Subject& subject, const Vec3& value) {
+    return require(is_finite(value), ErrorCode::not_finite, subject, "must be finite", value);
+  }
+  InputCheck& positive(const Subject& subject, double value) {
+    return finite(subject, value).require(value > 0, ErrorCode::out_of_range, subject, "must be > 0", value);
+  }
+  [[gnu::always_inline]] InputCheck& not_negative(const Subject& subject, double value) {
+    return finite(subject, value)
+        .require(value >= 0, ErrorCode::out_of_range, subject, "must be >= 0", value);
+  }
   /// Finite, and no coordinate beyond +-limit.
-  InputCheck& within(const Subject& subject, const Vec3& value, double limit);
+  [[gnu::always_inline]] InputCheck& within(const Subject& subject, const Vec3& value, double limit) {
+    const double largest = std::max({std::abs(value.x), std::abs(value.y), std::abs(value.z)});
+    return finite(subject, value)
+        .require(largest <= limit, ErrorCode::out_of_range, subject, "must be on each axis within +-", limit,
+                 value);
+  }
   /// Finite, with lower < upper on every axis.
   InputCheck& box(const Subject& subject, const Box& box);
   InputCheck& start(const std::vector<State>& states, double start_time);
@@ -52,18 +70,18 @@ class InputCheck {
 
   /// Any other condition: "<call>: <subject> <expectation>, but is <came>".
   template <class Value>
-  InputCheck& require(bool condition, ErrorCode code, const Subject& subject, std::string_view expectation,
-                      const Value& came) {
-    if (!condition && !error_) fail(code, subject, expectation, text_of(came));
+  [[gnu::always_inline]] InputCheck& require(bool condition, ErrorCode code, const Subject& subject,
+                                             std::string_view expectation, const Value& came) {
+    if (!condition && !error_) fail_with(code, subject, expectation, came);
     return *this;
   }
 
   /// The same, with a value that belongs to the expectation: "..., <expectation> <value>, but is <came>".
   template <class Expected, class Value>
-  InputCheck& require(bool condition, ErrorCode code, const Subject& subject, std::string_view expectation,
-                      const Expected& value, const Value& came) {
-    if (!condition && !error_)
-      fail(code, subject, std::string(expectation) + " " + text_of(value), text_of(came));
+  [[gnu::always_inline]] InputCheck& require(bool condition, ErrorCode code, const Subject& subject,
+                                             std::string_view expectation, const Expected& value,
+                                             const Value& came) {
+    if (!condition && !error_) fail_against(code, subject, expectation, value, came);
     return *this;
   }
 
@@ -71,6 +89,17 @@ class InputCheck {
   Result<void> result() const { return error_ ? Result<void>(*error_) : Result<void>(); }
 
  private:
+  template <class Value>
+  [[gnu::cold, gnu::noinline]] void fail_with(ErrorCode code, const Subject& subject,
+                                              std::string_view expectation, const Value& came) {
+    fail(code, subject, expectation, text_of(came));
+  }
+  template <class Expected, class Value>
+  [[gnu::cold, gnu::noinline]] void fail_against(ErrorCode code, const Subject& subject,
+                                                 std::string_view expectation, const Expected& value,
+                                                 const Value& came) {
+    fail(code, subject, std::string(expectation) + " " + text_of(value), text_of(came));
+  }
   void fail(ErrorCode code, const Subject& subject, std::string_view expectation, const std::string& came);
 
   std::string_view call_;
