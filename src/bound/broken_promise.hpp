@@ -13,13 +13,12 @@ struct BrokenPromise {
   double velocity_excess = 0.0;  ///< length / time
 };
 
-/// Nothing for a faithful report. The bound tells what the body promised at its last report, `promise` what
-/// it promises now: the two differ in the errors, for one, when the caller has changed them since.
-/// `kicked_to`: the velocity that the body was given since its last report, which was at this very time or is
-/// only good for its position. What rounding may do to a faithful report, up to 1/16 of `contact_tolerance`,
-/// is no violation: the tolerance covers it.
-std::optional<BrokenPromise> broken_promise(const BodyDefinition& promise, const Bound& bound,
-                                            const State& report, double time,
+/// Nothing for a faithful report. The bounds of a body of this radius are `before` and `after` it: the one
+/// tells what was promised at the report before, the other what is promised now, and they differ in the
+/// errors when the caller has changed them since. `kicked_to`: the velocity that the body was given since its
+/// report before, which was at this very time or is only good for its position. What rounding may do to a
+/// faithful report, up to 1/16 of `contact_tolerance`, is no violation: the tolerance covers it.
+std::optional<BrokenPromise> broken_promise(const Bound& before, const Bound& after, double radius,
                                             const std::optional<Vec3>& kicked_to, double contact_tolerance);
 
 }  // namespace kinesphere

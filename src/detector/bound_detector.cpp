@@ -115,9 +115,9 @@ void BoundDetector::probe(std::uint32_t number) {
     if (!error_) error_ = valid.error();
     state = {body.bound.centre_at(time_), body.bound.velocity_at(time_)};
   }
-  const auto broken = broken_promise(body.definition, body.bound, state, time_, body.kicked_to,
+  const Bound before = std::exchange(body.bound, bound_of(body.definition, state, time_));
+  const auto broken = broken_promise(before, body.bound, body.definition.radius, body.kicked_to,
                                      definition_.contact_tolerance);
-  body.bound = bound_of(body.definition, state, time_);
   if (!broken) return;
   book_.announce(violation_event(time_, {number, 0}, state, *broken));
   begin_new_course(number);

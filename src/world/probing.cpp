@@ -74,14 +74,21 @@ void World::Engine::apply_report(std::uint32_t number, const State& answer) {
   State state = answer;
   if (space_.repeats())
     state.position += space_.shift_to_nearest(answer.position, body.bound.centre_at(time_));
-  const BodyDefinition promise = definition_of(number);
-  const Change* change = change_since_report(number);
+  const Bound before = body.bound;
+  std::optional<Vec3> kicked_to;
+  if (const Change* change = change_since_report(number)) {
+    kicked_to = change->kicked_to;
+    body.bound = bound_of(definition_of(number), state, time_);
+    forget_change(number);
+  } else {
+    body.bound.time = time_;
+    body.bound.position = state.position;
+    body.bound.velocity = state.velocity;
+  }
+  // A dirty body gets a new one with its box.
+  if (!marks_[number].dirty) sketches_[number] = sketch_of(body);
   const auto broken =
-      broken_promise(promise, body.bound, state, time_, change ? change->kicked_to : std::nullopt,
-                     definition_.contact_tolerance);
-  body.bound = bound_of(promise, state, time_);
-  forget_change(number);
-  sketches_[number] = sketch_of(body);
+      broken_promise(before, body.bound, body.radius, kicked_to, definition_.contact_tolerance);
   if (!broken) return;
   const Event violation = violation_event(time_, id_of(number),
                                           {space_.wrapped(state.position).position, state.velocity}, *broken);
