@@ -58,9 +58,23 @@ void TreeSchedule::set(std::uint32_t body, double time) {
 
 std::uint32_t TreeSchedule::next_body() const {
   assert(next_time_ < infinity);
-  std::size_t index = 0;
-  for (std::size_t level = height_; level-- > 0;)
-    index = index * width + levels_[level][index].find(next_time_);
+  return first_within(0, height_, next_time_);
+}
+
+/// The first one outside of that part of the highest group in which the next one is.
+std::optional<std::uint32_t> TreeSchedule::soon() const {
+  if (next_time_ == infinity) return std::nullopt;
+  TimeGroup others = levels_[height_ - 1].front();
+  others[others.find(next_time_)] = infinity;
+  const double time = others.least();
+  if (time == infinity) return std::nullopt;
+  return first_within(others.find(time), height_ - 1, time);
+}
+
+/// The first body with this time, the least, in the part of the levels below `level` that begins with the
+/// group of this index.
+std::uint32_t TreeSchedule::first_within(std::size_t index, std::size_t level, double time) const {
+  while (level-- > 0) index = index * width + levels_[level][index].find(time);
   return static_cast<std::uint32_t>(index);
 }
 

@@ -7,9 +7,11 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
+#include "memory/prefetch.hpp"
 #include "schedule/time_group.hpp"
 
 namespace kinesphere {
@@ -42,14 +44,22 @@ class LinearSchedule {
 };
 
 /// A tournament tree: the lowest level has the bodies' times, and every level above the least of each group
-/// of the one below, up to a level of one group. Cost: O(log n) for `set` and `next_body`, O(1) for the rest.
+/// of the one below, up to a level of one group. Cost: O(log n) for `set`, `next_body` and
+/// `soon`, O(1) for the rest.
 /// Memory: 9 bytes per body number, up to the highest that was ever scheduled.
 class TreeSchedule {
  public:
+  void reserve(std::size_t bodies) { levels_[0].reserve((bodies + width - 1) / width); }
   void set(std::uint32_t body, double time);
   void remove(std::uint32_t body) { set(body, infinity); }
+  /// Of a body that will soon be set.
+  [[gnu::always_inline]] void fetch(std::uint32_t body) const {
+    if (body < room()) prefetch(levels_[0][body / width]);
+  }
   double next_time() const { return next_time_; }
   std::uint32_t next_body() const;
+  /// Someone else who is due soon: most often the next one after next_body(). Perhaps nobody.
+  std::optional<std::uint32_t> soon() const;
   double time_of(std::uint32_t body) const {
     return body < room() ? levels_[0][body / width][body % width] : infinity;
   }
@@ -76,6 +86,7 @@ class TreeSchedule {
   static constexpr std::size_t most_levels = 11;
 
   std::size_t room() const { return levels_[0].size() * width; }
+  std::uint32_t first_within(std::size_t index, std::size_t level, double time) const;
   void make_room(std::uint32_t body);
   void build();
   void complete();

@@ -26,6 +26,7 @@ namespace kinesphere {
 
 class HashGrid {
  public:
+  void reserve(std::size_t bodies) { places_.reserve(bodies); }
   /// Registers body number `body`, or moves it to a new box. Cost: O(1), amortised.
   void set(std::uint32_t body, const Box& box);
   void remove(std::uint32_t body);
@@ -262,8 +263,8 @@ void HashGrid::Level::for_each_overlap(const FloatBox& box, Visit& visit) const 
   const Steps steps = steps_of(box);
   const CellRange range = cells_around(steps);
   const double length_per_step = 1.0 / steps_per_length_;
-  const auto visit_cell = [&](const Slot& slot, const BoxBlock::Query& query) {
-    for (std::uint32_t number = slot.first_block; number != none; number = blocks_[number].next) {
+  const auto visit_cell = [&](std::uint32_t first_block, const BoxBlock::Query& query) {
+    for (std::uint32_t number = first_block; number != none; number = blocks_[number].next) {
       const BoxBlock& boxes = blocks_[number].boxes;
       BoxBlock::for_each(boxes.overlapping(query), [&](std::size_t place) {
         if constexpr (std::is_invocable_v<Visit, std::uint32_t, double>) {
@@ -277,19 +278,30 @@ void HashGrid::Level::for_each_overlap(const FloatBox& box, Visit& visit) const 
   if (range.count() > static_cast<double>(cells_) || !steps.is_narrow()) {
     for (const Slot& slot : slots_)
       if (!slot.is_free() && range.contains(slot.index))
-        visit_cell(slot, BoxBlock::Query(steps.seen_from(slot.index).low_bits()));
+        visit_cell(slot.first_block, BoxBlock::Query(steps.seen_from(slot.index).low_bits()));
     return;
   }
   const BoxBlock::Query query(steps.low_bits());
   const int shift = hash_shift();
+  // The first blocks of some cells come into the cache together.
+  std::array<std::uint32_t, 16> found;
+  std::size_t count = 0;
+  const auto visit_found = [&] {
+    for (std::size_t k = 0; k < count; ++k) visit_cell(found[k], query);
+    count = 0;
+  };
   for (std::int32_t z = range.first.z; z <= range.last.z; ++z)
     for (std::int32_t y = range.first.y; y <= range.last.y; ++y) {
       std::uint64_t hashed = hash({range.first.x, y, z});
       for (std::int32_t x = range.first.x; x <= range.last.x; ++x, hashed += step_x) {
         const Slot& slot = slots_[slot_of({x, y, z}, hashed, shift)];
-        if (!slot.is_free()) visit_cell(slot, query);
+        if (slot.is_free()) continue;
+        prefetch(blocks_[slot.first_block]);
+        found[count++] = slot.first_block;
+        if (count == found.size()) visit_found();
       }
     }
+  visit_found();
 }
 
 template <class Visit>

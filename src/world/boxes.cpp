@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "bound/encounter.hpp"
+#include "memory/prefetch.hpp"
 #include "world/engine.hpp"
 
 namespace kinesphere {
@@ -206,6 +207,8 @@ void World::Engine::find_neighbours(std::uint32_t number) {
   const std::size_t known = partners_.size();
   space_.for_each_overlap(grid_, box, [&](std::uint32_t other, double extent_of_other) {
     if (other == number) return;
+    prefetch(sketches_[other]);
+    neighbours_.fetch(other);
     partners_.push_back(other);
     if (Horizon::is_larger(extent_of_other, extent)) ++larger;
   });

@@ -15,6 +15,22 @@ World::Engine::Engine(const WorldDefinition& definition)
       book_(definition),
       time_(definition.start_time) {}
 
+void World::Engine::reserve(std::size_t bodies) {
+  bodies_.reserve(bodies);
+  marks_.reserve(bodies);
+  sketches_.reserve(bodies);
+  dirty_.reserve(bodies);
+  if (space_.repeats()) {
+    boxes_.reserve(bodies);
+    homes_.reserve(bodies);
+    images_.reserve(bodies);
+  }
+  book_.reserve(bodies);
+  grid_.reserve(bodies);
+  neighbours_.reserve(bodies);
+  schedule_.reserve(bodies);
+}
+
 /// A body that lives and has nothing else yet.
 std::uint32_t World::Engine::take_number() {
   std::uint32_t number;
@@ -209,11 +225,22 @@ void World::Engine::move_on_to(double time) {
   time_ = time;
 }
 
+/// Has the cache fetch what is kept of the body that is probably due next, which is somewhere in much memory.
+std::optional<std::uint32_t> World::Engine::fetch_coming() const {
+  constexpr std::size_t few = std::size_t{1} << 14;
+  if (bodies_.size() <= few) return std::nullopt;
+  const auto coming = schedule_.soon();
+  if (coming) fetch(*coming);
+  return coming;
+}
+
 /// Wakes all bodies that are due, so that every event of this instant is known before the first is delivered.
 Result<void> World::Engine::gather() {
+  const auto coming = fetch_coming();
   while (schedule_.next_time() <= time_) {
     if (auto woken = wake(schedule_.next_body()); !woken) return woken;
   }
+  if (coming) neighbours_.fetch_sides(*coming);
   // Bodies whose boxes end at this instant may add to its events.
   if (auto settled = settle_all(); !settled) return settled;
   gathering_ = false;

@@ -41,6 +41,7 @@
 #include "contact/sensor_table.hpp"
 #include "kinesphere/shape.hpp"
 #include "kinesphere/world.hpp"
+#include "memory/prefetch.hpp"
 #include "schedule/schedule.hpp"
 #include "space/space.hpp"
 #include "world/body.hpp"
@@ -53,6 +54,7 @@ class World::Engine {
  public:
   explicit Engine(const WorldDefinition& definition);
 
+  void reserve(std::size_t bodies);
   // Changes. Their input has been checked.
   BodyId add(const BodyDefinition& definition);
   BodyId add_fixed(const FixedDefinition& definition);
@@ -170,8 +172,20 @@ class World::Engine {
   class Audit;
   class RoundInProgress;
 
+  /// What is kept of a body that will soon be settled.
+  [[gnu::always_inline]] void fetch(std::uint32_t number) const {
+    prefetch(bodies_[number]);
+    prefetch(sketches_[number]);
+    prefetch(marks_[number]);
+    neighbours_.fetch(number);
+    grid_.fetch(number);
+    book_.fetch(number);
+    schedule_.fetch(number);
+  }
+
   // engine.cpp: the clock.
   void move_on_to(double time);
+  std::optional<std::uint32_t> fetch_coming() const;
   Result<void> gather();
   Result<void> wake(std::uint32_t number);
   void reschedule(std::uint32_t number);
@@ -242,6 +256,7 @@ class World::Engine {
   }
   bool lookout_tells_all(std::uint32_t number, std::uint32_t partner) const;
   Result<void> settle_changed(std::uint32_t a, std::uint32_t b);
+  Result<void> settle_body(std::uint32_t number);
   Result<void> look_around(std::uint32_t number);
   std::span<const Neighbours::Place> unwatched(std::uint32_t number);
   class Lookout;

@@ -24,21 +24,21 @@ std::optional<Neighbours::Place> Neighbours::find(std::uint32_t body, std::uint3
 void Neighbours::replace(std::uint32_t body, std::span<const std::uint32_t> found) {
   constexpr std::uint32_t seen = 0;
   if (++stamp_ == seen) {
-    stamps_.assign(stamps_.size(), seen);
+    for (List& list : lists_) list.stamp = seen;
     ++stamp_;
   }
-  for (const std::uint32_t partner : found) stamps_[partner] = stamp_;
+  for (const std::uint32_t partner : found) lists_[partner].stamp = stamp_;
   for (auto place = lists_[body].size; place-- > 0;) {
     const std::uint32_t partner = side(body, place).partner;
-    if (stamps_[partner] == stamp_) {
-      stamps_[partner] = seen;
+    if (lists_[partner].stamp == stamp_) {
+      lists_[partner].stamp = seen;
     } else {
       unlink(body, place);
     }
   }
   for (const std::uint32_t partner : found) {
-    if (stamps_[partner] == seen) continue;
-    stamps_[partner] = seen;
+    if (lists_[partner].stamp == seen) continue;
+    lists_[partner].stamp = seen;
     link(body, partner);
   }
 }
@@ -71,16 +71,20 @@ void Neighbours::move(std::uint32_t body, std::uint32_t capacity) {
   list.capacity = capacity;
 }
 
-/// Leaves no holes, and makes room for `room` more and for an eighth of all; for as many again, if they are
-/// few. Cost: O(all), once in so many moves that each pays for some copies.
+/// Leaves no holes, and makes room for `room` more and for an eighth of all; where many lists are empty yet,
+/// for what they will hold if they come to be like the others, four times as many at most. Cost: O(all), once
+/// in so many moves that each pays for some copies.
 void Neighbours::pack(std::uint32_t room) {
   std::size_t all = 0;
+  std::size_t filled = 0;
   for (List& list : lists_) {
     list.capacity = std::min(list.capacity, list.size + most_spare);
     all += list.capacity;
+    filled += list.size > 0;
   }
+  const std::size_t to_come = filled > 0 ? std::min(4 * all, all / filled * (lists_.size() - filled)) : 0;
   std::vector<Neighbour> packed;
-  packed.reserve(room + all + std::max(all / 8, std::min(all, few)));
+  packed.reserve(room + all + std::max({to_come, all / 8, std::min(all, few)}));
   packed.resize(all);
   std::uint32_t next = 0;
   for (List& list : lists_) {

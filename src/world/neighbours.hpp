@@ -46,13 +46,15 @@ class Neighbours {
  public:
   using Place = std::uint32_t;
 
+  void reserve(std::size_t bodies) { lists_.reserve(bodies); }
   /// Bodies 0 to count - 1 have lists.
-  void make_room(std::size_t count) {
-    lists_.resize(count);
-    stamps_.resize(count, 0);
-  }
+  void make_room(std::size_t count) { lists_.resize(count); }
   /// Of a body that will soon be asked for.
   [[gnu::always_inline]] void fetch(std::uint32_t body) const { prefetch(lists_[body]); }
+  /// The list itself.
+  [[gnu::always_inline]] void fetch_sides(std::uint32_t body) const {
+    for (const Neighbour& one : of(body)) prefetch(one);
+  }
   /// Good until neighbours come or go.
   std::span<const Neighbour> of(std::uint32_t body) const {
     return std::span(sides_).subspan(lists_[body].first, lists_[body].size);
@@ -91,7 +93,7 @@ class Neighbours {
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
     if constexpr (std::same_as<Archive, HeapCounter>) {
-      archive(self.lists_, self.sides_, self.stamps_);
+      archive(self.lists_, self.sides_);
     } else {
       std::vector<std::vector<Neighbour>> lists(self.lists_.size());
       for (std::uint32_t body = 0; body < lists.size(); ++body)
@@ -117,6 +119,7 @@ class Neighbours {
     std::uint32_t first = 0;
     std::uint32_t size = 0;
     std::uint32_t capacity = 0;
+    std::uint32_t stamp = 0;  ///< stamp_ if the body is found and not yet in the list that is replaced
   };
 
   Neighbour& side(std::uint32_t body, Place place) { return sides_[lists_[body].first + place]; }
@@ -134,7 +137,6 @@ class Neighbours {
   /// By capacity, what lists that have moved leave behind, until all are packed: the first one's place, where
   /// `partner` is that of the next.
   std::array<std::uint32_t, 64> holes_ = no_holes();
-  std::vector<std::uint32_t> stamps_;  ///< by body: stamp_ for those found and not yet in the list
   std::uint32_t stamp_ = 0;
 };
 

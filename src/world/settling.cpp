@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 
 #include "memory/prefetch.hpp"
 #include "space/morton.hpp"
@@ -19,8 +20,9 @@ bool lies_inside(const Box& inner, const Box& outer) {
 }
 
 /// A round of all bodies leaves much memory that others do not need.
+constexpr std::size_t most_kept = 1024;
 void let_go(std::vector<std::uint32_t>& numbers) {
-  if (numbers.capacity() > 1024 && numbers.size() < numbers.capacity() / 8) numbers.shrink_to_fit();
+  if (numbers.size() < numbers.capacity() / 8) numbers.shrink_to_fit();
 }
 
 }  // namespace
@@ -49,15 +51,16 @@ Result<void> World::Engine::settle_everything() {
   while (!dirty_.empty()) {
     round_.clear();
     round_.swap(dirty_);
-    if (round_.size() > 1) {
+    const auto in_disorder = std::adjacent_find(round_.begin(), round_.end(), std::greater_equal<>());
+    if (in_disorder != round_.end()) {
       std::sort(round_.begin(), round_.end());
       round_.erase(std::unique(round_.begin(), round_.end()), round_.end());
     }
     // Some have been removed or disabled since.
     std::erase_if(round_, [this](std::uint32_t number) { return !marks_[number].dirty; });
     if (auto settled = settle_round(round_); !settled) return settled;
-    let_go(round_);
-    let_go(chosen_);
+    for (auto* numbers : {&round_, &chosen_})
+      if (numbers->capacity() > most_kept) let_go(*numbers);
   }
   return {};
 }
@@ -114,28 +117,26 @@ void World::Engine::order_in_space(std::vector<std::uint32_t>& round) {
                  [](std::uint64_t key) { return static_cast<std::uint32_t>(key); });
 }
 
-/// What is kept of a body a few places after the k-th.
+/// Of a body a few places after the k-th.
 [[gnu::always_inline]] inline void World::Engine::fetch_ahead(const std::vector<std::uint32_t>& round,
                                                               std::size_t k) const {
   constexpr std::size_t ahead = 8;
-  if (k + ahead >= round.size()) return;
-  const std::uint32_t coming = round[k + ahead];
-  prefetch(bodies_[coming]);
-  prefetch(sketches_[coming]);
-  neighbours_.fetch(coming);
-  grid_.fetch(coming);
-  book_.fetch(coming);
+  if (k + ahead < round.size()) fetch(round[k + ahead]);
 }
 
 Result<void> World::Engine::settle_round(std::vector<std::uint32_t>& round) {
   RoundInProgress in_progress(*this, round);
   chosen_.clear();
-  for (const std::uint32_t number : round)
-    if (!bodies_[number].fresh(time_)) chosen_.push_back(number);
+  bool any_new = false;
+  for (const std::uint32_t number : round) {
+    const Body& body = bodies_[number];
+    if (!body.fresh(time_)) chosen_.push_back(number);
+    any_new = any_new || !(body.horizon.is_chosen() || body.is_fixed());
+  }
   if (!chosen_.empty()) {
     if (auto probed = probe(chosen_); !probed) return probed;
   }
-  choose_first_horizons(round);
+  if (any_new) choose_first_horizons(round);
   order_in_space(round);
   chosen_.clear();
   for (std::size_t k = 0; k < round.size(); ++k) {
@@ -148,22 +149,28 @@ Result<void> World::Engine::settle_round(std::vector<std::uint32_t>& round) {
     }
     sketch_box(number);
   }
+  // All of them before the first look, which may meet a bad answer: a body keeps its new box when the round
+  // is done again, and does not search then.
   for (std::size_t k = 0; k < chosen_.size(); ++k) {
     fetch_ahead(chosen_, k);
     find_neighbours(chosen_[k]);
   }
   for (std::size_t k = 0; k < round.size(); ++k) {
-    const std::uint32_t number = round[k];
     fetch_ahead(round, k);
-    if (!bodies_[number].is_fixed()) {
-      if (auto settled = settle_walls(number); !settled) return settled;
-    }
-    if (auto settled = look_around(number); !settled) return settled;
-    marks_[number].settled = true;
+    if (auto settled = settle_body(round[k]); !settled) return settled;
   }
-  for (const std::uint32_t number : round)
-    if (!marks_[number].dirty) reschedule(number);
   in_progress.finish();
+  return {};
+}
+
+/// A body whose neighbours are known.
+Result<void> World::Engine::settle_body(std::uint32_t number) {
+  if (!bodies_[number].is_fixed()) {
+    if (auto settled = settle_walls(number); !settled) return settled;
+  }
+  if (auto settled = look_around(number); !settled) return settled;
+  marks_[number].settled = true;
+  if (!marks_[number].dirty) reschedule(number);
   return {};
 }
 

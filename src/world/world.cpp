@@ -105,6 +105,17 @@ Result<BodyId> World::add(const BodyDefinition& body) {
   return changing(step::Add{body}).add(body);
 }
 
+Result<void> World::reserve(std::size_t bodies) {
+  const std::size_t most = no_body.index;
+  auto valid = first_error(
+      check_idle(engine_->probing(), "reserve"),
+      InputCheck("reserve")
+          .require(bodies <= most, ErrorCode::out_of_range, {"bodies"}, "must be at most", most, bodies)
+          .result());
+  if (valid) changeable().reserve(bodies);
+  return valid;
+}
+
 Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodies) {
   if (auto idle = check_idle(engine_->probing(), "add_all"); !idle) return idle.error();
   HashGrid earlier;
@@ -127,6 +138,8 @@ Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodie
   }
   std::vector<BodyId> ids;
   ids.reserve(bodies.size());
+  // Room for each of many small batches would be made one by one.
+  if (bodies.size() >= engine_->size()) changeable().reserve(engine_->size() + bodies.size());
   for (const BodyDefinition& body : bodies) ids.push_back(changing(step::Add{body}).add(body));
   return ids;
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -210,6 +211,27 @@ TYPED_TEST(EverySchedule, grows_like_the_reference) {
     EXPECT_TRUE(mirrored.same_front()) << body;
   }
   EXPECT_TRUE(mirrored.drains_alike());
+}
+
+TEST(TreeSchedule, mostly_knows_who_comes_after_the_next) {
+  Random random(seed);
+  TreeSchedule schedule;
+  EXPECT_EQ(schedule.soon(), std::nullopt);
+  schedule.set(3, 1.0);
+  EXPECT_EQ(schedule.soon(), std::nullopt);
+  for (std::uint32_t body = 0; body < 512; ++body) schedule.set(body, random.uniform());
+  int right = 0;
+  constexpr int events = 2000;
+  for (int event = 0; event < events; ++event) {
+    const std::uint32_t next = schedule.next_body();
+    const auto soon = schedule.soon();
+    ASSERT_TRUE(soon);
+    ASSERT_NE(*soon, next);
+    ASSERT_LT(schedule.time_of(*soon), infinity);
+    schedule.set(next, schedule.next_time() + random.uniform());
+    right += schedule.next_body() == *soon;
+  }
+  EXPECT_GT(right, events * 3 / 4);
 }
 
 /// Body and time; every fourth time removes the body.

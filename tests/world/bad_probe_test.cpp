@@ -236,6 +236,7 @@ TEST(Probe, MayNotCallTheWorldThatAskedIt) {
     };
     refused(p.world.add(BodyDefinition{}), "add");
     refused(p.world.add_all(std::vector<BodyDefinition>(2)), "add_all");
+    refused(p.world.reserve(5), "reserve");
     refused(p.world.remove(a), "remove");
     refused(p.world.kick(a, {}), "kick");
     refused(p.world.teleport(a, {}), "teleport");

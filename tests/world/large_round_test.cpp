@@ -41,5 +41,57 @@ TEST(LargeRound, finds_every_pair_that_touches_at_the_start) {
   EXPECT_EQ(found, touching);
 }
 
+/// So many that memory is fetched ahead of those who are due.
+TEST(LargeWorld, can_be_emptied_and_filled_again) {
+  constexpr std::uint32_t count = 20000;
+  World world = World::create({}).value();
+  const auto standing = [](std::span<const BodyId> ids, double, std::span<State> states) {
+    for (std::size_t k = 0; k < ids.size(); ++k) states[k] = {{3.0 * ids[k].index, 0, 0}, {}};
+  };
+  for (int pass = 0; pass < 2; ++pass) {
+    std::vector<BodyDefinition> bodies(count);
+    for (BodyDefinition& body : bodies) body.acceleration_limit = 1.0;
+    // The ids of those that were removed come again in another order.
+    std::vector<BodyId> ids;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      bodies[k].position = {1e6 + 3.0 * k, 0, 0};
+      ids.push_back(world.add(bodies[k]).value());
+    }
+    for (const BodyId id : ids) ASSERT_TRUE(world.teleport(id, {{3.0 * id.index, 0, 0}, {}}));
+    while (world.size() > 1) {
+      ASSERT_FALSE(world.advance(world.time() + 1.0, standing).value());
+      const std::size_t kept = world.size() / 2;
+      while (world.size() > kept) {
+        ASSERT_TRUE(world.remove(ids.back()));
+        ids.pop_back();
+      }
+    }
+    ASSERT_FALSE(world.advance(world.time() + 10.0, standing).value());
+    ASSERT_TRUE(world.remove(ids.back()));
+    ASSERT_FALSE(world.advance(world.time() + 10.0, standing).value());
+    EXPECT_FALSE(world.audit());
+  }
+}
+
+TEST(Reserve, changes_nothing_but_memory) {
+  constexpr std::uint32_t count = 5000;
+  World plain = World::create({}).value();
+  World roomy = World::create({}).value();
+  ASSERT_TRUE(roomy.reserve(count));
+  EXPECT_EQ(roomy.size(), 0u);
+  EXPECT_GT(roomy.memory().total(), plain.memory().total());
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const BodyDefinition body{.radius = 0.1, .position = {1.0 * k, 0, 0}, .velocity = {0, 1, 0}};
+    ASSERT_EQ(plain.add(body).value(), roomy.add(body).value());
+  }
+  EXPECT_LE(roomy.memory().bodies, plain.memory().bodies);
+  const auto flying = [](std::span<const BodyId> ids, double time, std::span<State> states) {
+    for (std::size_t k = 0; k < ids.size(); ++k) states[k] = {{1.0 * ids[k].index, time, 0}, {0, 1, 0}};
+  };
+  for (World* world : {&plain, &roomy}) ASSERT_FALSE(world->advance(3.0, flying).value());
+  ASSERT_TRUE(plain.reserve(2 * count));
+  EXPECT_EQ(plain.save().value(), roomy.save().value());
+}
+
 }  // namespace
 }  // namespace kinesphere

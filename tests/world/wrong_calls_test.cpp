@@ -204,6 +204,14 @@ TEST(WrongCalls, BatchIsAllOrNothing) {
   EXPECT_TRUE(world.add_all(std::span<const BodyDefinition>{}).value().empty());
 }
 
+TEST(WrongCalls, NoRoomForMoreBodiesThanThereAreIds) {
+  World world = World::create({}).value();
+  const std::size_t most = no_body.index;
+  expect_error(world.reserve(most + 1), ErrorCode::out_of_range, "bodies",
+               "reserve: bodies must be at most 4294967295, but is 4294967296");
+  EXPECT_TRUE(world.reserve(0));
+}
+
 TEST(WrongCalls, TimeMayStandStillButNotGoBack) {
   Playground p({.start_time = -3.0});
   p.add({.velocity = {1, 0, 0}});
