@@ -44,6 +44,7 @@ class ContactBook {
     return threshold.sensed ? sensor_rule_ : rule_;
   }
 
+  void reserve(std::size_t bodies) { entries_.reserve(bodies); }
   /// A body that touches nothing. `largest_acceleration` sets its Zeno interval.
   void add(std::uint32_t body, double largest_acceleration);
   void set_largest_acceleration(std::uint32_t body, double largest_acceleration) {
@@ -65,7 +66,6 @@ class ContactBook {
   /// In the order in which the contacts began; good until one begins or ends with the body.
   Chains<std::uint32_t>::List partners_of(std::uint32_t body) const { return partners_.of(body); }
   /// A set of wall_bit().
-  void reserve(std::size_t bodies) { entries_.reserve(bodies); }
   std::uint8_t walls_of(std::uint32_t body) const { return entries_[body].walls; }
   /// In the order in which they were crossed; good until the next one.
   Chains<Crossing>::List crossings_of(std::uint32_t body) const { return crossings_.of(body); }

@@ -1,6 +1,7 @@
 #include "detector/bound_detector.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "bound/broken_promise.hpp"
 #include "world/validation.hpp"
