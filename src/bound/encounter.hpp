@@ -74,17 +74,47 @@ class Encounter {
   }
 
   /// They cannot come within `room` before this time has passed, or not within `duration` if it is +infinity.
-  /// Bounds that neither grow nor turn meet where a quadratic is zero; for others see earliest_meeting().
   double meeting(double duration, double room) const {
+    const double d =
+        acceleration_ == Vec3{} ? straight_meeting(duration, room) : curved_meeting(0.0, duration, room);
+    return d > duration ? std::numeric_limits<double>::infinity() : d;
+  }
+
+ private:
+  static constexpr int most_rounds = 16;
+  static constexpr double negligible_gain = 0x1p-7;
+
+  /// Of centres that go straight on: where F(d) = |X + V d|^2 - R(d)^2 first is zero. Were the growth of the
+  /// radii steady, F would be a quadratic, whose root is late. If F is convex until then, the tangent there
+  /// lies below F and meets zero early, and one from where it does hardly so.
+  double straight_meeting(double duration, double room) const {
     const double radii = radii_ + room;
-    if (growth_ == 0.0 && speed_ == 0.0 && acceleration_ == Vec3{}) {
-      const double length = norm(offset_);
-      const double c = (length - radii) * (length + radii);
-      const double d =
-          rounding::first_crossing(c, 2.0 * dot(offset_, velocity_), 2.0 * norm_squared(velocity_));
-      return d > duration ? std::numeric_limits<double>::infinity() : d;
+    const double v2 = norm_squared(velocity_);
+    const double xv = dot(offset_, velocity_);
+    const double latest = rounding::first_crossing(norm_squared(offset_) - radii * radii,
+                                                   2.0 * (xv - radii * speed_), 2.0 * (v2 - speed_ * speed_));
+    if (growth_ == 0.0) return latest;
+    const auto radius = [&](double t) { return radii + (speed_ + 0.5 * growth_ * t) * t; };
+    const auto speed = [&](double t) { return speed_ + growth_ * t; };
+    if (latest < std::numeric_limits<double>::infinity() &&
+        v2 > speed(latest) * speed(latest) + radius(latest) * growth_) {
+      const auto tangent_root = [&](double t) {
+        const double r = radius(t);
+        return t - (norm_squared(offset_ + velocity_ * t) - r * r) / (2.0 * (xv + v2 * t - r * speed(t)));
+      };
+      const double first = tangent_root(latest);
+      if (first > 0.0 && first <= latest) {
+        const double second = tangent_root(first);
+        if (second - first <= second * negligible_gain) return second;
+        return curved_meeting(first, duration, room);
+      }
     }
-    double d = 0.0;
+    return curved_meeting(0.0, duration, room);
+  }
+
+  /// As earliest_meeting() finds it, when the first d are certain; a time after `duration` may be any.
+  double curved_meeting(double d, double duration, double room) const {
+    const double radii = radii_ + room;
     for (int round = 0; round < most_rounds; ++round) {
       const Vec3 centre = offset_ + (velocity_ + acceleration_ * (0.5 * d)) * d;
       const double length = norm(centre);
@@ -93,15 +123,10 @@ class Encounter {
           length - radii - (speed_ + 0.5 * growth_ * d) * d,
           dot(n, velocity_ + acceleration_ * d) - (speed_ + growth_ * d), dot(n, acceleration_) - growth_);
       d += gain;
-      if (d > duration) return std::numeric_limits<double>::infinity();
-      if (!(gain > d * negligible_gain)) break;
+      if (d > duration || !(gain > d * negligible_gain)) break;
     }
     return d;
   }
-
- private:
-  static constexpr int most_rounds = 16;
-  static constexpr double negligible_gain = 0x1p-7;
 
   Vec3 offset_, velocity_, acceleration_;
   double radii_, speed_, growth_;
