@@ -128,12 +128,6 @@ class alignas(16) BoxBlock {
     return found;
   }
 
-  /// Calls visit(place) for each of them.
-  template <class Visit>
-  static void for_each(Places places, Visit visit) {
-    for (; places != 0; places &= places - 1) visit(static_cast<std::size_t>(std::countr_zero(places)));
-  }
-
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
     auto& [lower, upper, bodies, count] = self;

@@ -263,22 +263,38 @@ void HashGrid::Level::for_each_overlap(const FloatBox& box, Visit& visit) const 
   const Steps steps = steps_of(box);
   const CellRange range = cells_around(steps);
   const double length_per_step = 1.0 / steps_per_length_;
+  // What is found in some blocks is visited together: most have nothing, which nobody can foresee.
+  constexpr std::size_t together = 64 / BoxBlock::width;
+  std::array<const BoxBlock*, together> compared;
+  std::size_t compared_count = 0;
+  std::uint64_t places_found = 0;
+  const auto visit_places = [&] {
+    for (; places_found != 0; places_found &= places_found - 1) {
+      const auto bit = static_cast<std::size_t>(std::countr_zero(places_found));
+      const BoxBlock& boxes = *compared[bit / BoxBlock::width];
+      const std::size_t place = bit % BoxBlock::width;
+      if constexpr (std::is_invocable_v<Visit, std::uint32_t, double>) {
+        visit(boxes.body(place), boxes.box(place).extent() * length_per_step);
+      } else {
+        visit(boxes.body(place));
+      }
+    }
+    compared_count = 0;
+  };
   const auto visit_cell = [&](std::uint32_t first_block, const BoxBlock::Query& query) {
     for (std::uint32_t number = first_block; number != none; number = blocks_[number].next) {
       const BoxBlock& boxes = blocks_[number].boxes;
-      BoxBlock::for_each(boxes.overlapping(query), [&](std::size_t place) {
-        if constexpr (std::is_invocable_v<Visit, std::uint32_t, double>) {
-          visit(boxes.body(place), boxes.box(place).extent() * length_per_step);
-        } else {
-          visit(boxes.body(place));
-        }
-      });
+      places_found |= static_cast<std::uint64_t>(boxes.overlapping(query))
+                      << compared_count * BoxBlock::width;
+      compared[compared_count++] = &boxes;
+      if (compared_count == together) visit_places();
     }
   };
   if (range.count() > static_cast<double>(cells_) || !steps.is_narrow()) {
     for (const Slot& slot : slots_)
       if (!slot.is_free() && range.contains(slot.index))
         visit_cell(slot.first_block, BoxBlock::Query(steps.seen_from(slot.index).low_bits()));
+    visit_places();
     return;
   }
   const BoxBlock::Query query(steps.low_bits());
@@ -302,6 +318,7 @@ void HashGrid::Level::for_each_overlap(const FloatBox& box, Visit& visit) const 
       }
     }
   visit_found();
+  visit_places();
 }
 
 template <class Visit>

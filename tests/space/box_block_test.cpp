@@ -173,15 +173,5 @@ TEST(StepBox, has_an_extent_across_the_end_of_its_numbers) {
   EXPECT_EQ((StepBox{{0, 65530, 2}, {3, 4, 2}}.extent()), 10);
 }
 
-TEST(BoxBlock, visits_places_once_and_in_ascending_order) {
-  for (BoxBlock::Places places = 0; places < 1u << BoxBlock::width; ++places) {
-    std::vector<std::size_t> expected, visited;
-    for (std::size_t place = 0; place < BoxBlock::width; ++place)
-      if ((places >> place) % 2 == 1) expected.push_back(place);
-    BoxBlock::for_each(places, [&visited](std::size_t place) { visited.push_back(place); });
-    EXPECT_EQ(visited, expected);
-  }
-}
-
 }  // namespace
 }  // namespace kinesphere
