@@ -11,8 +11,12 @@ namespace {
 
 class CheckedDetector final : public Detector {
  public:
-  CheckedDetector(std::unique_ptr<Detector> detector, const WorldDefinition& definition, std::size_t bodies)
-      : detector_(std::move(detector)), definition_(definition), present_(bodies, false) {}
+  CheckedDetector(std::unique_ptr<Detector> detector, const WorldDefinition& definition, std::size_t bodies,
+                  NewBodies new_bodies)
+      : detector_(std::move(detector)),
+        definition_(definition),
+        checks_new_bodies_(new_bodies == NewBodies::unchecked),
+        present_(bodies, false) {}
 
   std::string_view name() const override { return detector_->name(); }
 
@@ -22,7 +26,9 @@ class CheckedDetector final : public Detector {
                    "add: body must be one of the motion's " + std::to_string(present_.size()));
     }
     if (present_[body]) return wrong(ErrorCode::out_of_range, body, "add: body must not be there yet");
-    if (auto valid = check_body(definition, definition_, "add"); !valid) return valid;
+    if (checks_new_bodies_) {
+      if (auto valid = check_body(definition, definition_, "add"); !valid) return valid;
+    }
     auto added = detector_->add(body, definition);
     if (added) present_[body] = true;
     return added;
@@ -71,6 +77,7 @@ class CheckedDetector final : public Detector {
 
   std::unique_ptr<Detector> detector_;
   WorldDefinition definition_;
+  bool checks_new_bodies_;
   std::vector<bool> present_;
 };
 
@@ -89,8 +96,9 @@ Result<void> check_whole_space(const WorldDefinition& definition) {
 }
 
 std::unique_ptr<Detector> with_checked_input(std::unique_ptr<Detector> detector,
-                                             const WorldDefinition& definition, std::size_t bodies) {
-  return std::make_unique<CheckedDetector>(std::move(detector), definition, bodies);
+                                             const WorldDefinition& definition, std::size_t bodies,
+                                             NewBodies new_bodies) {
+  return std::make_unique<CheckedDetector>(std::move(detector), definition, bodies, new_bodies);
 }
 
 }  // namespace kinesphere

@@ -8,9 +8,13 @@
 
 namespace kinesphere {
 
+/// How the detector takes the definitions of new bodies.
+enum class NewBodies { unchecked, checked_by_itself };
+
 /// `bodies` is how many the motion has.
 std::unique_ptr<Detector> with_checked_input(std::unique_ptr<Detector> detector,
-                                             const WorldDefinition& definition, std::size_t bodies);
+                                             const WorldDefinition& definition, std::size_t bodies,
+                                             NewBodies new_bodies = NewBodies::unchecked);
 
 /// Only the world knows of space that repeats and of the plane.
 Result<void> check_whole_space(const WorldDefinition& definition);

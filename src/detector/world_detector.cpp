@@ -88,7 +88,7 @@ Result<std::unique_ptr<Detector>> make_sensing_detector(const WorldDefinition& d
   if (auto set = world->set_sensor(0, sensor); !set) return set.error();
   if (auto reserved = world->reserve(motion.size()); !reserved) return reserved.error();
   return with_checked_input(std::make_unique<WorldDetector>(std::move(*world), motion), definition,
-                            motion.size());
+                            motion.size(), NewBodies::checked_by_itself);
 }
 
 }  // namespace kinesphere
