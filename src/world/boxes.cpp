@@ -1,6 +1,8 @@
 // Boxes: how large and how long, and whose they overlap.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include "bound/encounter.hpp"
 #include "memory/prefetch.hpp"
@@ -10,8 +12,10 @@ namespace kinesphere {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// A box is kept when it will last for about a quarter of what a new one would.
-constexpr int most_lengths_tried = 5;
+/// A box is kept when it will last for this part as long as a new one would. Then ever shorter parts are
+/// tried.
+constexpr double shortest_part = 0.31640625;  // next_part^4
+constexpr double next_part = 0.75;
 /// A box with room on all sides is as large as one ahead of its body that lasts this part as long.
 constexpr double turned_part = 0.4;
 
@@ -20,6 +24,18 @@ Vec3 centre_of(const Box& box) { return 0.5 * (box.lower + box.upper); }
 double width_of(const Box& box) {
   const Vec3 size = box.upper - box.lower;
   return std::max({size.x, size.y, size.z});
+}
+
+/// About the distance between so many points along a line or in a layer, if their box is thinner than that,
+/// or in a cube around it. The same on all machines, without std::cbrt().
+double spacing_within(const Vec3& size, int count) {
+  std::array<double, 3> sides{size.x, size.y, size.z};
+  std::sort(sides.begin(), sides.end(), std::greater<>());
+  const double on_line = sides[0] / count;
+  if (!(sides[1] > on_line)) return on_line;
+  const double in_layer = std::sqrt(sides[1] * on_line);
+  if (!(sides[2] > in_layer)) return in_layer;
+  return std::ldexp(sides[0], -std::ilogb(count) / 3);
 }
 
 }  // namespace
@@ -39,9 +55,9 @@ void World::Engine::choose_first_horizons(const std::vector<std::uint32_t>& roun
     }
   }
   if (count == 0) return;
-  const Vec3 size = upper - lower;
-  const double spacing =
-      std::ldexp(std::max({size.x, size.y, size.z}), -std::ilogb(count) / definition_.dimensions);
+  Vec3 size = upper - lower;
+  if (definition_.dimensions == 2) size.z = 0.0;
+  const double spacing = spacing_within(size, count);
   const double way = spacing > 0.0 ? 0.25 * spacing : definition_.contact_tolerance;
   for (const std::uint32_t number : round)
     if (!bodies_[number].horizon.is_chosen() && !bodies_[number].is_fixed())
@@ -62,8 +78,9 @@ double World::Engine::reach_of_pair(const Body& a, const Body& b) const {
 
 /// How long a new box of the body would last.
 double World::Engine::box_length(const Body& body) const {
-  const double speed = norm(body.bound.velocity) + body.bound.growth_speed;
-  const double length = body.horizon.length(speed, body.largest_acceleration());
+  const double squared_speed =
+      norm_squared(body.bound.velocity) + body.bound.growth_speed * body.bound.growth_speed;
+  const double length = body.horizon.length(squared_speed, body.largest_acceleration());
   return space_.repeats() ? longest_in_period(body, length) : length;
 }
 
@@ -80,30 +97,41 @@ Box World::Engine::box_of_way(const MovedBound& moved, double length) const {
   return {lower - radius, upper + radius};
 }
 
-/// The body may stay in its box for a good while yet, after a kick for one: then its neighbours are still
-/// those that it has.
-bool World::Engine::keep_box(std::uint32_t number) {
-  Body& body = bodies_[number];
-  if (body.is_fixed() || body.box_end <= time_) return false;
-  const Box box = this->box(number);
-  const MovedBound moved(reach(body), time_);
-  double length = box_length(body);
-  for (int attempt = 0; attempt < most_lengths_tried; ++attempt, length *= 0.75) {
-    const Box way = box_of_way(moved, length);
-    bool inside = true;
-    for (int axis = 0; axis < definition_.dimensions; ++axis)
-      inside = inside && box.lower[axis] <= way.lower[axis] && way.upper[axis] <= box.upper[axis];
-    if (!inside) continue;
-    body.box_end = time_ + length;
-    return body.box_end > time_;
+/// Whether the body has to look for its neighbours, in a new box.
+bool World::Engine::renew_box(std::uint32_t number) {
+  if (bodies_[number].is_fixed()) {
+    register_shape(number);
+    return true;
   }
-  return false;
+  const double length = box_length(bodies_[number]);
+  if (keep_box(number, length)) return false;
+  register_box(number, length);
+  return true;
 }
 
-void World::Engine::register_box(std::uint32_t number) {
+/// The body may stay in its box for a good while yet, after a kick for one: then its neighbours are still
+/// those that it has. `length` is how long a new box would last.
+bool World::Engine::keep_box(std::uint32_t number, double length) {
   Body& body = bodies_[number];
-  if (body.is_fixed()) return register_shape(number);
-  body.box_end = just_after(time_ + (body.turned ? turned_part : 1.0) * box_length(body));
+  if (body.box_end <= time_) return false;
+  const Box box = this->box(number);
+  const MovedBound moved(reach(body), time_);
+  const auto holds_for = [&](double time) {
+    const Box way = box_of_way(moved, time);
+    bool inside = true;
+    for (int axis = 0; axis < definition_.dimensions; ++axis)
+      inside = inside & (box.lower[axis] <= way.lower[axis]) & (way.upper[axis] <= box.upper[axis]);
+    return inside;
+  };
+  if (!holds_for(shortest_part * length)) return false;
+  while (!holds_for(length)) length *= next_part;
+  body.box_end = time_ + length;
+  return body.box_end > time_;
+}
+
+void World::Engine::register_box(std::uint32_t number, double length) {
+  Body& body = bodies_[number];
+  body.box_end = just_after(time_ + (body.turned ? turned_part : 1.0) * length);
   set_box(number, bring_home(number, box_until_end(body)));
   body.turned = false;
 }

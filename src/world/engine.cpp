@@ -268,13 +268,10 @@ Result<void> World::Engine::wake(std::uint32_t number) {
     ++counters_.pair_checks;
     if (auto settled = look_around(number); !settled) return settled;
   }
-  for (;;) {
-    const auto all = neighbours_.of(number);
-    const auto due =
-        std::find_if(all.begin(), all.end(), [this](const Neighbour& one) { return one.watch <= time_; });
-    if (due == all.end()) break;
-    const std::uint32_t partner = due->partner;
-    const auto place = static_cast<Neighbours::Place>(due - all.begin());
+  double earliest_watch = 0.0;
+  while ((earliest_watch = neighbours_.earliest_watch(number)) <= time_) {
+    const Neighbours::Place place = neighbours_.place_of_watch(number, earliest_watch);
+    const std::uint32_t partner = neighbours_.of(number)[place].partner;
     if (marks_[partner].dirty) {
       neighbours_.unwatch(number, place);
       continue;
@@ -287,15 +284,13 @@ Result<void> World::Engine::wake(std::uint32_t number) {
     if (auto settled = settle_pair(number, place); !settled) return settled;
   }
   if (counters_.pair_checks + counters_.wall_checks == checks_before) ++counters_.stale_wakes;
-  if (!marks_[number].dirty) reschedule(number);
+  if (!marks_[number].dirty) reschedule(number, earliest_watch);
   return {};
 }
 
-void World::Engine::reschedule(std::uint32_t number) {
+void World::Engine::reschedule(std::uint32_t number, double earliest_watch) {
   const Body& body = bodies_[number];
-  double first = std::min({body.box_end, body.wall_time, body.look_time});
-  for (const Neighbour& one : neighbours_.of(number)) first = std::min(first, one.watch);
-  schedule_.set(number, first);
+  schedule_.set(number, std::min({body.box_end, body.wall_time, body.look_time, earliest_watch}));
 }
 
 }  // namespace kinesphere

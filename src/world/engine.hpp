@@ -188,7 +188,8 @@ class World::Engine {
   std::optional<std::uint32_t> fetch_coming() const;
   Result<void> gather();
   Result<void> wake(std::uint32_t number);
-  void reschedule(std::uint32_t number);
+  void reschedule(std::uint32_t number) { reschedule(number, neighbours_.earliest_watch(number)); }
+  void reschedule(std::uint32_t number, double earliest_watch);
   std::uint32_t take_number();
   void appear(std::uint32_t number, const Bound& bound);
   void appear_fixed(std::uint32_t number);
@@ -221,8 +222,9 @@ class World::Engine {
   /// much less than a tolerance that a certificate for two bodies that are not near spans most of it.
   double rounding_room() const { return definition_.contact_tolerance / 16.0; }
   double box_length(const Body& body) const;
-  bool keep_box(std::uint32_t number);
-  void register_box(std::uint32_t number);
+  bool renew_box(std::uint32_t number);
+  bool keep_box(std::uint32_t number, double length);
+  void register_box(std::uint32_t number, double length);
   void find_neighbours(std::uint32_t number);
   void set_box(std::uint32_t number, const Box& box);
   Box bring_home(std::uint32_t number, const Box& box);

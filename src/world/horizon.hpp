@@ -39,17 +39,18 @@ class Horizon {
     const double w = body_width;
     const double target = w * w * w + fixed_cost / (8.0 * density_);
     double way = way_;
-    for (int step = 0; step < 3; ++step) {
+    // One step of Newton's method goes too far up, the second one comes back.
+    for (int step = 0; step < 2; ++step) {
       const double excess = (2.0 * way + 3.0 * w) * way * way - target;
-      way -= excess / (6.0 * way * (way + w));
-      way = std::clamp(way, 0.5 * way_, 2.0 * way_);
+      way = std::clamp(way - excess / (6.0 * way * (way + w)), 0.5 * way_, 2.0 * way_);
     }
     way_ = possible(way, contact_tolerance);
   }
 
-  /// The horizon (time) of a body with this speed and acceleration.
-  double length(double speed, double acceleration) const {
-    return std::min(2.0 * way_ / (speed + std::sqrt(speed * speed + 2.0 * acceleration * way_)), longest);
+  /// The horizon (time) of a body with this square of its speed, and this acceleration.
+  double length(double squared_speed, double acceleration) const {
+    const double speed_at_the_end = std::sqrt(squared_speed + 2.0 * acceleration * way_);
+    return std::min(2.0 * way_ / (std::sqrt(squared_speed) + speed_at_the_end), longest);
   }
 
   template <class Self, class Archive>

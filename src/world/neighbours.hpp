@@ -59,6 +59,18 @@ class Neighbours {
   std::span<const Neighbour> of(std::uint32_t body) const {
     return std::span(sides_).subspan(lists_[body].first, lists_[body].size);
   }
+  /// The first of those whom the body's side watches, Neighbour::partner_does or Neighbour::nobody.
+  double earliest_watch(std::uint32_t body) const {
+    double earliest = Neighbour::nobody;
+    for (const Neighbour& one : of(body)) earliest = one.watch < earliest ? one.watch : earliest;
+    return earliest;
+  }
+  /// Where that of this time stands.
+  Place place_of_watch(std::uint32_t body, double time) const {
+    Place place = 0;
+    while (of(body)[place].watch != time) ++place;
+    return place;
+  }
   /// Where `partner` stands in the list of the body. Cost: O(length of the list).
   std::optional<Place> find(std::uint32_t body, std::uint32_t partner) const;
 

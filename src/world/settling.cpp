@@ -6,6 +6,7 @@
 
 #include "memory/prefetch.hpp"
 #include "space/morton.hpp"
+#include "space/radix_sort.hpp"
 #include "world/engine.hpp"
 #include "world/lookout.hpp"
 
@@ -112,16 +113,18 @@ void World::Engine::order_in_space(std::vector<std::uint32_t>& round) {
     const std::uint64_t key = morton_key(bodies_[number].bound.position, grid_.finest_edge());
     keys.push_back(key << 32 | number);
   }
-  std::sort(keys.begin(), keys.end());
+  sort_by_high_halves(keys);
   std::transform(keys.begin(), keys.end(), round.begin(),
                  [](std::uint64_t key) { return static_cast<std::uint32_t>(key); });
 }
 
-/// Of a body a few places after the k-th.
+/// What is kept of a body a few places after the k-th, and the neighbours of one between, where they stand
+/// being known by then.
 [[gnu::always_inline]] inline void World::Engine::fetch_ahead(const std::vector<std::uint32_t>& round,
                                                               std::size_t k) const {
   constexpr std::size_t ahead = 8;
   if (k + ahead < round.size()) fetch(round[k + ahead]);
+  if (k + ahead / 2 < round.size()) neighbours_.fetch_sides(round[k + ahead / 2]);
 }
 
 Result<void> World::Engine::settle_round(std::vector<std::uint32_t>& round) {
@@ -143,10 +146,7 @@ Result<void> World::Engine::settle_round(std::vector<std::uint32_t>& round) {
     const std::uint32_t number = round[k];
     fetch_ahead(round, k);
     marks_[number].dirty = false;
-    if (!keep_box(number)) {
-      register_box(number);
-      chosen_.push_back(number);
-    }
+    if (renew_box(number)) chosen_.push_back(number);
     sketch_box(number);
   }
   // All of them before the first look, which may meet a bad answer: a body keeps its new box when the round

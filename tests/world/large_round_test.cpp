@@ -1,6 +1,7 @@
 // Many bodies that are settled at once, with numbers that say nothing about where they are.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
 #include <utility>
 #include <vector>
@@ -89,6 +90,32 @@ TEST(Reserve, changes_nothing_but_memory) {
   for (World* world : {&plain, &roomy}) ASSERT_FALSE(world->advance(3.0, flying).value());
   ASSERT_TRUE(plain.reserve(2 * count));
   EXPECT_EQ(plain.save().value(), roomy.save().value());
+}
+
+/// Bodies with a spacing of 4, as many beside each other as `numbers` says, all new at the start.
+Counters of_first_searches(int dimensions, const std::array<std::uint32_t, 3>& numbers) {
+  World world = World::create({.dimensions = dimensions}).value();
+  std::vector<BodyDefinition> bodies;
+  for (std::uint32_t i = 0; i < numbers[0]; ++i)
+    for (std::uint32_t j = 0; j < numbers[1]; ++j)
+      for (std::uint32_t k = 0; k < numbers[2]; ++k)
+        bodies.push_back({.radius = 1.0, .acceleration_limit = 1.0, .position = {4.0 * i, 4.0 * j, 4.0 * k}});
+  EXPECT_TRUE(world.add_all(bodies));
+  EXPECT_FALSE(world.advance(0.0, [](auto&&...) { FAIL() << "all reports are fresh"; }).value());
+  EXPECT_EQ(world.counters().searches, bodies.size());
+  return world.counters();
+}
+
+TEST(FirstBoxes, hold_few_others_wherever_bodies_are) {
+  const auto candidates = [](int dimensions, const std::array<std::uint32_t, 3>& numbers) {
+    const Counters counters = of_first_searches(dimensions, numbers);
+    return static_cast<double>(counters.candidates) / static_cast<double>(counters.searches);
+  };
+  EXPECT_LT(candidates(3, {5000, 1, 1}), 3.0);
+  EXPECT_LT(candidates(3, {70, 70, 1}), 9.0);
+  EXPECT_LT(candidates(3, {17, 17, 17}), 27.0);
+  EXPECT_LT(candidates(2, {5000, 1, 1}), 3.0);
+  EXPECT_LT(candidates(2, {70, 70, 1}), 9.0);
 }
 
 }  // namespace
