@@ -1,35 +1,15 @@
 // Certified earliest times. The method, and why no answer is late: bound.hpp.
-#include <limits>
 
 #include "bound/relative_motion.hpp"
 #include "bound/rounding.hpp"
+#include "bound/safe_steps.hpp"
 #include "kinesphere/bound.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double margin = rounding::margin;
-
-/// Any number of rounds is safe; more are only nearer to the truth.
-constexpr int max_rounds = 16;
-/// A round that gains less than this part of the whole is the last.
-constexpr double negligible_gain = 0x1p-24;
-
-/// Adds up the safe steps that `step(d)` offers at d after `from`.
-template <class Step>
-double advance_by_safe_steps(double from, double horizon, Step step) {
-  double d = 0.0;
-  double time = from;
-  for (int round = 0; round < max_rounds; ++round) {
-    const double gain = step(d);
-    d = rounding::sum_down(d, gain);
-    time = rounding::sum_down(from, d);
-    if (time > horizon) return infinity;
-    if (!(gain > d * negligible_gain)) break;
-  }
-  return time > from ? time : from;
-}
+using rounding::margin;
 
 /// For the certificates that are one quadratic: c + b d + 1/2 a d^2 > 0 is what holds now.
 double time_of_crossing(double from, double horizon, double c, double b, double a) {

@@ -5,11 +5,11 @@
 #include <numbers>
 
 #include "bound/relative_motion.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 using RealRoots = polynomial::Roots<double>;
 
 /// Of c + b x + a x^2, a != 0.

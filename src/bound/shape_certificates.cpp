@@ -1,20 +1,16 @@
 // Certified earliest times and gaps of a bound and a box or triangle at rest. The method: shape.hpp.
-#include <limits>
 #include <optional>
 
 #include "bound/reach.hpp"
 #include "bound/rounding.hpp"
+#include "bound/safe_steps.hpp"
 #include "bound/triangle.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double margin = rounding::margin;
-
-/// As for two bounds: any number of rounds is safe.
-constexpr int max_rounds = 16;
-constexpr double negligible_gain = 0x1p-24;
+using rounding::margin;
 
 /// The shape lies on its far side, whatever the direction: it is raised by what rounding may have lowered it.
 template <class Solid>
@@ -25,7 +21,7 @@ HalfSpace supporting_plane(const Solid& solid, const Vec3& normal) {
 template <class Solid>
 double meeting(const Bound& bound, const Solid& solid, double from, double horizon, double distance) {
   double time = from;
-  for (int round = 0; round < max_rounds; ++round) {
+  for (int round = 0; round < most_rounds; ++round) {
     const HalfSpace plane = supporting_plane(solid, nearest_point(solid, bound.centre_at(time)).normal);
     const double next = earliest_meeting(bound, plane, time, horizon, distance);
     if (next == infinity) return infinity;
@@ -118,7 +114,7 @@ Companion companion(const Triangle& triangle, const Bound& bound, double now) {
 template <class Solid>
 double separation(const Bound& bound, const Solid& solid, double from, double horizon, double distance) {
   double time = from;
-  for (int round = 0; round < max_rounds; ++round) {
+  for (int round = 0; round < most_rounds; ++round) {
     const Companion at = companion(solid, bound, time);
     const double parted = earliest_separation(bound, at.path, time, horizon, distance - at.wrong);
     const double leaves = rounding::sum_down(time, at.stays);

@@ -2,9 +2,8 @@
 // roots.
 #pragma once
 
-#include <limits>
-
 #include "bound/encounter.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 
@@ -13,7 +12,6 @@ namespace kinesphere {
 /// radius_after(duration); that lies between its places now and then. Rounding is covered by `room` as in
 /// Encounter. A number that is none clears no axis.
 inline Box sides_in_reach(const MovedBound& bound, const Box& box, double duration, double room) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const double reach = bound.radius_after(duration) + room;
   Box near = box;
   for (int axis = 0; axis < 3; ++axis) {
@@ -30,7 +28,6 @@ inline Box sides_in_reach(const MovedBound& bound, const Box& box, double durati
 
 /// Whether a box has an end on any axis.
 inline bool has_sides(const Box& box) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   return box.upper.x != infinity || box.upper.y != infinity || box.upper.z != infinity;
 }
 

@@ -1,6 +1,6 @@
 #include "contact/contact_event.hpp"
+#include "number/infinity.hpp"
 
-#include <limits>
 #include <tuple>
 
 namespace kinesphere {
@@ -99,7 +99,6 @@ Event violation_event(double time, BodyId body, const State& report, const Broke
 }
 
 std::optional<Box> walls_of(const WorldDefinition& definition) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   if (!definition.box) return std::nullopt;
   Box box = *definition.box;
   bool any = false;

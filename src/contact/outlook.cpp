@@ -6,14 +6,9 @@
 #include <cstdint>
 
 #include "bound/sides_in_reach.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
-
 double just_after(double time) {
   if (time == 0.0) return std::numeric_limits<double>::denorm_min();
   if (!(time < infinity)) return time;

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "contact/outlook.hpp"
 #include "kinesphere/bound.hpp"
 #include "kinesphere/detector.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 
@@ -28,8 +28,6 @@ class BoundDetector : public Detector {
   Result<Bound> bound(std::uint32_t number) const override { return bodies_[number].bound; }
 
  protected:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-
   struct Body {
     BodyDefinition definition;
     Bound bound;  ///< since its last report

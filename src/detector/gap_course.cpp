@@ -79,8 +79,8 @@ struct Piece {
 /// Finds the first root of one piece for one level.
 class RootSearch {
  public:
-  RootSearch(const Piece& piece, Crossing crossing, double level)
-      : piece_(piece), level_(level), sign_(crossing == Crossing::falls_to ? 1.0 : -1.0) {}
+  RootSearch(const Piece& piece, LevelCrossing crossing, double level)
+      : piece_(piece), level_(level), sign_(crossing == LevelCrossing::falls_to ? 1.0 : -1.0) {}
 
   /// The first s in [0, end - begin] at which the level is reached.
   std::optional<double> first() const { return first_within(0.0, piece_.end - piece_.begin, 0); }
@@ -150,7 +150,8 @@ double GapCourse::gap_at(double t) const {
   return norm(at - segment_at(*b_, t).state_at(t).position) - radius_;
 }
 
-std::optional<double> GapCourse::first_time(Crossing crossing, double level, double from, double to) const {
+std::optional<double> GapCourse::first_time(LevelCrossing crossing, double level, double from,
+                                            double to) const {
   const auto index_at = [&](const Trajectory& trajectory) {
     return static_cast<std::size_t>(&segment_at(trajectory, from) - trajectory.data());
   };

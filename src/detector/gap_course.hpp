@@ -15,7 +15,7 @@
 namespace kinesphere {
 
 /// Which way the gap goes through a level.
-enum class Crossing { falls_to, rises_to };
+enum class LevelCrossing { falls_to, rises_to };
 
 /// The gap of two bodies or of a body and a wall, over the time that both trajectories cover. Refers to the
 /// trajectories, which must outlive it.
@@ -27,7 +27,7 @@ class GapCourse {
 
   double gap_at(double t) const;
   /// The first time in [from, to] at which the gap is at most (falls_to) or at least (rises_to) `level`.
-  std::optional<double> first_time(Crossing crossing, double level, double from, double to) const;
+  std::optional<double> first_time(LevelCrossing crossing, double level, double from, double to) const;
 
  private:
   const Trajectory* a_;

@@ -1,7 +1,6 @@
 // The oracle: brute force over exact trajectories, with no grid and no bounds.
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -12,12 +11,11 @@
 #include "detector/gap_course.hpp"
 #include "detector/pair_table.hpp"
 #include "kinesphere/detector.hpp"
+#include "number/infinity.hpp"
 #include "schedule/schedule.hpp"
 
 namespace kinesphere {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// One pair, or a body and a wall: whether they touch, and when that changes next.
 struct Contact {
@@ -200,7 +198,7 @@ class Oracle final : public Detector {
     double from = std::max(contact.searched_until, time_);
     contact.searched_until = until;
     if (contact.touching) {
-      const auto end = gap.first_time(Crossing::rises_to, rule_.separation_distance(), from, until);
+      const auto end = gap.first_time(LevelCrossing::rises_to, rule_.separation_distance(), from, until);
       if (!rule_.impacts_only() || !end) {
         contact.change = end.value_or(infinity);
         return contact;
@@ -210,7 +208,7 @@ class Oracle final : public Detector {
     }
     contact.change = rule_.impacts_only() && from == time_
                          ? next_impact(key, gap)
-                         : gap.first_time(Crossing::falls_to, 0.0, from, until).value_or(infinity);
+                         : gap.first_time(LevelCrossing::falls_to, 0.0, from, until).value_or(infinity);
     return contact;
   }
 
@@ -219,13 +217,13 @@ class Oracle final : public Detector {
     const Event now = event_of(key);
     std::optional<double> opens = time_;
     if (now.gap <= 0.0 && now.approach_speed <= 0.0) {
-      opens = gap.first_time(Crossing::rises_to, hair(), time_, searched_until_);
+      opens = gap.first_time(LevelCrossing::rises_to, hair(), time_, searched_until_);
       const double end = opens.value_or(searched_until_);
-      const auto closes = gap.first_time(Crossing::falls_to, gap.gap_at(time_) - hair(), time_, end);
+      const auto closes = gap.first_time(LevelCrossing::falls_to, gap.gap_at(time_) - hair(), time_, end);
       if (closes) return *closes;
     }
     if (!opens) return infinity;
-    return gap.first_time(Crossing::falls_to, 0.0, *opens, searched_until_).value_or(infinity);
+    return gap.first_time(LevelCrossing::falls_to, 0.0, *opens, searched_until_).value_or(infinity);
   }
 
   /// A length far below the tolerance and far above rounding.

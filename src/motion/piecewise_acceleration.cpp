@@ -1,5 +1,6 @@
 // Walking along pieces of constant acceleration.
 #include "kinesphere/motion/piecewise_acceleration.hpp"
+#include "number/infinity.hpp"
 
 #include <cassert>
 #include <cmath>
@@ -7,8 +8,6 @@
 namespace kinesphere {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Begins later than any time that may be asked for, so it is never the right piece.
 const Segment no_piece{

@@ -14,7 +14,7 @@ namespace kinesphere {
 namespace {
 
 /// The segment that holds t; the first one if t lies before it.
-Trajectory::const_iterator segment_at(const Trajectory& trajectory, double t) {
+Trajectory::const_iterator piece_at(const Trajectory& trajectory, double t) {
   const auto begins_after = [](double time, const Segment& segment) { return time < segment.begin; };
   return std::upper_bound(trajectory.begin() + 1, trajectory.end(), t, begins_after) - 1;
 }
@@ -101,14 +101,14 @@ BodyDefinition PiecewiseMotion::promise(std::uint32_t body, double t) const {
 
 State PiecewiseMotion::state(std::uint32_t body, double t) const {
   if (t < first_time(body)) return lead_in(body, t).state_at(t);
-  return segment_at(trajectories_[body], t)->state_at(t);
+  return piece_at(trajectories_[body], t)->state_at(t);
 }
 
 Trajectory PiecewiseMotion::trajectory(std::uint32_t body, double begin, double end) const {
   assert(begin <= end);
   Trajectory result;
   if (begin < first_time(body)) result.push_back(lead_in(body, begin));
-  auto segment = segment_at(trajectories_[body], begin);
+  auto segment = piece_at(trajectories_[body], begin);
   while (result.empty() || result.back().end < end) result.push_back(*segment++);
   result.back().end = end;
   return result;

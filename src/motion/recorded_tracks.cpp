@@ -25,12 +25,12 @@ void check_track(InputCheck& check, BodyId body, const Track& track) {
 }
 
 /// The step from sample k to the next one.
-struct Step {
+struct Chord {
   double duration;
   Vec3 velocity;  ///< of the chord
 };
 
-Step step_from(const Track& track, std::size_t k) {
+Chord chord_from(const Track& track, std::size_t k) {
   const double duration = track[k + 1].time - track[k].time;
   return {duration, (track[k + 1].position - track[k].position) / duration};
 }
@@ -42,9 +42,9 @@ std::vector<Vec3> spline_accelerations(const Track& track) {
   const std::size_t last = track.size() - 1;
   std::vector<Vec3> result(track.size());
   std::vector<double> next_factor(track.size(), 0.0);  // M_k = result[k] - next_factor[k] M_(k+1)
-  Step before = step_from(track, 0);
+  Chord before = chord_from(track, 0);
   for (std::size_t k = 1; k < last; ++k) {
-    const Step after = step_from(track, k);
+    const Chord after = chord_from(track, k);
     const double pivot = 2.0 * (before.duration + after.duration) - before.duration * next_factor[k - 1];
     next_factor[k] = after.duration / pivot;
     result[k] = (6.0 * (after.velocity - before.velocity) - before.duration * result[k - 1]) / pivot;
@@ -59,7 +59,7 @@ Trajectory spline(const Track& track) {
   Trajectory result;
   result.reserve(track.size());
   for (std::size_t k = 0; k + 1 < track.size(); ++k) {
-    const Step step = step_from(track, k);
+    const Chord step = chord_from(track, k);
     const Vec3& here = accelerations[k];
     const Vec3& there = accelerations[k + 1];
     result.push_back({.begin = track[k].time,

@@ -2,7 +2,6 @@
 #include "kinesphere/comparison.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -10,11 +9,10 @@
 #include "contact/contact_event.hpp"
 #include "contact/contact_rule.hpp"
 #include "detector/gap_course.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Two bodies, or a body (twice) and a wall.
 using Key = std::tuple<std::uint32_t, std::uint32_t, Wall>;
@@ -136,7 +134,7 @@ class Comparison {
   void check_apart(const Key& key, const GapCourse& gap, double from, double to,
                    const std::vector<Interval>& found, const std::vector<Interval>& truth) {
     while (from < to) {
-      const auto deep = gap.first_time(Crossing::falls_to, -tolerance_ - hair(), from, to);
+      const auto deep = gap.first_time(LevelCrossing::falls_to, -tolerance_ - hair(), from, to);
       if (!deep) return;
       const auto contact = std::find_if(truth.begin(), truth.end(), [&](const Interval& interval) {
         return interval.begin <= *deep && *deep <= interval.end;
@@ -157,7 +155,7 @@ class Comparison {
   /// While touching it never grows beyond the separation distance and the tolerance.
   void check_touching(const Key& key, const GapCourse& gap, double from, double to) {
     if (!(from < to)) return;
-    if (const auto wide = gap.first_time(Crossing::rises_to, rule_.release_gap() + hair(), from, to))
+    if (const auto wide = gap.first_time(LevelCrossing::rises_to, rule_.release_gap() + hair(), from, to))
       differ(to < last_time(key) ? result_.late : result_.missed, key, "end unreported", *wide);
   }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -10,12 +9,11 @@
 #include "detector/gap_course.hpp"
 #include "input/input_check.hpp"
 #include "kinesphere/bound.hpp"
+#include "number/infinity.hpp"
 #include "space/hash_grid.hpp"
 
 namespace kinesphere {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The true sphere of a body on a piece of its path: a bound that does not grow.
 Bound true_sphere(const Segment& piece, double radius) {

@@ -8,6 +8,7 @@
 #include "input/input_check.hpp"
 #include "kinesphere/response.hpp"
 #include "kinesphere/scene.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 namespace {
@@ -64,8 +65,6 @@ class Simulation {
   }
 
  private:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-
   struct Change {
     enum Kind { appears, vanishes };
     double time;

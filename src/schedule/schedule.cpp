@@ -1,5 +1,6 @@
 // The two schedules.
 #include "schedule/schedule.hpp"
+#include "number/infinity.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -7,8 +8,6 @@
 
 namespace kinesphere {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::size_t groups_for(std::size_t times) { return (times + TimeGroup::width - 1) / TimeGroup::width; }
 

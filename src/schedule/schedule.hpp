@@ -5,13 +5,13 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <optional>
 #include <type_traits>
 #include <vector>
 
 #include "memory/prefetch.hpp"
+#include "number/infinity.hpp"
 #include "schedule/time_group.hpp"
 
 namespace kinesphere {
@@ -79,7 +79,6 @@ class TreeSchedule {
   bool is_sound(std::size_t bodies) const;
 
  private:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr std::size_t width = TimeGroup::width;
   using Level = std::vector<TimeGroup>;
   /// Enough for every body number: 8^11 is more than 2^32.

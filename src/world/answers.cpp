@@ -4,12 +4,11 @@
 #include <cmath>
 
 #include "bound/relative_motion.hpp"
+#include "number/infinity.hpp"
 #include "world/present.hpp"
 
 namespace kinesphere {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Within this the single precision of the grid can hold coordinates.
 constexpr double grid_limit = 1e37;

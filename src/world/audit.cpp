@@ -7,13 +7,12 @@
 
 #include "bound/encounter.hpp"
 #include "input/input_check.hpp"
+#include "number/infinity.hpp"
 #include "world/engine.hpp"
 
 namespace kinesphere {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A recorded time may pass the one computed now by this part of the way there: both are lower bounds of the
 /// same truth, and each stops its iteration a little early.

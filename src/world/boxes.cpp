@@ -6,12 +6,12 @@
 
 #include "bound/encounter.hpp"
 #include "memory/prefetch.hpp"
+#include "number/infinity.hpp"
 #include "world/engine.hpp"
 
 namespace kinesphere {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A box is kept when it will last for this part as long as a new one would. Then ever shorter parts are
 /// tried.
 constexpr double shortest_part = 0.31640625;  // next_part^4
@@ -119,8 +119,10 @@ bool World::Engine::keep_box(std::uint32_t number, double length) {
   const auto holds_for = [&](double time) {
     const Box way = box_of_way(moved, time);
     bool inside = true;
-    for (int axis = 0; axis < definition_.dimensions; ++axis)
-      inside = inside & (box.lower[axis] <= way.lower[axis]) & (way.upper[axis] <= box.upper[axis]);
+    for (int axis = 0; axis < definition_.dimensions; ++axis) {
+      inside &= box.lower[axis] <= way.lower[axis];
+      inside &= way.upper[axis] <= box.upper[axis];
+    }
     return inside;
   };
   if (!holds_for(shortest_part * length)) return false;

@@ -2,13 +2,12 @@
 #include "world/fixed.hpp"
 
 #include <cmath>
+#include "number/infinity.hpp"
 #include "world/engine.hpp"
 #include "world/validation.hpp"
 
 namespace kinesphere {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A place for events and views to tell; a point of the shape.
 Vec3 place_of(const Ball& ball) { return ball.centre; }

@@ -4,6 +4,7 @@
 #include "bound/encounter.hpp"
 #include "bound/glance.hpp"
 #include "bound/rounding.hpp"
+#include "number/infinity.hpp"
 #include "world/engine.hpp"
 
 namespace kinesphere {
@@ -76,7 +77,6 @@ class World::Engine::Lookout {
 
  private:
   static constexpr double beyond_first = 2.0;
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
 
   const Engine& engine_;
   std::uint32_t number_;

@@ -4,16 +4,15 @@
 #include <cmath>
 #include <iterator>
 
+#include "number/infinity.hpp"
 #include "world/shape_queries.hpp"
 #include "world/validation.hpp"
 
 namespace kinesphere {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// More than what the few roundings of a distance or a way can add up to, relative to what went into it.
-constexpr double margin = 0x1p-45;
+constexpr double part_lost = 0x1p-45;
 
 constexpr int most_pieces = 64;
 
@@ -56,7 +55,7 @@ WayLimits touch_of(const Way& way, const Shape& shape) {
 Box box_around(const Vec3& a, const Vec3& b, double radius) {
   Box box;
   for (int axis = 0; axis < 3; ++axis) {
-    const double room = radius + margin * (std::abs(a[axis]) + std::abs(b[axis]) + radius);
+    const double room = radius + part_lost * (std::abs(a[axis]) + std::abs(b[axis]) + radius);
     box.lower[axis] = std::min(a[axis], b[axis]) - room;
     box.upper[axis] = std::max(a[axis], b[axis]) + room;
   }
@@ -136,7 +135,7 @@ std::vector<Found> World::Engine::Queries::overlapping(const Box& box, Distance 
     }
     const Place at = place(number, middle);
     const double distance = distance_to(at.centre);
-    const double wrong = margin * (size + norm_one(at.centre) + at.outer);
+    const double wrong = part_lost * (size + norm_one(at.centre) + at.outer);
     if (distance - wrong > at.outer) continue;
     const bool certain = distance + wrong <= at.inner;
     found.push_back({engine_.id_of(number), certain ? Certainty::certainly : Certainty::possibly});
@@ -168,7 +167,7 @@ std::vector<Near> World::Engine::Queries::distances(const std::vector<std::uint3
     }
     const Place at = place(number, point);
     const double distance = norm(at.centre - point);
-    const double wrong = margin * (norm_one(point) + norm_one(at.centre) + at.outer);
+    const double wrong = part_lost * (norm_one(point) + norm_one(at.centre) + at.outer);
     all.push_back({engine_.id_of(number), Certainty::possibly, distance - at.outer - wrong,
                    distance - at.inner + wrong});
   }
@@ -230,7 +229,7 @@ std::optional<Hit> World::Engine::Queries::hit(const Way& way, const Box& piece,
   std::optional<Hit> first;
   engine_.space_.for_each_shift(box_around(at.centre, at.centre, at.outer), piece, [&](const Vec3& shift) {
     const Vec3 centre = at.centre + shift;
-    const double wrong = margin * (norm_one(way.origin) + norm_one(centre) + at.outer + way.radius);
+    const double wrong = part_lost * (norm_one(way.origin) + norm_one(centre) + at.outer + way.radius);
     const auto may = passage(way, centre, at.outer + way.radius + wrong, wrong);
     if (!may) return;
     const auto must = passage(way, centre, at.inner + way.radius - wrong, -wrong);

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "memory/prefetch.hpp"
+#include "number/infinity.hpp"
 #include "space/morton.hpp"
 #include "space/radix_sort.hpp"
 #include "world/engine.hpp"
@@ -12,8 +13,6 @@
 
 namespace kinesphere {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool lies_inside(const Box& inner, const Box& outer) {
   return outer.lower.x < inner.lower.x && inner.upper.x < outer.upper.x && outer.lower.y < inner.lower.y &&

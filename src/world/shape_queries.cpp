@@ -1,17 +1,16 @@
 #include "world/shape_queries.hpp"
 
 #include <array>
-#include <limits>
 
 #include "bound/reach.hpp"
 #include "bound/rounding.hpp"
 #include "bound/triangle.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double margin = rounding::margin;
+using rounding::margin;
 
 GapLimits around(double gap, double wrong) { return {gap - wrong, gap + wrong}; }
 

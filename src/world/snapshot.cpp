@@ -12,6 +12,7 @@
 #include "archive/envelope.hpp"
 #include "archive/fields.hpp"
 #include "input/input_check.hpp"
+#include "number/infinity.hpp"
 #include "world/engine.hpp"
 #include "world/fixed.hpp"
 #include "world/validation.hpp"
@@ -27,7 +28,6 @@ constexpr Envelope envelope{{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'},
                             "World::restore",
                             "snapshot",
                             ErrorCode::bad_snapshot};
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Error refusal(const std::string& what) { return envelope.refusal(what); }
 

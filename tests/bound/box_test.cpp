@@ -8,8 +8,6 @@ namespace {
 
 constexpr std::uint64_t seed = 1564;
 constexpr int cases_per_family = 4000;
-constexpr double infinity = exact::infinity;
-
 struct BoxCase {
   Bound bound;
   Box box;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 
+#include "number/infinity.hpp"
 #include "support/exact_certificates.hpp"
 #include "support/family_test.hpp"
 
@@ -15,7 +16,6 @@ namespace {
 using exact::Wide;
 
 constexpr std::uint64_t seed = 2111;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Here `distance` is the room, which is not negative: radii are less instead.
 PairCase with_room(PairCase c, Random&) {

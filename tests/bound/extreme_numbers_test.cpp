@@ -11,7 +11,6 @@ namespace kinesphere {
 namespace {
 
 constexpr std::uint64_t seed = 754;
-constexpr double infinity = exact::infinity;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Every certificate of one case, by name: what the library says and what is true.

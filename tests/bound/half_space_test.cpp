@@ -8,8 +8,6 @@ namespace {
 
 constexpr std::uint64_t seed = 1638;
 constexpr int cases_per_family = 4000;
-constexpr double infinity = exact::infinity;
-
 struct WallCase {
   Bound bound;
   HalfSpace wall;

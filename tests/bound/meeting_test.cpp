@@ -10,8 +10,6 @@ namespace {
 
 constexpr std::uint64_t seed = 2005;
 constexpr int cases_per_family = 12000;
-constexpr double infinity = exact::infinity;
-
 double certificate(const PairCase& c) { return earliest_meeting(c.a, c.b, c.from, c.horizon, c.distance); }
 
 exact::Wide truth(const PairCase& c, exact::Wide extra = 0) {

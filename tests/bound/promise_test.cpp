@@ -10,8 +10,6 @@ namespace {
 constexpr std::uint64_t seed = 2718;
 constexpr int pairs_per_habit = 1500;
 constexpr int pieces = 12;
-constexpr double infinity = exact::infinity;
-
 using WideVector = std::array<exact::Wide, 3>;
 
 exact::Wide squared_distance(const WideVector& a, const WideVector& b) {

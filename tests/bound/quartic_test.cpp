@@ -11,8 +11,6 @@ namespace {
 
 constexpr std::uint64_t seed = 10;
 constexpr std::uint64_t cases = 20000;
-constexpr double infinity = exact::infinity;
-
 /// (d - r1)(d - r2)(d - r3)(d - r4) times `factor`.
 Quartic with_roots(double factor, double r1, double r2, double r3, double r4) {
   Quartic c{factor};

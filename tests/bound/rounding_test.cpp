@@ -10,8 +10,6 @@ namespace kinesphere {
 namespace {
 
 constexpr std::uint64_t seed = 1202;
-constexpr double infinity = exact::infinity;
-
 double any_sign(Random& random, double size) { return chance(random, 0.5) ? size : -size; }
 
 TEST(SumDown, is_below_the_exact_sum_and_sum_up_above_it) {

@@ -12,8 +12,6 @@ using exact::Wide;
 constexpr std::uint64_t seed = 1736;
 constexpr int cases_per_family = 500;
 constexpr int samples = 48;
-constexpr double infinity = exact::infinity;
-
 template <class Solid>
 struct ShapeCase {
   Bound bound;

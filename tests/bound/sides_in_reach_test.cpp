@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "number/infinity.hpp"
 #include "support/exact_certificates.hpp"
 #include "support/family_test.hpp"
 
@@ -12,7 +13,6 @@ namespace {
 using exact::Wide;
 
 constexpr std::uint64_t seed = 3307;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct BoxCase {
   Bound bound;

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "kinesphere/shape.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Bound ball{.time = 0.5, .position = {5, 0, 0}, .velocity = {-1, 0, 0}, .radius = 1};
 constexpr double from = 1.0;
 constexpr Box box{{-1, -1, -1}, {1, 1, 1}};

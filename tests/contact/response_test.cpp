@@ -1,12 +1,11 @@
 // The textbook bounce: momentum, energy, restitution.
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "contact/contact_event.hpp"
 #include "contact/contact_rule.hpp"
 #include "kinesphere/random.hpp"
 #include "kinesphere/response.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 namespace {
@@ -46,7 +45,6 @@ TEST(Bounce, EqualMassesSwapAndAHeavyOneStays) {
   const Bounce heavy = bounce(event, 1.0, 1e30, 1.0);
   EXPECT_NEAR(heavy.first_velocity.x, -2.0, 1e-12);
   EXPECT_NEAR(heavy.second_velocity.x, 0.0, 1e-12);
-  const double infinity = std::numeric_limits<double>::infinity();
   const Bounce fixed = bounce(event, 1.0, infinity, 0.5);
   EXPECT_EQ(fixed.first_velocity.x, -1.0);
   EXPECT_EQ(fixed.second_velocity, (Vec3{}));

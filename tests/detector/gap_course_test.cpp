@@ -22,32 +22,34 @@ TEST(GapCourse, HeadOn) {
   const GapCourse gap(a, b, 1.0);
   EXPECT_EQ(gap.gap_at(0.0), 9.0);
   EXPECT_EQ(gap.gap_at(5.0), -1.0);
-  EXPECT_NEAR(gap.first_time(Crossing::falls_to, 0.0, 0, 100).value(), 4.5, 1e-14);
-  EXPECT_NEAR(gap.first_time(Crossing::falls_to, -0.5, 0, 100).value(), 4.75, 1e-14);
-  EXPECT_EQ(gap.first_time(Crossing::falls_to, 0.0, 0, 4.4), std::nullopt);
-  EXPECT_EQ(gap.first_time(Crossing::falls_to, 0.0, 5.6, 100), std::nullopt);
-  EXPECT_NEAR(gap.first_time(Crossing::rises_to, 0.0, 5, 100).value(), 5.5, 1e-14);
-  EXPECT_EQ(gap.first_time(Crossing::rises_to, 3.0, 0, 100).value(), 0.0) << "it is that large already";
-  EXPECT_NEAR(gap.first_time(Crossing::rises_to, 3.0, 5, 100).value(), 7.0, 1e-14);
-  EXPECT_EQ(gap.first_time(Crossing::falls_to, 0.0, 4.9, 100).value(), 4.9) << "it is that small already";
-  EXPECT_NEAR(gap.first_time(Crossing::falls_to, 0.0, 0, 4.5).value_or(4.5), 4.5, 1e-14) << "at the very end";
+  EXPECT_NEAR(gap.first_time(LevelCrossing::falls_to, 0.0, 0, 100).value(), 4.5, 1e-14);
+  EXPECT_NEAR(gap.first_time(LevelCrossing::falls_to, -0.5, 0, 100).value(), 4.75, 1e-14);
+  EXPECT_EQ(gap.first_time(LevelCrossing::falls_to, 0.0, 0, 4.4), std::nullopt);
+  EXPECT_EQ(gap.first_time(LevelCrossing::falls_to, 0.0, 5.6, 100), std::nullopt);
+  EXPECT_NEAR(gap.first_time(LevelCrossing::rises_to, 0.0, 5, 100).value(), 5.5, 1e-14);
+  EXPECT_EQ(gap.first_time(LevelCrossing::rises_to, 3.0, 0, 100).value(), 0.0) << "it is that large already";
+  EXPECT_NEAR(gap.first_time(LevelCrossing::rises_to, 3.0, 5, 100).value(), 7.0, 1e-14);
+  EXPECT_EQ(gap.first_time(LevelCrossing::falls_to, 0.0, 4.9, 100).value(), 4.9)
+      << "it is that small already";
+  EXPECT_NEAR(gap.first_time(LevelCrossing::falls_to, 0.0, 0, 4.5).value_or(4.5), 4.5, 1e-14)
+      << "at the very end";
 }
 
 TEST(GapCourse, LevelBelowTheRadiiIsNeverReached) {
   const Trajectory a = straight({-10, 0, 0}, {2, 0, 0});
   const Trajectory b = still({0, 0, 0});
-  EXPECT_EQ(GapCourse(a, b, 1.0).first_time(Crossing::falls_to, -1.5, 0, 100), std::nullopt);
+  EXPECT_EQ(GapCourse(a, b, 1.0).first_time(LevelCrossing::falls_to, -1.5, 0, 100), std::nullopt);
 }
 
 TEST(GapCourse, TangentIsFoundOnceItIsDeeperThanRounding) {
   const Trajectory b = still({0, 0, 0});
   for (const double depth : {1e-3, 1e-6, 1e-9, 1e-12}) {
     const Trajectory a = straight({-10, 1.0 - depth, 0}, {1, 0, 0});
-    const auto time = GapCourse(a, b, 1.0).first_time(Crossing::falls_to, 0.0, 0, 100);
+    const auto time = GapCourse(a, b, 1.0).first_time(LevelCrossing::falls_to, 0.0, 0, 100);
     ASSERT_TRUE(time) << depth;
     EXPECT_NEAR(*time, 10.0 - std::sqrt(2 * depth - depth * depth), 1e-5) << depth;
     const Trajectory apart = straight({-10, 1.0 + depth, 0}, {1, 0, 0});
-    EXPECT_FALSE(GapCourse(apart, b, 1.0).first_time(Crossing::falls_to, 0.0, 0, 100)) << depth;
+    EXPECT_FALSE(GapCourse(apart, b, 1.0).first_time(LevelCrossing::falls_to, 0.0, 0, 100)) << depth;
   }
 }
 
@@ -55,11 +57,11 @@ TEST(GapCourse, StandingExactlyAtTheLevelHasReachedIt) {
   const Trajectory a = still({0, 0, 0});
   const Trajectory b = still({2, 0, 0});
   const GapCourse gap(a, b, 2.0);
-  EXPECT_EQ(gap.first_time(Crossing::falls_to, 0.0, 3, 9).value(), 3.0);
-  EXPECT_EQ(gap.first_time(Crossing::rises_to, 0.0, 3, 9).value(), 3.0);
-  EXPECT_EQ(gap.first_time(Crossing::falls_to, -1e-12, 3, 9), std::nullopt);
-  EXPECT_EQ(gap.first_time(Crossing::rises_to, 1e-12, 3, 9), std::nullopt);
-  EXPECT_EQ(GapCourse(a, b, 0.0).first_time(Crossing::falls_to, 2.0, 3, 9).value(), 3.0);
+  EXPECT_EQ(gap.first_time(LevelCrossing::falls_to, 0.0, 3, 9).value(), 3.0);
+  EXPECT_EQ(gap.first_time(LevelCrossing::rises_to, 0.0, 3, 9).value(), 3.0);
+  EXPECT_EQ(gap.first_time(LevelCrossing::falls_to, -1e-12, 3, 9), std::nullopt);
+  EXPECT_EQ(gap.first_time(LevelCrossing::rises_to, 1e-12, 3, 9), std::nullopt);
+  EXPECT_EQ(GapCourse(a, b, 0.0).first_time(LevelCrossing::falls_to, 2.0, 3, 9).value(), 3.0);
 }
 
 TEST(GapCourse, WallOfACubic) {
@@ -67,14 +69,14 @@ TEST(GapCourse, WallOfACubic) {
   const Trajectory a{
       {.begin = 2.0, .end = 9.0, .position = {0, 0, 1}, .velocity = {0, 0, -3}, .jerk = {0, 0, 6}}};
   const GapCourse gap(a, HalfSpace{{0, 0, 1}, -1.0}, 0.5);  // wall at z = -1, gap = z + 0.5
-  const double falls = gap.first_time(Crossing::falls_to, 0.0, 2, 9).value();
+  const double falls = gap.first_time(LevelCrossing::falls_to, 0.0, 2, 9).value();
   EXPECT_NEAR(gap.gap_at(falls), 0.0, 1e-14);
   EXPECT_LT(falls, 3.0);
-  const double rises = gap.first_time(Crossing::rises_to, 0.0, 3.0, 9).value();
+  const double rises = gap.first_time(LevelCrossing::rises_to, 0.0, 3.0, 9).value();
   EXPECT_NEAR(gap.gap_at(rises), 0.0, 1e-14);
   EXPECT_GT(rises, 3.0);
-  EXPECT_EQ(gap.first_time(Crossing::falls_to, -0.51, 2, 9), std::nullopt);
-  const auto double_root = gap.first_time(Crossing::falls_to, -0.5, 2, 9);
+  EXPECT_EQ(gap.first_time(LevelCrossing::falls_to, -0.51, 2, 9), std::nullopt);
+  const auto double_root = gap.first_time(LevelCrossing::falls_to, -0.5, 2, 9);
   if (double_root) {
     EXPECT_NEAR(*double_root, 3.0, 1e-6);
   }
@@ -87,10 +89,10 @@ TEST(GapCourse, SmallAndFastFromFarAwayIsNotLostInRounding) {
     const Trajectory b = still({0, 0, 0});
     const GapCourse gap(a, b, 0.02);
     const double half_way = std::sqrt(0.02 * 0.02 - 0.005 * 0.005);
-    const auto hit = gap.first_time(Crossing::falls_to, 0.0, 0, 3e3 + distance);
+    const auto hit = gap.first_time(LevelCrossing::falls_to, 0.0, 0, 3e3 + distance);
     ASSERT_TRUE(hit) << distance;
     EXPECT_NEAR(*hit, (distance - half_way) / 1000.0, 1e-15 * distance + 1e-12) << distance;
-    const auto leaves = gap.first_time(Crossing::rises_to, 1e-6, *hit, 3e3 + distance);
+    const auto leaves = gap.first_time(LevelCrossing::rises_to, 1e-6, *hit, 3e3 + distance);
     ASSERT_TRUE(leaves) << distance;
     EXPECT_NEAR(*leaves, (distance + half_way) / 1000.0, 1e-15 * distance + 1e-6) << distance;
   }
@@ -100,7 +102,7 @@ TEST(GapCourse, LongParallelFlightFarFromTheOrigin) {
   const Vec3 place{1e6, -1e6, 1e6};
   const Trajectory a = straight(place, {100, 0, 0});
   const Trajectory b = straight(place + Vec3{0, 3, 0}, {100, -1e-4, 0});
-  const auto hit = GapCourse(a, b, 2.0).first_time(Crossing::falls_to, 0.0, 0, 1e6);
+  const auto hit = GapCourse(a, b, 2.0).first_time(LevelCrossing::falls_to, 0.0, 0, 1e6);
   ASSERT_TRUE(hit);
   EXPECT_NEAR(*hit, 1e4, 0.05);
 }
@@ -135,8 +137,8 @@ TEST(GapCourse, AgreesWithDenseSamples) {
     const GapCourse gap = round % 5 == 0 ? GapCourse(a, HalfSpace{random.unit_vector(), -3.0}, 0.5 * radii)
                                          : GapCourse(a, b, radii);
     const double level = random.uniform(-0.2, 1.0);
-    for (const Crossing crossing : {Crossing::falls_to, Crossing::rises_to}) {
-      const double sign = crossing == Crossing::falls_to ? 1.0 : -1.0;
+    for (const LevelCrossing crossing : {LevelCrossing::falls_to, LevelCrossing::rises_to}) {
+      const double sign = crossing == LevelCrossing::falls_to ? 1.0 : -1.0;
       const auto time = gap.first_time(crossing, level, from, last);
       const double until = time.value_or(last);
       constexpr int samples = 2000;

@@ -19,10 +19,10 @@ constexpr std::uint64_t scenes_per_family = 25;
 /// The first time at which the gap is deeper than the tolerance, from when it is first not negative.
 std::optional<double> first_overlap(const GapCourse& gap, const Scene& scene) {
   const double from = scene.world.start_time;
-  const auto apart = gap.first_time(Crossing::rises_to, 0.0, from, scene.end_time);
+  const auto apart = gap.first_time(LevelCrossing::rises_to, 0.0, from, scene.end_time);
   if (!apart) return std::nullopt;
   const double tolerance = scene.world.contact_tolerance;
-  return gap.first_time(Crossing::falls_to, -tolerance * (1.0 + 1.0 / 16.0), *apart, scene.end_time);
+  return gap.first_time(LevelCrossing::falls_to, -tolerance * (1.0 + 1.0 / 16.0), *apart, scene.end_time);
 }
 
 using Case = std::tuple<std::string, Family, std::uint64_t>;

@@ -10,13 +10,13 @@
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/motion/recorded_tracks.hpp"
 #include "kinesphere/scene.hpp"
+#include "number/infinity.hpp"
 #include "support/expect_error.hpp"
 
 namespace kinesphere {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(WrongScene, IsNotMade) {
   const auto refused = [](ErrorCode code, const std::string& argument, const SceneParameters& parameters) {

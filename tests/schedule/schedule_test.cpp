@@ -16,12 +16,12 @@
 #include "archive/archive.hpp"
 #include "archive/heap_counter.hpp"
 #include "kinesphere/random.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 namespace {
 
 constexpr std::uint64_t seed = 1001;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 static_assert(Schedule<LinearSchedule>);
 static_assert(Schedule<TreeSchedule>);

@@ -7,12 +7,12 @@
 #include <cstdint>
 
 #include "kinesphere/random.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 namespace {
 
 constexpr std::uint64_t seed = 1002;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t width = TimeGroup::width;
 
 TEST(TimeGroup, FillsACacheLineWithInfinity) {

@@ -327,9 +327,9 @@ void ToldContacts::check_pair(Contact contact, double until) {
 }
 
 /// The first time from `from` on at which the gap certainly passes a level.
-std::optional<double> ToldContacts::reaches(const Contact& contact, Crossing crossing, double level,
+std::optional<double> ToldContacts::reaches(const Contact& contact, LevelCrossing crossing, double level,
                                             double from, double until) const {
-  const double beyond = crossing == Crossing::falls_to ? level - slack_ : level + slack_;
+  const double beyond = crossing == LevelCrossing::falls_to ? level - slack_ : level + slack_;
   if (!truth_.may_reach(contact, crossing, beyond, until)) return std::nullopt;
   return truth_.first_time(contact, crossing, beyond, from, until);
 }
@@ -339,9 +339,9 @@ void ToldContacts::check_contact(const Contact& contact, double until) {
   const double now = truth_.time();
   if (impacts(contact)) return check_impacts(contact, state, until);
   if (state.touching) {
-    if (const auto time = reaches(contact, Crossing::rises_to, rule_.release_gap(), now, until))
+    if (const auto time = reaches(contact, LevelCrossing::rises_to, rule_.release_gap(), now, until))
       fail("they part untold at " + std::to_string(*time), contact, truth_.gap(contact));
-  } else if (const auto time = reaches(contact, Crossing::falls_to, -rule_.tolerance(), now, until)) {
+  } else if (const auto time = reaches(contact, LevelCrossing::falls_to, -rule_.tolerance(), now, until)) {
     fail("they touch untold at " + std::to_string(*time), contact, truth_.gap(contact));
   }
 }
@@ -350,7 +350,7 @@ void ToldContacts::check_impacts(const Contact& contact, Told& state, double unt
   double from = truth_.time();
   if (state.touching) {
     state.opened = state.opened || truth_.opens_before(contact, until);
-    const auto parted = reaches(contact, Crossing::rises_to, rule_.release_gap(), from, until);
+    const auto parted = reaches(contact, LevelCrossing::rises_to, rule_.release_gap(), from, until);
     if (!parted) return;
     state = {};
     from = *parted;
@@ -361,7 +361,7 @@ void ToldContacts::check_impacts(const Contact& contact, Told& state, double unt
   state.due = false;
   if (state.floor < 0.0) {
     // Once they have come out as far as this, the next approach counts again.
-    const auto out = reaches(contact, Crossing::rises_to, rule_.surface_gap(), from, until);
+    const auto out = reaches(contact, LevelCrossing::rises_to, rule_.surface_gap(), from, until);
     check_free(contact, state, from, out.value_or(until));
     if (!out) return;
     state.floor = 0.0;
@@ -372,7 +372,7 @@ void ToldContacts::check_impacts(const Contact& contact, Told& state, double unt
 
 void ToldContacts::check_free(const Contact& contact, Told& state, double from, double until) const {
   const double floor = state.floor - rule_.tolerance();
-  if (const auto time = reaches(contact, Crossing::falls_to, floor, from, until))
+  if (const auto time = reaches(contact, LevelCrossing::falls_to, floor, from, until))
     fail("they touch untold at " + std::to_string(*time), contact, truth_.gap(contact));
 }
 

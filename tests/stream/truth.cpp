@@ -1,13 +1,12 @@
 // The true motion of bodies, and the exact course of the gaps between them.
 #include "stream/truth.hpp"
+#include "number/infinity.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace kinesphere::stream {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Of a shape that is no ball.
 SurfacePoint nearest_on(const Shape& shape, const Vec3& point) {
@@ -208,16 +207,16 @@ double Truth::approach_speed(const Contact& contact) const {
   return distance > 0.0 ? -dot(x, v) / distance : -norm(v);
 }
 
-bool Truth::may_reach(const Contact& contact, Crossing crossing, double level, double until) const {
+bool Truth::may_reach(const Contact& contact, LevelCrossing crossing, double level, double until) const {
   const auto [x, v, g] = relative(contact);
   const double s = until - time_;
   const double way = 1.001 * (norm(v) + 0.5 * norm(g) * s) * s + 1e-9;
   const double gap = this->gap(contact);
-  return crossing == Crossing::falls_to ? gap - way <= level : gap + way >= level;
+  return crossing == LevelCrossing::falls_to ? gap - way <= level : gap + way >= level;
 }
 
-std::optional<double> Truth::first_time(const Contact& contact, Crossing crossing, double level, double from,
-                                        double until) const {
+std::optional<double> Truth::first_time(const Contact& contact, LevelCrossing crossing, double level,
+                                        double from, double until) const {
   if (const auto half = inside(contact))
     return GapCourse(mover(contact).path, *half, extent(contact)).first_time(crossing, level, from, until);
   if (shape(contact) != nullptr) return march(contact, crossing, level, from, until);
@@ -225,13 +224,13 @@ std::optional<double> Truth::first_time(const Contact& contact, Crossing crossin
 }
 
 /// By steps that the body takes to come to the level at its largest speed, though not too short ones.
-std::optional<double> Truth::march(const Contact& contact, Crossing crossing, double level, double from,
+std::optional<double> Truth::march(const Contact& contact, LevelCrossing crossing, double level, double from,
                                    double until) const {
   const auto [x, v, g] = relative(contact);
   const double speed = norm(v) + norm(g) * (until - time_);
   for (double time = from;;) {
     const double gap = gap_at(contact, time);
-    const double way = crossing == Crossing::falls_to ? gap - level : level - gap;
+    const double way = crossing == LevelCrossing::falls_to ? gap - level : level - gap;
     if (way <= 0.0) return time;
     if (time >= until) return std::nullopt;
     time = std::min(until, time + std::max(1e-3 * (until - from), way / speed));
@@ -240,7 +239,7 @@ std::optional<double> Truth::march(const Contact& contact, Crossing crossing, do
 
 /// Where space repeats, one image after the other comes near; but bodies that have to part are near each
 /// other in one only.
-std::optional<double> Truth::first_in_images(const Contact& contact, Crossing crossing, double level,
+std::optional<double> Truth::first_in_images(const Contact& contact, LevelCrossing crossing, double level,
                                              double from, double until) const {
   const Trajectory& path = at(contact.first).path;
   const double extent = this->extent(contact);
@@ -251,7 +250,7 @@ std::optional<double> Truth::first_in_images(const Contact& contact, Crossing cr
   Trajectory other = at(contact.second).path;
   const Vec3 nearest = other.front().position + shift_to_nearest(centre(other), centre(path));
   std::optional<double> first;
-  const int beyond = crossing == Crossing::falls_to ? 1 : 0;
+  const int beyond = crossing == LevelCrossing::falls_to ? 1 : 0;
   const auto range = [&](int axis) { return periodic[axis] ? beyond : 0; };
   for (int x = -range(0); x <= range(0); ++x)
     for (int y = -range(1); y <= range(1); ++y)

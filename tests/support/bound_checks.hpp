@@ -22,7 +22,7 @@ inline testing::AssertionResult never_late(double certificate, exact::Wide truth
     return testing::AssertionFailure()
            << "certificate " << certificate << " is later than " << static_cast<double>(truth) << " by "
            << static_cast<double>(certificate - truth);
-  if (certificate != exact::infinity && !(certificate >= from && certificate <= horizon))
+  if (certificate != infinity && !(certificate >= from && certificate <= horizon))
     return testing::AssertionFailure()
            << "certificate " << certificate << " outside of [" << from << ", " << horizon << "]";
   return testing::AssertionSuccess();

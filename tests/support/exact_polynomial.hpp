@@ -6,13 +6,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+
+#include "number/infinity.hpp"
 
 namespace kinesphere::exact {
 
 __extension__ typedef __float128 Wide;
-
-inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 inline Wide abs(Wide x) { return x < 0 ? -x : x; }
 inline Wide max(Wide x, Wide y) { return x < y ? y : x; }

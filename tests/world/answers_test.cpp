@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "number/infinity.hpp"
 #include "support/expect_error.hpp"
 #include "world/crowd.hpp"
 
@@ -10,7 +11,6 @@ namespace kinesphere {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool begins(const Event& event) {
   return event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;

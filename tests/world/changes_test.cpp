@@ -2,6 +2,7 @@
 // of each.
 #include <gtest/gtest.h>
 
+#include "number/infinity.hpp"
 #include "support/playground.hpp"
 
 namespace kinesphere {
@@ -297,7 +298,6 @@ TEST(WrongChange, NamesEachNumberThatIsWrong) {
     EXPECT_EQ(result.error().argument, argument);
     EXPECT_EQ(result.error().body, body);
   };
-  const double infinity = std::numeric_limits<double>::infinity();
   const auto check = [&](double bad, ErrorCode code) {
     const Vec3 v{0, bad, 0};
     refused(p.world.teleport(a, {v, {}}), code, "position", a, "teleport");

@@ -12,11 +12,11 @@
 #include <utility>
 
 #include "archive/archive.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 using Lists = std::vector<std::vector<Neighbour>>;
 
 /// Every pair once, the lesser body first, with who watches it and until when.

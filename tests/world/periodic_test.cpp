@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "number/infinity.hpp"
 #include "support/expect_error.hpp"
 #include "world/periodic_world.hpp"
 
@@ -12,7 +13,6 @@ namespace kinesphere {
 namespace {
 
 constexpr double eps = PeriodicWorld::eps;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Axes all_axes{true, true, true};
 
 class Periodic : public testing::TestWithParam<PeriodicKind> {};

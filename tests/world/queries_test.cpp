@@ -6,13 +6,13 @@
 #include <functional>
 #include <set>
 
+#include "number/infinity.hpp"
 #include "world/crowd.hpp"
 
 namespace kinesphere {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double rounding = 1e-11;
 
 /// The way after which a sphere comes to touch the ball, if it does.

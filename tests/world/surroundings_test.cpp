@@ -3,13 +3,13 @@
 
 #include <set>
 
+#include "number/infinity.hpp"
 #include "support/expect_error.hpp"
 #include "world/surroundings.hpp"
 
 namespace kinesphere {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double eps = 1e-6;
 const HalfSpace ground{{0, 0, 1}, 0.0};
 const Triangle flat{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};

@@ -2,14 +2,11 @@
 // bodies.
 #include <gtest/gtest.h>
 
-#include <limits>
-
+#include "number/infinity.hpp"
 #include "support/playground.hpp"
 
 namespace kinesphere {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Four unit spheres in a row, 0 and 1 flying at each other, 2 disabled beside 1, 3 filtered from 0 and 1.
 class Together : public ::testing::Test {

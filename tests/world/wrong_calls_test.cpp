@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "number/infinity.hpp"
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 
@@ -12,7 +13,6 @@ namespace kinesphere {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(WrongWorld, IsRefusedByField) {
   const auto refused = [](ErrorCode code, const std::string& argument, const WorldDefinition& definition) {

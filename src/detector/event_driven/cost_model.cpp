@@ -1,10 +1,10 @@
 // The kinetic theory behind the cost model. A bound lives from one reset to the next: it grows, may meet
 // another or a wall at any age, and is reset at the latest when it fills its cell.
 #include "detector/event_driven/cost_model.hpp"
+#include "number/infinity.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <tuple>
 
@@ -12,7 +12,6 @@ namespace kinesphere {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// e^-x for x >= 0, to 1e-7, by the same operations on every machine.
 double exp_minus(double x) {

@@ -5,11 +5,11 @@
 
 #include "bound/rounding.hpp"
 #include "contact/outlook.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double margin = rounding::margin;
 
 /// Upper bound of the last d >= 0 at which c + b d + 1/2 a d^2 rises through 0: 0 when it is positive already

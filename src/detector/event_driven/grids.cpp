@@ -1,8 +1,8 @@
 #include "detector/event_driven/grids.hpp"
+#include "number/infinity.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace kinesphere {
 namespace {
@@ -31,7 +31,6 @@ int Grids::level_for(double diameter) const {
 }
 
 double Grids::plane(int level, std::int64_t index) const {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const std::int64_t limit = cells_to_a_side(level);
   if (index <= -limit) return -infinity;
   if (index >= limit) return infinity;

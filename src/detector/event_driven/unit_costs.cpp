@@ -18,7 +18,7 @@ namespace kinesphere {
 namespace {
 
 /// Bodies in the trees that are measured.
-constexpr std::uint32_t fewest_bodies = 64, most_bodies = 20000;
+constexpr std::uint32_t fewest_measured = 64, most_measured = 20000;
 /// Of the least disturbed of a few batches of `count` calls work(0), work(1), ... . Their results are added
 /// up, so that no compiler can leave them out.
 template <class Work>
@@ -132,7 +132,7 @@ CellCosts cells(const std::vector<Bound>& bounds) {
 
 UnitCosts calibrate_unit_costs(const Motion& motion, double time) {
   const auto bodies =
-      static_cast<std::uint32_t>(std::clamp<std::size_t>(motion.size(), fewest_bodies, most_bodies));
+      static_cast<std::uint32_t>(std::clamp<std::size_t>(motion.size(), fewest_measured, most_measured));
   const std::vector<Bound> bounds = random_bounds(bodies);
   const CellCosts cell_costs = cells(bounds);
   UnitCosts costs;

@@ -5,16 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "kinesphere/random.hpp"
+#include "number/infinity.hpp"
 #include "support/bound_cases.hpp"
 
 namespace kinesphere {
 namespace {
 
 constexpr std::uint64_t seed = 3105;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Case {
   Bound bound;

@@ -4,15 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "kinesphere/random.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 namespace {
 
 constexpr std::uint64_t seed = 3102;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Anything from tiny to endless, often on a plane of the grid or next to one.
 double random_coordinate(Random& random, const Grids& grids) {

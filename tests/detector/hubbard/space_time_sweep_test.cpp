@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kinesphere/random.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 namespace {
@@ -17,7 +18,6 @@ using Pair = std::pair<std::uint32_t, std::uint32_t>;
 using Meeting = SpaceTimeSweep::Meeting;
 
 constexpr Box box{{-20, -20, -20}, {20, 20, 20}};
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Times {
   double first, last;
