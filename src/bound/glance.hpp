@@ -16,8 +16,7 @@ namespace kinesphere {
 
 /// A bound in single precision, in one cache line.
 struct alignas(64) Sketch {
-  double time = 0.0;  ///< of the report
-  double end = 0.0;   ///< nothing is said of later times
+  std::array<double, 2> span{};  ///< from the time of the report to the end of what is known
   // Rows of four numbers: of the centre, and of the radius.
   std::array<float, 4> place{};
   std::array<float, 4> way{};   ///< velocity and growth speed
@@ -30,8 +29,7 @@ struct alignas(64) Sketch {
   /// A look at two sketches computes with numbers that are at most the sum of their sizes, in magnitudes of
   /// what goes into them, and all its roundings together come to less than 2^-18 of that.
   Sketch(const Bound& bound, double end_time, double beside)
-      : time(bound.time),
-        end(end_time),
+      : span{bound.time, end_time},
         place(row(bound.position, 0.0)),
         way(row(bound.velocity, bound.growth_speed)),
         turn(row(bound.planned_acceleration, bound.growth_acceleration)) {
@@ -62,76 +60,78 @@ struct Home {
 template <class Number = Four>
 class Glance {
  public:
-  Glance(const Sketch& own, double now)
-      : now_(now), own_end_(own.end), own_(Row{&own, &own, &own, &own}, now) {}
-
   using Row = std::array<const Sketch*, lane_count>;
-  /// Of the one who looks and of the others.
-  struct Homes {
-    Vec3 period;  ///< 0 on axes that do not repeat
-    const Home* own;
-    std::array<const Home*, lane_count> others;
+  using HomeRow = std::array<const Home*, lane_count>;
+
+  /// Others in the images that are nearest to the one who looks. `period` is 0 on axes that do not repeat.
+  class Images {
+   public:
+    Images(const Home& own, const Vec3& period)
+        : axes_{Axis(own.centre[0], period.x), Axis(own.centre[1], period.y), Axis(own.centre[2], period.z)} {
+    }
+
+   private:
+    friend class Glance;
+    struct Axis {
+      Axis(float own, double period)
+          : home(own),
+            length(static_cast<float>(period)),
+            half(period > 0.0 ? static_cast<float>(0.5 * period) : std::numeric_limits<float>::infinity()),
+            minus_half(Number(0.0f) - half) {}
+      Number shift(const Number& other) const {
+        const Number way = other - home;
+        return if_greater(minus_half, way, length) - if_greater(way, half, length);
+      }
+      Number home, length, half, minus_half;
+    };
+    std::array<Axis, 3> axes_;
   };
 
-  /// Those of the others with whom no two points of the bodies come within `room`, before `until` or one of
-  /// the two ends. `homes` are given where space repeats. On straight lines the least of
-  /// |X + V d| is |X|, its value at the end, or |X x V| / |V|: no root, no division. Radii count as they are
-  /// at the end, and half of what the centres turn by then is added to them.
-  [[gnu::always_inline]] Lanes apart(const Row& others, double until, double room, const Homes* homes) const {
-    Moved other(others, now_);
-    if (homes) other.shift(*homes);
-    const Number duration = spans(others, std::min(until, own_end_));
-    const Number x = own_.x - other.x, y = own_.y - other.y, z = own_.z - other.z;
-    const Number u = own_.u - other.u, v = own_.v - other.v, w = own_.w - other.w;
-    const Number turning = abs(own_.a - other.a) + abs(own_.b - other.b) + abs(own_.c - other.c);
-    const Number radii =
-        own_.radius + other.radius + Number(static_cast<float>(room * (1.0 + 0x1p-20))) +
-        (own_.speed + other.speed + Number(0.5f) * (own_.growth + other.growth + turning) * duration) *
-            duration;
-    const Number limit = radii * radii;
-    const Number distance = x * x + y * y + z * z;
-    const Number approach = Number(0.0f) - (x * u + y * v + z * w);
-    const Number speed = u * u + v * v + w * w;
-    const Number xe = x + u * duration, ye = y + v * duration, ze = z + w * duration;
-    const Number xc = y * w - z * v, yc = z * u - x * w, zc = x * v - y * u;
-    const Number bar = limit * speed;
-    // Nothing is known where squares underflow.
-    const Lanes now = (distance > limit) & (distance > Number(0x1p-60f)) & (Number(0x1p20f) > duration);
-    const Lanes leaving = Number(0.0f) > approach;
-    const Lanes passing = speed * duration > approach;
-    const Lanes at_the_end = xe * xe + ye * ye + ze * ze > limit;
-    const Lanes beside = (xc * xc + yc * yc + zc * zc > bar) & (bar > Number(0x1p-110f));
-    return now & (leaving | (passing & beside) | (~passing & at_the_end));
+  /// For those with whom no two points of the bodies may come within `room`.
+  Glance(const Sketch& own, double now, double room)
+      : now_(now),
+        own_end_(own.span[1]),
+        room_(static_cast<float>(room * (1.0 + 0x1p-20))),
+        own_(Row{&own, &own, &own, &own}, now_, Precise::columns(times({&own, &own, &own, &own}))[0]) {}
+
+  /// Those of the others with whom that holds until `until` or one of the two ends.
+  [[gnu::always_inline]] Lanes apart(const Row& others, double until) const {
+    const auto [reports, ends] = Precise::columns(times(others));
+    return apart(Moved(others, now_, reports), duration(until, ends));
+  }
+  /// Where space repeats.
+  [[gnu::always_inline]] Lanes apart(const Row& others, double until, const Images& images,
+                                     const HomeRow& homes) const {
+    const auto [reports, ends] = Precise::columns(times(others));
+    Moved moved(others, now_, reports);
+    moved.shift(images, homes);
+    return apart(moved, duration(until, ends));
   }
 
  private:
+  using Precise = typename Number::Precise;
+
+  static std::array<const double*, lane_count> times(const Row& sketches) {
+    return {sketches[0]->span.data(), sketches[1]->span.data(), sketches[2]->span.data(),
+            sketches[3]->span.data()};
+  }
+
   /// Four sketches, moved on.
   struct Moved {
     using Columns = std::array<Number, 4>;
     Number x, y, z, radius, u, v, w, speed, a, b, c, growth;
 
-    [[gnu::always_inline]] Moved(const Row& sketches, double to)
+    [[gnu::always_inline]] Moved(const Row& sketches, const Precise& to, const Precise& reports)
         : Moved(columns(sketches, [](const Sketch& one) { return one.place.data(); }),
                 columns(sketches, [](const Sketch& one) { return one.way.data(); }),
-                columns(sketches, [](const Sketch& one) { return one.turn.data(); }),
-                Number({age(sketches[0], to), age(sketches[1], to), age(sketches[2], to),
-                        age(sketches[3], to)})) {}
+                columns(sketches, [](const Sketch& one) { return one.turn.data(); }), Number(to - reports)) {}
 
-    void shift(const Homes& homes) {
-      const Columns theirs =
-          Number::columns({homes.others[0]->centre.data(), homes.others[1]->centre.data(),
-                           homes.others[2]->centre.data(), homes.others[3]->centre.data()});
-      const auto to_nearest = [&](std::size_t axis, double period) {
-        const Number length(static_cast<float>(period));
-        const Number half(period > 0.0 ? static_cast<float>(0.5 * period)
-                                       : std::numeric_limits<float>::infinity());
-        const Number zero(0.0f);
-        const Number way = theirs[axis] - Number(homes.own->centre[axis]);
-        return if_greater(zero - half, way, length) - if_greater(way, half, length);
-      };
-      x = x + to_nearest(0, homes.period.x);
-      y = y + to_nearest(1, homes.period.y);
-      z = z + to_nearest(2, homes.period.z);
+    [[gnu::always_inline]] void shift(const Images& images, const HomeRow& homes) {
+      const Columns theirs = Number::columns({homes[0]->centre.data(), homes[1]->centre.data(),
+                                              homes[2]->centre.data(), homes[3]->centre.data()});
+      x = x + images.axes_[0].shift(theirs[0]);
+      y = y + images.axes_[1].shift(theirs[1]);
+      z = z + images.axes_[2].shift(theirs[2]);
     }
 
    private:
@@ -140,7 +140,6 @@ class Glance {
       return Number::columns(
           {part(*sketches[0]), part(*sketches[1]), part(*sketches[2]), part(*sketches[3])});
     }
-    static float age(const Sketch* sketch, double to) { return static_cast<float>(to - sketch->time); }
 
     [[gnu::always_inline]] Moved(const Columns& place, const Columns& way, const Columns& turn, Number s)
         : x(place[0] + (way[0] + turn[0] * (Number(0.5f) * s)) * s),
@@ -158,15 +157,40 @@ class Glance {
   };
 
   /// How long to look at each of the others.
-  Number spans(const Row& others, double until) const {
-    const auto span = [&](const Sketch* other) {
-      return static_cast<float>(std::min(until, other->end) - now_);
-    };
-    return Number({span(others[0]), span(others[1]), span(others[2]), span(others[3])});
+  Number duration(double until, const Precise& ends) const {
+    return Number(min(ends, Precise(std::min(until, own_end_))) - now_);
   }
 
-  double now_;
+  /// On straight lines the square of the distance is a quadratic, least now, at the end, or between: no root,
+  /// no division. Radii count as they are at the end, and half of what the centres turn by then is added to
+  /// them.
+  [[gnu::always_inline]] Lanes apart(const Moved& other, const Number& duration) const {
+    const Number x = own_.x - other.x, y = own_.y - other.y, z = own_.z - other.z;
+    const Number u = own_.u - other.u, v = own_.v - other.v, w = own_.w - other.w;
+    const Number turning = abs(own_.a - other.a) + abs(own_.b - other.b) + abs(own_.c - other.c);
+    const Number radii =
+        own_.radius + other.radius + room_ +
+        (own_.speed + other.speed + Number(0.5f) * (own_.growth + other.growth + turning) * duration) *
+            duration;
+    const Number distance = x * x + y * y + z * z;
+    const Number approach = Number(0.0f) - (x * u + y * v + z * w);
+    const Number speed = u * u + v * v + w * w;
+    // What the square of the distance has beyond that of the radii, less than all roundings below can make.
+    const Number excess = distance * Number(1.0f - 0x1p-18f) - radii * radii;
+    const Number way = speed * duration;
+    using Mask = typename Number::Mask;
+    // Nothing is known where squares underflow or overflow.
+    const Mask now =
+        (excess > Number(0x1p-60f)) & (Number(0x1p120f) > distance) & (Number(0x1p20f) > duration);
+    const Mask leaving = Number(0.0f) > approach;
+    const Mask beside = (way > approach) & (excess * speed > approach * approach);
+    const Mask before = (approach >= way) & (excess + (way - approach - approach) * duration > Number(0.0f));
+    return now & (leaving | beside | before);
+  }
+
+  Precise now_;
   double own_end_;
+  Number room_;
   Moved own_;
 };
 

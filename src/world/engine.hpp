@@ -260,7 +260,13 @@ class World::Engine {
   Result<void> settle_changed(std::uint32_t a, std::uint32_t b);
   Result<void> settle_body(std::uint32_t number);
   Result<void> look_around(std::uint32_t number);
-  std::span<const Neighbours::Place> unwatched(std::uint32_t number);
+  /// A neighbour, and where it stands in the list.
+  struct Unwatched {
+    Neighbours::Place place;
+    std::uint32_t partner;
+  };
+  std::span<const Unwatched> unwatched(std::uint32_t number);
+  class Glances;
   class Lookout;
   /// A dirty partner will settle the pair itself; one that has been settled in this round has done so.
   bool settles_itself(std::uint32_t partner) const {
@@ -345,7 +351,7 @@ class World::Engine {
   std::vector<std::uint32_t> partners_;
   std::vector<std::uint32_t> round_;
   std::vector<std::uint32_t> chosen_;
-  std::vector<Neighbours::Place> unwatched_;
+  std::vector<Unwatched> unwatched_;
 };
 
 /// What comes next between two bodies that may meet: their contact, the next sensor distance inward, and the

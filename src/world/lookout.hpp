@@ -1,4 +1,4 @@
-// The cheap look at neighbours: most of them can be left alone for some sums and products, a few for a root.
+// The cheap looks at neighbours: most of them can be left alone for some sums and products, a few for a root.
 #pragma once
 
 #include "bound/encounter.hpp"
@@ -8,6 +8,32 @@
 #include "world/engine.hpp"
 
 namespace kinesphere {
+
+/// A body from whom four neighbours at a time are glanced at.
+class World::Engine::Glances {
+ public:
+  Glances(const Engine& engine, std::uint32_t number)
+      : engine_(engine),
+        glance_(engine.sketches_[number], engine.time_,
+                engine.sensors_.largest_reach() + engine.definition_.contact_tolerance) {
+    if (engine.space_.repeats()) images_.emplace(engine.homes_[number], engine.space_.period());
+  }
+
+  /// Which of the first four can be left alone until this time.
+  [[gnu::always_inline]] Lanes apart(const Unwatched* first, double until) const {
+    const auto row = [first](const auto& table) {
+      return std::array{&table[first[0].partner], &table[first[1].partner], &table[first[2].partner],
+                        &table[first[3].partner]};
+    };
+    return images_ ? glance_.apart(row(engine_.sketches_), until, *images_, row(engine_.homes_))
+                   : glance_.apart(row(engine_.sketches_), until);
+  }
+
+ private:
+  const Engine& engine_;
+  Glance<> glance_;
+  std::optional<Glance<>::Images> images_;
+};
 
 /// A body from whom one neighbour after the other is looked at.
 class World::Engine::Lookout {
@@ -30,22 +56,9 @@ class World::Engine::Lookout {
     }
   }
 
-  /// Which of these neighbours, four at most, can be left alone for as long as is enough.
-  [[gnu::always_inline]] Lanes apart(const Glance<>& glance,
-                                     std::span<const Neighbours::Place> places) const {
-    if (!bare_) return 0;
-    const std::span<const Neighbour> all = engine_.neighbours_.of(number_);
-    Glance<>::Row others;
-    for (std::size_t lane = 0; lane < lane_count; ++lane)
-      others[lane] = &engine_.sketches_[all[places[std::min(lane, places.size() - 1)]].partner];
-    const double room = engine_.sensors_.largest_reach() + engine_.definition_.contact_tolerance;
-    if (!engine_.space_.repeats()) return glance.apart(others, enough_, room, nullptr);
-    Glance<>::Homes homes{engine_.space_.period(), &engine_.homes_[number_], {}};
-    for (std::size_t lane = 0; lane < lane_count; ++lane)
-      homes.others[lane] = &engine_.homes_[all[places[std::min(lane, places.size() - 1)]].partner];
-    return glance.apart(others, enough_, room, &homes);
-  }
-  /// The same of one neighbour, by a closer look.
+  /// A glance is of use, too.
+  bool is_bare() const { return bare_; }
+  /// Whether a neighbour can be left alone for as long as is enough, by a closer look.
   struct Look {
     bool apart;
     double until;  ///< if not apart: they cannot meet sooner; now, if fresh reports are needed
@@ -72,8 +85,10 @@ class World::Engine::Lookout {
     const double boxes_end = std::min(body_.box_end, engine_.bodies_[partner].box_end);
     return enough_ < boxes_end ? enough_ : infinity;
   }
+  /// Nobody has to be left alone for longer.
+  double enough() const { return enough_; }
   /// When a look at those that are apart is needed again; +infinity: when a box ends.
-  double enough() const { return enough_ < body_.box_end ? enough_ : infinity; }
+  double next_look() const { return enough_ < body_.box_end ? enough_ : infinity; }
 
  private:
   static constexpr double beyond_first = 2.0;

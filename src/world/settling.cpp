@@ -176,22 +176,21 @@ Result<void> World::Engine::settle_body(std::uint32_t number) {
 /// Records facts between a body and its neighbours, as far as nobody watches them: the inner loop of the
 /// engine.
 Result<void> World::Engine::look_around(std::uint32_t number) {
-  const std::span<const Neighbours::Place> unsettled = unwatched(number);
+  const std::span<const Unwatched> unsettled = unwatched(number);
   if (unsettled.empty()) {
     bodies_[number].look_time = infinity;
     return {};
   }
   const std::span<const Neighbour> all = neighbours_.of(number);
   Lookout lookout(*this, number);
-  const Glance<> glance(sketches_[number], time_);
+  const Glances glances(*this, number);
   bool any_apart = false;
   for (std::size_t first = 0; first < unsettled.size(); first += lane_count) {
-    const auto few = unsettled.subspan(first, std::min(lane_count, unsettled.size() - first));
-    const Lanes apart = lookout.apart(glance, few);
+    const std::size_t count = std::min(lane_count, unsettled.size() - first);
+    const Lanes apart = lookout.is_bare() ? glances.apart(&unsettled[first], lookout.enough()) : 0u;
     any_apart = any_apart || apart != 0;
-    for (Lanes rest = ~apart & ((1u << few.size()) - 1u); rest != 0; rest &= rest - 1) {
-      const Neighbours::Place place = few[static_cast<std::size_t>(std::countr_zero(rest))];
-      const std::uint32_t partner = all[place].partner;
+    for (Lanes rest = ~apart & ((1u << count) - 1u); rest != 0; rest &= rest - 1) {
+      const auto [place, partner] = unsettled[first + static_cast<std::size_t>(std::countr_zero(rest))];
       const Lookout::Look look = lookout.look_at(partner);
       if (look.apart) {
         any_apart = true;
@@ -207,21 +206,23 @@ Result<void> World::Engine::look_around(std::uint32_t number) {
     }
   }
   // Not before: a bad answer may have broken it off, and then it is due still.
-  bodies_[number].look_time = any_apart ? lookout.enough() : infinity;
+  bodies_[number].look_time = any_apart ? lookout.next_look() : infinity;
   return {};
 }
 
-/// Neighbours with whom a fact is to be recorded.
-std::span<const Neighbours::Place> World::Engine::unwatched(std::uint32_t number) {
+/// Neighbours with whom a fact is to be recorded. Behind them the last one is repeated until lane_count of
+/// them can be read from any place.
+std::span<const World::Engine::Unwatched> World::Engine::unwatched(std::uint32_t number) {
   const std::span<const Neighbour> all = neighbours_.of(number);
-  if (unwatched_.size() < all.size()) unwatched_.resize(all.size());
+  if (unwatched_.size() < all.size() + lane_count) unwatched_.resize(all.size() + lane_count);
   std::size_t count = 0;
   for (Neighbours::Place place = 0; place < all.size(); ++place) {
     const Neighbour& one = all[place];
     if (one.is_watched(time_) || settles_itself(one.partner) || !may_meet(number, one.partner)) continue;
     if (one.watch != Neighbour::nobody) neighbours_.unwatch(number, place);
-    unwatched_[count++] = place;
+    unwatched_[count++] = {place, one.partner};
   }
+  if (count > 0) std::fill_n(&unwatched_[count], lane_count - 1, unwatched_[count - 1]);
   return std::span(unwatched_).first(count);
 }
 
