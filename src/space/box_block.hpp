@@ -39,18 +39,17 @@ struct StepBox {
   static bool is_after(Step a, Step b) { return static_cast<Step>(b - a) > farthest; }
 };
 
-/// Boxes of bodies, coordinate by coordinate.
-class alignas(16) BoxBlock {
+/// Boxes of bodies, coordinate by coordinate, in two cache lines. How many of its places are in use, its
+/// owner knows.
+class alignas(64) BoxBlock {
  public:
   static constexpr std::size_t width = 8;
   /// A set of places: bit k for place k.
   using Places = unsigned;
 
-  std::size_t size() const { return size_; }
-  bool is_full() const { return size_ == width; }
-  void push(const StepBox& box, std::uint32_t body) { put(size_++, box, body); }
-  void pop() { put(--size_, {}, 0); }
-  /// At a place below size().
+  /// The first `count` places.
+  static constexpr Places first(std::size_t count) { return (1u << count) - 1u; }
+
   void put(std::size_t place, const StepBox& box, std::uint32_t body) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       lower_[axis][place] = box.lower[axis];
@@ -63,8 +62,8 @@ class alignas(16) BoxBlock {
             {upper_[0][place], upper_[1][place], upper_[2][place]}};
   }
   std::uint32_t body(std::size_t place) const { return bodies_[place]; }
-  /// The place of a body, or width if it is not here.
-  std::size_t find(std::uint32_t body) const {
+  /// The place of a body, or width if it is in none of the first `count`.
+  std::size_t find(std::uint32_t body, std::size_t count = width) const {
     Places found = 0;
 #if defined(__SSE2__)
     const __m128i wanted = _mm_set1_epi32(static_cast<int>(body));
@@ -77,7 +76,7 @@ class alignas(16) BoxBlock {
     for (std::size_t place = 0; place < width; ++place)
       found |= static_cast<Places>(bodies_[place] == body) << place;
 #endif
-    return static_cast<std::size_t>(std::countr_zero((found & places()) | 1u << width));
+    return static_cast<std::size_t>(std::countr_zero((found & first(count)) | 1u << width));
   }
 
   /// A box that others are compared with.
@@ -103,7 +102,7 @@ class alignas(16) BoxBlock {
 #endif
   };
 
-  /// Those whose boxes overlap it.
+  /// The places whose boxes overlap it, in use or not.
   [[gnu::always_inline]] Places overlapping(const Query& query) const {
 #if defined(__SSE2__)
     // Negative where one ends before the other begins.
@@ -115,7 +114,7 @@ class alignas(16) BoxBlock {
                           _mm_sub_epi16(load(upper_[axis]), query.lower_[axis]));
     };
     const __m128i any = _mm_or_si128(_mm_or_si128(apart(0), apart(1)), apart(2));
-    return ~static_cast<Places>(_mm_movemask_epi8(_mm_packs_epi16(any, any))) & places();
+    return ~static_cast<Places>(_mm_movemask_epi8(_mm_packs_epi16(any, any))) & first(width);
 #else
     return overlapping_one_by_one(query.box_);
 #endif
@@ -123,25 +122,22 @@ class alignas(16) BoxBlock {
   /// The same without vector instructions.
   Places overlapping_one_by_one(const StepBox& query) const {
     Places found = 0;
-    for (std::size_t place = 0; place < size_; ++place)
+    for (std::size_t place = 0; place < width; ++place)
       if (box(place).overlaps(query)) found |= 1u << place;
     return found;
   }
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [lower, upper, bodies, count] = self;
-    archive(lower, upper, bodies, count);
+    auto& [lower, upper, bodies] = self;
+    archive(lower, upper, bodies);
   }
-  bool is_sound() const { return size_ <= width; }
+  friend bool operator==(const BoxBlock&, const BoxBlock&) = default;
 
  private:
-  Places places() const { return (1u << size_) - 1u; }
-
   std::array<std::array<StepBox::Step, width>, 3> lower_{};
   std::array<std::array<StepBox::Step, width>, 3> upper_{};
   std::array<std::uint32_t, width> bodies_{};
-  std::uint32_t size_ = 0;
 };
 
 }  // namespace kinesphere

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <utility>
 
 namespace kinesphere {
 namespace {
@@ -93,6 +94,7 @@ double HashGrid::Level::largest_extent() const {
 std::uint32_t HashGrid::Level::take_block() {
   if (free_blocks_.empty()) {
     blocks_.emplace_back();
+    links_.emplace_back();
     return static_cast<std::uint32_t>(blocks_.size() - 1);
   }
   const std::uint32_t block = free_blocks_.back();
@@ -113,15 +115,15 @@ void HashGrid::Level::insert(const FloatBox& box, std::uint32_t body) {
     ++cells_;
     ++empty_cells_;
   }
-  const std::uint32_t first = slots_[slot].first_block;
-  if (blocks_[first].boxes.is_full()) {
-    const std::uint32_t full = take_block();
-    blocks_[full] = blocks_[first];
-    blocks_[first] = {.boxes = {}, .next = full};
-  } else if (blocks_[first].boxes.size() == 0) {
+  std::uint32_t& front = slots_[slot].first_block;
+  if (links_[front].size == BoxBlock::width) {
+    const std::uint32_t full = front;
+    front = take_block();
+    links_[front].next = full;
+  } else if (links_[front].size == 0) {
     --empty_cells_;
   }
-  blocks_[first].boxes.push(steps.low_bits(), body);
+  blocks_[front].put(links_[front].size++, steps.low_bits(), body);
   ++bodies_;
   widen_reach(steps);
 }
@@ -132,11 +134,10 @@ void HashGrid::Level::widen_reach(const Steps& steps) {
 }
 
 HashGrid::Level::Standing HashGrid::Level::find(const CellIndex& index, std::uint32_t body) const {
-  const std::uint32_t first = slots_[slot_of(index)].first_block;
-  for (std::uint32_t block = first;; block = blocks_[block].next) {
-    const BoxBlock& boxes = blocks_[block].boxes;
-    const std::size_t place = boxes.find(body);
-    if (place < boxes.size()) return {first, block, place};
+  const std::size_t slot = slot_of(index);
+  for (std::uint32_t block = slots_[slot].first_block;; block = links_[block].next) {
+    const std::size_t place = blocks_[block].find(body, links_[block].size);
+    if (place < BoxBlock::width) return {slot, block, place};
   }
 }
 
@@ -145,7 +146,7 @@ bool HashGrid::Level::move_in_cell(const FloatBox& from, const FloatBox& to, std
   const CellIndex index = steps.cell();
   if (cell_of(from) != index) return false;
   const Standing at = find(index, body);
-  blocks_[at.block].boxes.put(at.place, steps.low_bits(), body);
+  blocks_[at.block].put(at.place, steps.low_bits(), body);
   widen_reach(steps);
   return true;
 }
@@ -153,16 +154,14 @@ bool HashGrid::Level::move_in_cell(const FloatBox& from, const FloatBox& to, std
 /// The last one of the first block takes its place.
 void HashGrid::Level::erase(const FloatBox& box, std::uint32_t body) {
   const Standing at = find(cell_of(box), body);
-  Block& front = blocks_[at.first_block];
-  const std::size_t last = front.boxes.size() - 1;
-  blocks_[at.block].boxes.put(at.place, front.boxes.box(last), front.boxes.body(last));
-  front.boxes.pop();
+  std::uint32_t& front = slots_[at.slot].first_block;
+  const std::size_t last = --links_[front].size;
+  blocks_[at.block].put(at.place, blocks_[front].box(last), blocks_[front].body(last));
   --bodies_;
-  if (front.boxes.size() > 0) return;
-  if (const std::uint32_t full = front.next; full != none) {
-    front = blocks_[full];
-    blocks_[full] = {};
-    free_blocks_.push_back(full);
+  if (last > 0) return;
+  if (links_[front].next != none) {
+    free_blocks_.push_back(front);
+    front = std::exchange(links_[front].next, none);
   } else if (++empty_cells_ > 64 && empty_cells_ > cells_ / 2) {
     rehash();
   }
@@ -173,7 +172,7 @@ void HashGrid::Level::rehash() {
   std::vector<Slot> kept;
   for (const Slot& slot : slots_) {
     if (slot.is_free()) continue;
-    if (blocks_[slot.first_block].boxes.size() > 0) {
+    if (links_[slot.first_block].size > 0) {
       kept.push_back(slot);
     } else {
       free_blocks_.push_back(slot.first_block);
@@ -299,8 +298,8 @@ std::optional<std::string> HashGrid::check(std::uint32_t body, const Box& box) c
   std::optional<std::string> wrong;
   for (std::size_t number = 0; number < levels_.size(); ++number) {
     const Level& level = levels_[number];
-    level.for_each_entry([&](const auto& index, const Block& block, std::size_t there) {
-      if (block.boxes.body(there) != body) return;
+    level.for_each_entry([&](const auto& index, const BoxBlock& block, std::size_t there) {
+      if (block.body(there) != body) return;
       if (found) wrong = "is registered twice";
       if (static_cast<int>(number) != place.level || !level.stands_in(index, block, there, rounded))
         wrong = "stands in another cell than that of its lower corner, or with another box";
@@ -311,10 +310,10 @@ std::optional<std::string> HashGrid::check(std::uint32_t body, const Box& box) c
   return wrong;
 }
 
-bool HashGrid::Level::stands_in(const CellIndex& index, const Block& block, std::size_t place,
+bool HashGrid::Level::stands_in(const CellIndex& index, const BoxBlock& block, std::size_t place,
                                 const FloatBox& box) const {
   const Steps steps = steps_of(box);
-  if (steps.cell() != index || block.boxes.box(place) != steps.low_bits()) return false;
+  if (steps.cell() != index || block.box(place) != steps.low_bits()) return false;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (steps.upper[axis] - steps.lower[axis] > reach_[axis]) return false;
   return slots_[slot_of(index)].index == index;
@@ -322,20 +321,21 @@ bool HashGrid::Level::stands_in(const CellIndex& index, const Block& block, std:
 
 /// Each block is free, or stands in the chain of one cell.
 bool HashGrid::Level::chains_are_sound() const {
+  if (links_.size() != blocks_.size()) return false;
   std::vector<bool> met(blocks_.size(), false);
   const auto meet = [&](std::uint32_t block) {
     if (block >= blocks_.size() || met[block]) return false;
     met[block] = true;
-    return blocks_[block].boxes.is_sound();
+    return links_[block].size <= BoxBlock::width;
   };
   for (const std::uint32_t block : free_blocks_)
-    if (!meet(block) || blocks_[block].boxes.size() != 0 || blocks_[block].next != none) return false;
+    if (!meet(block) || links_[block].size != 0 || links_[block].next != none) return false;
   for (const Slot& slot : slots_)
-    for (std::uint32_t block = slot.first_block; block != none; block = blocks_[block].next) {
+    for (std::uint32_t block = slot.first_block; block != none; block = links_[block].next) {
       if (!meet(block)) return false;
-      const BoxBlock& boxes = blocks_[block].boxes;
-      if (block != slot.first_block && !boxes.is_full()) return false;
-      if (boxes.size() == 0 && blocks_[block].next != none) return false;
+      const auto& [next, size] = links_[block];
+      if (block != slot.first_block && size != BoxBlock::width) return false;
+      if (size == 0 && next != none) return false;
     }
   return std::find(met.begin(), met.end(), false) == met.end();
 }
@@ -352,13 +352,13 @@ bool HashGrid::Level::is_sound() const {
   for (const Slot& slot : slots_) {
     if (slot.is_free()) continue;
     ++cells;
-    if (blocks_[slot.first_block].boxes.size() == 0) ++empty;
+    if (links_[slot.first_block].size == 0) ++empty;
   }
   // The search for a cell ends at a free slot.
   if (cells != cells_ || empty != empty_cells_) return false;
   for (const Slot& slot : slots_)
     if (!slot.is_free() && &slots_[slot_of(slot.index)] != &slot) return false;
-  for_each_entry([&](const CellIndex&, const Block&, std::size_t) { ++bodies; });
+  for_each_entry([&](const CellIndex&, const BoxBlock&, std::size_t) { ++bodies; });
   return bodies == bodies_;
 }
 
@@ -388,8 +388,8 @@ bool HashGrid::is_sound() const {
     const Level& level = levels_[number];
     if (level.edge() != edge_of(number) || !level.is_sound()) return false;
     bool sound = true;
-    level.for_each_entry([&](const CellIndex& index, const Block& block, std::size_t place) {
-      const std::uint32_t body = block.boxes.body(place);
+    level.for_each_entry([&](const CellIndex& index, const BoxBlock& block, std::size_t place) {
+      const std::uint32_t body = block.body(place);
       sound = sound && contains(body) && !found[body];
       if (!sound) return;
       sound = places_[body].level == static_cast<int>(number) &&

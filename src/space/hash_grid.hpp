@@ -110,15 +110,16 @@ class HashGrid {
              at.z <= last.z;
     }
   };
-  /// Some bodies of a cell. All blocks of a cell but the first one are full.
-  struct Block {
-    BoxBlock boxes{};
-    std::uint32_t next = none;
-
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  /// What belongs to a block of boxes. The bodies of a cell stand in a chain of blocks, all of which but the
+  /// first one are full.
+  struct Link {
+    std::uint32_t next = none;  ///< the block behind it
+    std::uint32_t size = 0;     ///< how many places are in use
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
-      auto& [held, following] = self;
-      archive(held, following);
+      auto& [following, used] = self;
+      archive(following, used);
     }
   };
   /// Of the table of cells.
@@ -132,7 +133,6 @@ class HashGrid {
       archive(at, number);
     }
   };
-  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
   class Level {
    public:
@@ -150,19 +150,20 @@ class HashGrid {
     bool move_in_cell(const FloatBox& from, const FloatBox& to, std::uint32_t body);
     template <class Visit>
     void for_each_overlap(const FloatBox& box, Visit& visit) const;
-    /// Calls visit(CellIndex, Block, place) for each body.
+    /// Calls visit(CellIndex, BoxBlock, place) for each body.
     template <class Visit>
     void for_each_entry(Visit visit) const;
     template <class Visit>
     void for_each_cell(Visit& visit) const;
     /// Whether the body stands in the cell where it belongs, with this box.
-    bool stands_in(const CellIndex& index, const Block& block, std::size_t place, const FloatBox& box) const;
+    bool stands_in(const CellIndex& index, const BoxBlock& block, std::size_t place,
+                   const FloatBox& box) const;
 
     bool is_sound() const;
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
-      auto& [scale, largest, body_count, cell_count, empty_count, held, unused, table] = self;
-      archive(scale, largest, body_count, cell_count, empty_count, held, unused, table);
+      auto& [scale, largest, body_count, cell_count, empty_count, held, chained, unused, table] = self;
+      archive(scale, largest, body_count, cell_count, empty_count, held, chained, unused, table);
     }
 
    private:
@@ -199,7 +200,7 @@ class HashGrid {
     std::size_t slot_of(const CellIndex& index) const { return slot_of(index, hash(index), hash_shift()); }
     /// Where a body stands.
     struct Standing {
-      std::uint32_t first_block;  ///< of its cell
+      std::size_t slot;
       std::uint32_t block;
       std::size_t place;
     };
@@ -214,7 +215,8 @@ class HashGrid {
     std::size_t bodies_ = 0;
     std::size_t cells_ = 0;  ///< those in the table
     std::size_t empty_cells_ = 0;
-    std::vector<Block> blocks_;
+    std::vector<BoxBlock> blocks_;
+    std::vector<Link> links_;  ///< of the blocks: apart from them, to be in the cache before they are
     std::vector<std::uint32_t> free_blocks_;
     std::vector<Slot> slots_;  ///< open addressing
   };
@@ -263,69 +265,67 @@ void HashGrid::Level::for_each_overlap(const FloatBox& box, Visit& visit) const 
   const Steps steps = steps_of(box);
   const CellRange range = cells_around(steps);
   const double length_per_step = 1.0 / steps_per_length_;
-  // What is found in some blocks is visited together: most have nothing, which nobody can foresee.
-  constexpr std::size_t together = 64 / BoxBlock::width;
-  std::array<const BoxBlock*, together> compared;
-  std::size_t compared_count = 0;
-  std::uint64_t places_found = 0;
-  const auto visit_places = [&] {
-    for (; places_found != 0; places_found &= places_found - 1) {
-      const auto bit = static_cast<std::size_t>(std::countr_zero(places_found));
-      const BoxBlock& boxes = *compared[bit / BoxBlock::width];
-      const std::size_t place = bit % BoxBlock::width;
-      if constexpr (std::is_invocable_v<Visit, std::uint32_t, double>) {
-        visit(boxes.body(place), boxes.box(place).extent() * length_per_step);
-      } else {
-        visit(boxes.body(place));
+  // The blocks of some cells come into the cache together.
+  std::array<std::uint32_t, 64> found;
+  std::size_t found_count = 0;
+  const auto visit_found = [&](const BoxBlock::Query& query) {
+    // What overlaps in some blocks is visited together: most have nothing, which nobody can foresee.
+    constexpr std::size_t together = 64 / BoxBlock::width;
+    for (std::size_t first = 0; first < found_count; first += together) {
+      const std::size_t end = std::min(first + together, found_count);
+      std::uint64_t overlapping = 0;
+      for (std::size_t k = first; k < end; ++k) {
+        const std::uint32_t block = found[k];
+        const BoxBlock::Places places =
+            blocks_[block].overlapping(query) & BoxBlock::first(links_[block].size);
+        overlapping |= static_cast<std::uint64_t>(places) << (k - first) * BoxBlock::width;
+      }
+      for (; overlapping != 0; overlapping &= overlapping - 1) {
+        const auto bit = static_cast<std::size_t>(std::countr_zero(overlapping));
+        const BoxBlock& boxes = blocks_[found[first + bit / BoxBlock::width]];
+        const std::size_t place = bit % BoxBlock::width;
+        if constexpr (std::is_invocable_v<Visit, std::uint32_t, double>) {
+          visit(boxes.body(place), boxes.box(place).extent() * length_per_step);
+        } else {
+          visit(boxes.body(place));
+        }
       }
     }
-    compared_count = 0;
+    found_count = 0;
   };
-  const auto visit_cell = [&](std::uint32_t first_block, const BoxBlock::Query& query) {
-    for (std::uint32_t number = first_block; number != none; number = blocks_[number].next) {
-      const BoxBlock& boxes = blocks_[number].boxes;
-      places_found |= static_cast<std::uint64_t>(boxes.overlapping(query))
-                      << compared_count * BoxBlock::width;
-      compared[compared_count++] = &boxes;
-      if (compared_count == together) visit_places();
+  const auto find_blocks = [&](const Slot& cell, const BoxBlock::Query& query) {
+    for (std::uint32_t block = cell.first_block; block != none; block = links_[block].next) {
+      prefetch(blocks_[block]);
+      found[found_count++] = block;
+      if (found_count == found.size()) visit_found(query);
     }
   };
   if (range.count() > static_cast<double>(cells_) || !steps.is_narrow()) {
-    for (const Slot& slot : slots_)
-      if (!slot.is_free() && range.contains(slot.index))
-        visit_cell(slot.first_block, BoxBlock::Query(steps.seen_from(slot.index).low_bits()));
-    visit_places();
+    for (const Slot& slot : slots_) {
+      if (slot.is_free() || !range.contains(slot.index)) continue;
+      const BoxBlock::Query part(steps.seen_from(slot.index).low_bits());
+      find_blocks(slot, part);
+      visit_found(part);
+    }
     return;
   }
   const BoxBlock::Query query(steps.low_bits());
   const int shift = hash_shift();
-  // The first blocks of some cells come into the cache together.
-  std::array<std::uint32_t, 16> found;
-  std::size_t count = 0;
-  const auto visit_found = [&] {
-    for (std::size_t k = 0; k < count; ++k) visit_cell(found[k], query);
-    count = 0;
-  };
   for (std::int32_t z = range.first.z; z <= range.last.z; ++z)
     for (std::int32_t y = range.first.y; y <= range.last.y; ++y) {
       std::uint64_t hashed = hash({range.first.x, y, z});
-      for (std::int32_t x = range.first.x; x <= range.last.x; ++x, hashed += step_x) {
-        const Slot& slot = slots_[slot_of({x, y, z}, hashed, shift)];
-        if (slot.is_free()) continue;
-        prefetch(blocks_[slot.first_block]);
-        found[count++] = slot.first_block;
-        if (count == found.size()) visit_found();
-      }
+      // A free slot has no blocks.
+      for (std::int32_t x = range.first.x; x <= range.last.x; ++x, hashed += step_x)
+        find_blocks(slots_[slot_of({x, y, z}, hashed, shift)], query);
     }
-  visit_found();
-  visit_places();
+  visit_found(query);
 }
 
 template <class Visit>
 void HashGrid::Level::for_each_entry(Visit visit) const {
   for (const Slot& slot : slots_)
-    for (std::uint32_t block = slot.first_block; block != none; block = blocks_[block].next)
-      for (std::size_t place = 0; place < blocks_[block].boxes.size(); ++place)
+    for (std::uint32_t block = slot.first_block; block != none; block = links_[block].next)
+      for (std::size_t place = 0; place < links_[block].size; ++place)
         visit(slot.index, blocks_[block], place);
 }
 
@@ -333,8 +333,8 @@ template <class Visit>
 void HashGrid::Level::for_each_cell(Visit& visit) const {
   for (const Slot& slot : slots_) {
     std::size_t count = 0;
-    for (std::uint32_t block = slot.first_block; block != none; block = blocks_[block].next)
-      count += blocks_[block].boxes.size();
+    for (std::uint32_t block = slot.first_block; block != none; block = links_[block].next)
+      count += links_[block].size;
     if (count == 0) continue;
     const auto [x, y, z] = slot.index;
     const Vec3 lower = Vec3{1.0 * x, 1.0 * y, 1.0 * z} * edge();

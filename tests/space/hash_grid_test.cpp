@@ -231,6 +231,18 @@ TEST(HashGridQuery, of_the_whole_world_costs_no_more_than_the_bodies) {
 }
 
 /// Longer than the low bits of positions can tell, and yet in fewer cells than there are.
+TEST(HashGridQuery, of_a_crowded_place_finds_everyone_there_once) {
+  HashGrid grid;
+  constexpr std::uint32_t bodies = 3000;
+  for (std::uint32_t body = 0; body < bodies; ++body) {
+    const double at = body % 3;  // of which two are met
+    grid.set(body, cube_at({4.0 * at, 0.0, 0.0}, 1.0));
+  }
+  std::vector<int> times(bodies, 0);
+  grid.for_each_overlap(cube_at({2.0, 0.0, 0.0}, 1.5), [&](std::uint32_t body) { ++times[body]; });
+  for (std::uint32_t body = 0; body < bodies; ++body) EXPECT_EQ(times[body], body % 3 < 2 ? 1 : 0) << body;
+}
+
 TEST(HashGridQuery, of_a_long_thin_box_finds_what_it_meets_and_no_more) {
   MirroredGrid mirrored;
   for (std::uint32_t body = 0; body < 400; ++body) mirrored.set(body, cube_at({1.0 * body, 0, 0}, 0.1));
