@@ -55,9 +55,7 @@ void World::Engine::choose_first_horizons(const std::vector<std::uint32_t>& roun
     }
   }
   if (count == 0) return;
-  Vec3 size = upper - lower;
-  if (definition_.dimensions == 2) size.z = 0.0;
-  const double spacing = spacing_within(size, count);
+  const double spacing = spacing_within(upper - lower, count);
   const double way = spacing > 0.0 ? 0.25 * spacing : definition_.contact_tolerance;
   for (const std::uint32_t number : round)
     if (!bodies_[number].horizon.is_chosen() && !bodies_[number].is_fixed())

@@ -92,23 +92,24 @@ TEST(Reserve, changes_nothing_but_memory) {
   EXPECT_EQ(plain.save().value(), roomy.save().value());
 }
 
-/// Bodies with a spacing of 4, as many beside each other as `numbers` says, all new at the start.
-Counters of_first_searches(int dimensions, const std::array<std::uint32_t, 3>& numbers) {
+/// Bodies with a spacing of 4, as many beside each other as `numbers` says, after their first searches.
+World lattice(int dimensions, const std::array<std::uint32_t, 3>& numbers, double radius) {
   World world = World::create({.dimensions = dimensions}).value();
   std::vector<BodyDefinition> bodies;
   for (std::uint32_t i = 0; i < numbers[0]; ++i)
     for (std::uint32_t j = 0; j < numbers[1]; ++j)
       for (std::uint32_t k = 0; k < numbers[2]; ++k)
-        bodies.push_back({.radius = 1.0, .acceleration_limit = 1.0, .position = {4.0 * i, 4.0 * j, 4.0 * k}});
+        bodies.push_back(
+            {.radius = radius, .acceleration_limit = 1.0, .position = {4.0 * i, 4.0 * j, 4.0 * k}});
   EXPECT_TRUE(world.add_all(bodies));
   EXPECT_FALSE(world.advance(0.0, [](auto&&...) { FAIL() << "all reports are fresh"; }).value());
   EXPECT_EQ(world.counters().searches, bodies.size());
-  return world.counters();
+  return world;
 }
 
 TEST(FirstBoxes, hold_few_others_wherever_bodies_are) {
   const auto candidates = [](int dimensions, const std::array<std::uint32_t, 3>& numbers) {
-    const Counters counters = of_first_searches(dimensions, numbers);
+    const Counters counters = lattice(dimensions, numbers, 1.0).counters();
     return static_cast<double>(counters.candidates) / static_cast<double>(counters.searches);
   };
   EXPECT_LT(candidates(3, {5000, 1, 1}), 3.0);
@@ -116,6 +117,21 @@ TEST(FirstBoxes, hold_few_others_wherever_bodies_are) {
   EXPECT_LT(candidates(3, {17, 17, 17}), 27.0);
   EXPECT_LT(candidates(2, {5000, 1, 1}), 3.0);
   EXPECT_LT(candidates(2, {70, 70, 1}), 9.0);
+}
+
+/// In all directions by about a quarter of the distance between bodies, which is 4, however small they are.
+TEST(FirstBoxes, leave_room_for_a_part_of_the_distance_between_bodies) {
+  const auto room = [](int dimensions, const std::array<std::uint32_t, 3>& numbers) {
+    const World world = lattice(dimensions, numbers, 0.01);
+    const BodyView body = world.body({7, 0}).value();
+    return body.box.upper.x - body.definition.position.x;
+  };
+  const std::vector<std::pair<int, std::array<std::uint32_t, 3>>> lattices{
+      {3, {5000, 1, 1}}, {3, {70, 70, 1}}, {3, {17, 17, 17}}, {2, {5000, 1, 1}}, {2, {70, 70, 1}}};
+  for (const auto& [dimensions, numbers] : lattices) {
+    EXPECT_GT(room(dimensions, numbers), 0.5);
+    EXPECT_LT(room(dimensions, numbers), 2.0);
+  }
 }
 
 }  // namespace
