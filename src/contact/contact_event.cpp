@@ -1,7 +1,8 @@
 #include "contact/contact_event.hpp"
-#include "number/infinity.hpp"
 
 #include <tuple>
+
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 

@@ -9,6 +9,7 @@
 #include "number/infinity.hpp"
 
 namespace kinesphere {
+
 double just_after(double time) {
   if (time == 0.0) return std::numeric_limits<double>::denorm_min();
   if (!(time < infinity)) return time;

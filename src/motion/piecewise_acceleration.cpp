@@ -1,9 +1,10 @@
 // Walking along pieces of constant acceleration.
 #include "kinesphere/motion/piecewise_acceleration.hpp"
-#include "number/infinity.hpp"
 
 #include <cassert>
 #include <cmath>
+
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 

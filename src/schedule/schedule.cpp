@@ -1,10 +1,11 @@
 // The two schedules.
 #include "schedule/schedule.hpp"
-#include "number/infinity.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 namespace {

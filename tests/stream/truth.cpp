@@ -1,9 +1,10 @@
 // The true motion of bodies, and the exact course of the gaps between them.
 #include "stream/truth.hpp"
-#include "number/infinity.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "number/infinity.hpp"
 
 namespace kinesphere::stream {
 namespace {

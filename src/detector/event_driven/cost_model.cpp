@@ -1,12 +1,13 @@
 // The kinetic theory behind the cost model. A bound lives from one reset to the next: it grows, may meet
 // another or a wall at any age, and is reset at the latest when it fills its cell.
 #include "detector/event_driven/cost_model.hpp"
-#include "number/infinity.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <tuple>
+
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 namespace {

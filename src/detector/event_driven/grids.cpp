@@ -1,8 +1,9 @@
 #include "detector/event_driven/grids.hpp"
-#include "number/infinity.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 namespace {
