@@ -9,7 +9,8 @@ program=$(realpath "$1")
 scene=${2:-paper1} bodies=${3:-100} seconds=${4:-2}
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-# Name, compiler and flags of each build. Many sources are compiled together, which takes a fifth of the time. -march=native brings in fused multiply-add and wider vectors.
+# Name, compiler and flags of each build. Many sources are compiled together, which is much faster.
+# -march=native brings in fused multiply-add and wider vectors.
 configurations=(
   "gcc-O0 g++ -O0"
   "gcc-O2 g++ -O2"

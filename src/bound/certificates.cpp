@@ -1,5 +1,4 @@
 // Certified earliest times. The method, and why no answer is late: bound.hpp.
-
 #include "bound/relative_motion.hpp"
 #include "bound/rounding.hpp"
 #include "bound/safe_steps.hpp"

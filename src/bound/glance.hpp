@@ -92,7 +92,7 @@ class Glance {
       : now_(now),
         own_end_(own.span[1]),
         room_(static_cast<float>(room * (1.0 + 0x1p-20))),
-        own_(Row{&own, &own, &own, &own}, now_, Precise::columns(times({&own, &own, &own, &own}))[0]) {}
+        own_(Row{&own, &own, &own, &own}, now_, Precise(own.span[0])) {}
 
   /// Those of the others with whom that holds until `until` or one of the two ends.
   [[gnu::always_inline]] Lanes apart(const Row& others, double until) const {

@@ -12,10 +12,10 @@
 namespace kinesphere {
 namespace {
 
-/// A box is kept when it will last for this part as long as a new one would. Then ever shorter parts are
-/// tried.
-constexpr double shortest_part = 0.31640625;  // next_part^4
+/// A box is kept when it will last for the shortest part of the time that a new one would. Then ever shorter
+/// parts are tried.
 constexpr double next_part = 0.75;
+constexpr double shortest_part = next_part * next_part * next_part * next_part;
 /// A box with room on all sides is as large as one ahead of its body that lasts this part as long.
 constexpr double turned_part = 0.4;
 

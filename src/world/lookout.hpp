@@ -56,7 +56,7 @@ class World::Engine::Lookout {
     }
   }
 
-  /// A glance is of use, too.
+  /// The body touches and senses nothing: else nobody can be left alone for a glance or a closer look.
   bool is_bare() const { return bare_; }
   /// Whether a neighbour can be left alone for as long as is enough, by a closer look.
   struct Look {
