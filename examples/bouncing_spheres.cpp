@@ -23,20 +23,20 @@ int main() {
 
   World world = World::create({.box = box, .contacts = ContactMode::impacts, .allow_overlap = false}).value();
   for (std::uint32_t body = 0; body < motion.size(); ++body) {
-    BodyDefinition definition = motion.promise(body, 0.0);
+    BodyDefinition definition = motion.definition(body, 0.0);
     definition.radius = 2.0;
     world.add(definition).value();
   }
 
-  const auto kick = [&](BodyId body, double time, const Vec3& velocity) {
-    motion.kick(body.index, time, velocity);
-    world.kick(body, velocity).value();
+  const auto set_velocity = [&](BodyId body, double time, const Vec3& velocity) {
+    motion.set_velocity(body.index, time, velocity);
+    world.set_velocity(body, velocity).value();
   };
   while (auto event = world.advance(10.0, motion.probe()).value()) {
     if (event->kind != EventKind::contact_begin && event->kind != EventKind::wall_begin) continue;
     const Bounce after = bounce(*event, 1.0, 1.0, 1.0);
-    kick(event->first, event->time, after.first_velocity);
-    if (event->second != no_body) kick(event->second, event->time, after.second_velocity);
+    set_velocity(event->first, event->time, after.first_velocity);
+    if (event->second != no_body) set_velocity(event->second, event->time, after.second_velocity);
   }
 
   const Counters& counters = world.counters();

@@ -36,7 +36,7 @@ int main() {
   World world =
       World::create({.box = room, .contact_tolerance = 1e-3, .contacts = ContactMode::impacts}).value();
   for (std::uint32_t k = 0; k < frames.size(); ++k) {
-    BodyDefinition ball = frames.promise(k, 0.0);
+    BodyDefinition ball = frames.definition(k, 0.0);
     ball.radius = radius;
     world.add(ball).value();
   }
@@ -48,16 +48,16 @@ int main() {
       position[k] += velocity[k] * dt;
     }
     frames.push(position).value();
-    const auto kick = [&](BodyId ball, double time, const Vec3& bounced) {
+    const auto set_velocity = [&](BodyId ball, double time, const Vec3& bounced) {
       velocity[ball.index] = bounced;
-      frames.kick(ball.index, time, bounced);
-      world.kick(ball, bounced).value();
+      frames.set_velocity(ball.index, time, bounced);
+      world.set_velocity(ball, bounced).value();
     };
     while (auto event = world.advance(frames.latest_time(), frames.probe()).value()) {
       if (event->kind != EventKind::contact_begin && event->kind != EventKind::wall_begin) continue;
       const Bounce after = bounce(*event, 1.0, 1.0, 0.8);
-      kick(event->first, event->time, after.first_velocity);
-      if (event->second != no_body) kick(event->second, event->time, after.second_velocity);
+      set_velocity(event->first, event->time, after.first_velocity);
+      if (event->second != no_body) set_velocity(event->second, event->time, after.second_velocity);
     }
     position = frames.latest();
 

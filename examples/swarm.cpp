@@ -26,7 +26,7 @@ int main() {
   World world = World::create({.contact_tolerance = 1e-3}).value();
   std::vector<BodyId> ids;
   for (std::uint32_t k = 0; k < drones.size(); ++k) {
-    BodyDefinition drone = drones.promise(k, 0.0);
+    BodyDefinition drone = drones.definition(k, 0.0);
     drone.radius = 0.3;
     ids.push_back(world.add(drone).value());
   }

@@ -46,19 +46,19 @@ struct BodyDefinition {
 };
 
 /// What a body promises about its motion and its reports, apart from its shape and place: see BodyDefinition.
-struct MotionPromise {
+struct MotionLimits {
   double acceleration_limit = 0.0;
   Vec3 planned_acceleration{};
   double position_error = 0.0;
   double velocity_error = 0.0;
 };
 
-inline MotionPromise promise_of(const BodyDefinition& body) {
+inline MotionLimits motion_limits_of(const BodyDefinition& body) {
   return {body.acceleration_limit, body.planned_acceleration, body.position_error, body.velocity_error};
 }
 
 /// The same body with another promise.
-inline BodyDefinition with_promise(BodyDefinition body, const MotionPromise& promise) {
+inline BodyDefinition with_motion_limits(BodyDefinition body, const MotionLimits& promise) {
   body.acceleration_limit = promise.acceleration_limit;
   body.planned_acceleration = promise.planned_acceleration;
   body.position_error = promise.position_error;

@@ -58,15 +58,15 @@ struct HalfSpace {
 };
 
 /// No pair of points of the two bodies comes closer than `distance` (length; default 0: contact)
-/// before the returned time, which lies in [from, horizon], or is +infinity when that holds up to and
-/// including `horizon`. Returns `from` when the bounds are already that close.
+/// before the returned time, which lies in [from, until], or is +infinity when that holds up to and
+/// including `until`. Returns `from` when the bounds are already that close.
 ///   solves |c_i - c_j| = rho_i + rho_j + distance (paper, eq 9)
 /// by Newton steps along the line of centres: for any unit vector n, |C(d)| >= n.C(d), so the first
 /// root of the quadratic n.C(d) = rho(d) + distance is never later than that of eq 9; advance both
 /// bounds by it, take the new n, repeat. Exact for a pair on a line, and quadratically convergent.
-/// Needs both report times <= from <= horizon. Units: times in, time out. Cost: about 20 ns a round, 2-4
+/// Needs both report times <= from <= until. Units: times in, time out. Cost: about 20 ns a round, 2-4
 /// rounds.
-double earliest_meeting(const Bound& a, const Bound& b, double from, double horizon, double distance = 0.0);
+double earliest_meeting(const Bound& a, const Bound& b, double from, double until, double distance = 0.0);
 
 /// The gap between the two bodies stays below `distance` before the returned time (the pair's
 /// end of contact cannot come sooner). Values and conditions as above; returns `from` when the gap
@@ -75,22 +75,22 @@ double earliest_meeting(const Bound& a, const Bound& b, double from, double hori
 ///   solves |c_i - c_j| + growth_i + growth_j = r_i + r_j + distance,  growth = rho - rho(0)
 /// through p(d) = S(d)^2 - |C(d)|^2 >= q0 + q1 d + q2 d^2 with the cubic and quartic terms replaced by
 /// their least values over the step.
-double earliest_separation(const Bound& a, const Bound& b, double from, double horizon, double distance);
+double earliest_separation(const Bound& a, const Bound& b, double from, double until, double distance);
 
 /// As earliest_meeting, for a bound and the plane of a half-space: the first root of the quadratic
 ///   normal . c(s) - rho(s) - offset = distance.
-double earliest_meeting(const Bound& bound, const HalfSpace& wall, double from, double horizon,
+double earliest_meeting(const Bound& bound, const HalfSpace& wall, double from, double until,
                         double distance = 0.0);
 
 /// As earliest_separation, for a bound and the plane of a half-space.
-double earliest_separation(const Bound& bound, const HalfSpace& wall, double from, double horizon,
+double earliest_separation(const Bound& bound, const HalfSpace& wall, double from, double until,
                            double distance);
 
-/// The bound lies inside the box before the returned time (in [from, horizon], or +infinity when it
-/// does up to `horizon`). Returns `from` when it already reaches out. The least of six quadratics. Nothing is
+/// The bound lies inside the box before the returned time (in [from, until], or +infinity when it
+/// does up to `until`). Returns `from` when it already reaches out. The least of six quadratics. Nothing is
 /// asked on an axis where the box reaches from -infinity to +infinity; an infinite side has an infinite one
 /// opposite.
-double earliest_exit(const Bound& bound, const Box& box, double from, double horizon);
+double earliest_exit(const Bound& bound, const Box& box, double from, double until);
 
 /// A box that contains the bound during all of [from, to], rounded outward. Needs a finite `to`.
 Box swept_box(const Bound& bound, double from, double to);

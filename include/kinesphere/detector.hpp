@@ -33,7 +33,7 @@ class Detector {
   virtual Result<void> add(std::uint32_t body, const BodyDefinition& definition) = 0;
   virtual Result<void> remove(std::uint32_t body) = 0;
   /// The motion has been kicked already.
-  virtual Result<void> kick(std::uint32_t body, const Vec3& velocity) = 0;
+  virtual Result<void> set_velocity(std::uint32_t body, const Vec3& velocity) = 0;
   virtual Result<std::optional<Event>> advance(double until) = 0;
   virtual double time() const = 0;
   virtual Counters counters() const = 0;

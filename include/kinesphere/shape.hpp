@@ -80,15 +80,14 @@ SurfacePoint nearest_point(const Triangle& shape, const Vec3& from);
 
 /// As for two bounds (bound.hpp), of which one is a solid box or a triangle at rest. By steps to the
 /// supporting plane that faces the centre; exact for a ballistic body that meets a face.
-double earliest_meeting(const Bound& bound, const Box& shape, double from, double horizon,
+double earliest_meeting(const Bound& bound, const Box& shape, double from, double until,
                         double distance = 0.0);
-double earliest_meeting(const Bound& bound, const Triangle& shape, double from, double horizon,
+double earliest_meeting(const Bound& bound, const Triangle& shape, double from, double until,
                         double distance = 0.0);
 
 /// As for two bounds. By a point of the shape that goes along with the centre for as long as it can.
-double earliest_separation(const Bound& bound, const Box& shape, double from, double horizon,
-                           double distance);
-double earliest_separation(const Bound& bound, const Triangle& shape, double from, double horizon,
+double earliest_separation(const Bound& bound, const Box& shape, double from, double until, double distance);
+double earliest_separation(const Bound& bound, const Triangle& shape, double from, double until,
                            double distance);
 
 GapLimits gap_limits(const Bound& bound, const Box& shape, double t);

@@ -15,7 +15,7 @@
 //     if (event->kind == EventKind::contact_begin) {
 //       Vec3 bounced = ...;
 //       my_simulation.set_velocity(event->first, event->time, bounced);
-//       world.kick(event->first, bounced).value();
+//       world.set_velocity(event->first, bounced).value();
 //     }
 //   }
 //   // now world.time() == 60
@@ -125,7 +125,7 @@ class World {
   /// next advance does so first. Errors: unknown_body, stale_body, disabled_body, fixed_body, not_finite,
   /// out_of_range.
   /// Cost: O(1) here, a grid search at the next advance.
-  Result<void> kick(BodyId body, const Vec3& velocity);
+  Result<void> set_velocity(BodyId body, const Vec3& velocity);
 
   // Further changes. A contact that one of them certainly ends is reported as ended at the next advance,
   // before all other events, with the states from before the change; one that goes on through it goes on
@@ -140,7 +140,7 @@ class World {
   /// Errors: fixed_body.
   Result<void> set_radius(BodyId body, double radius);
   /// From the current time on the body promises this. Errors: fixed_body.
-  Result<void> set_promise(BodyId body, const MotionPromise& promise);
+  Result<void> set_motion_limits(BodyId body, const MotionLimits& promise);
 
   /// A disabled body touches nobody and is never probed. It keeps its id, and all but its state may be set.
   /// Its contacts end as in remove(). Errors: disabled_body.

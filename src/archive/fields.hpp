@@ -64,7 +64,7 @@ void transfer(Self& self, Archive& archive) {
           velocity, filter, solid, sensor_class, user_data);
 }
 
-template <Some<MotionPromise> Self, class Archive>
+template <Some<MotionLimits> Self, class Archive>
 void transfer(Self& self, Archive& archive) {
   auto& [acceleration_limit, planned_acceleration, position_error, velocity_error] = self;
   archive(acceleration_limit, planned_acceleration, position_error, velocity_error);

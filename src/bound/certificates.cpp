@@ -11,9 +11,9 @@ namespace {
 using rounding::margin;
 
 /// For the certificates that are one quadratic: c + b d + 1/2 a d^2 > 0 is what holds now.
-double time_of_crossing(double from, double horizon, double c, double b, double a) {
+double time_of_crossing(double from, double until, double c, double b, double a) {
   const double time = rounding::sum_down(from, rounding::first_crossing(c, b, a));
-  if (time > horizon) return infinity;
+  if (time > until) return infinity;
   return time > from ? time : from;
 }
 
@@ -54,10 +54,10 @@ struct Projection {
 
 }  // namespace
 
-double earliest_meeting(const Bound& a, const Bound& b, double from, double horizon, double distance) {
+double earliest_meeting(const Bound& a, const Bound& b, double from, double until, double distance) {
   const RelativeMotion motion(a, b, from);
   const double reach = motion.radii + distance;
-  return advance_by_safe_steps(from, horizon, [&](double d) {
+  return advance_by_safe_steps(from, until, [&](double d) {
     const Vec3 centre = motion.centre_at(d);
     const double length = norm(centre);
     // Where the square of the length underflows there is no unit vector; any shorter one is safe.
@@ -72,10 +72,10 @@ double earliest_meeting(const Bound& a, const Bound& b, double from, double hori
   });
 }
 
-double earliest_separation(const Bound& a, const Bound& b, double from, double horizon, double distance) {
+double earliest_separation(const Bound& a, const Bound& b, double from, double until, double distance) {
   const RelativeMotion motion(a, b, from);
   const double reach = motion.radii + distance;
-  return advance_by_safe_steps(from, horizon, [&](double d) {
+  return advance_by_safe_steps(from, until, [&](double d) {
     const Vec3 centre = motion.centre_at(d);
     const Vec3 velocity = motion.velocity_at(d);
     const Vec3& acceleration = motion.acceleration;
@@ -123,28 +123,28 @@ double earliest_separation(const Bound& a, const Bound& b, double from, double h
   });
 }
 
-double earliest_meeting(const Bound& bound, const HalfSpace& wall, double from, double horizon,
+double earliest_meeting(const Bound& bound, const HalfSpace& wall, double from, double until,
                         double distance) {
   const Projection p(bound, wall.normal, from);
   const double size = p.position_size + std::abs(wall.offset) + std::abs(distance);
-  return time_of_crossing(from, horizon,
+  return time_of_crossing(from, until,
                           (p.position - wall.offset) - bound.radius - p.growth - distance - margin * size,
                           p.velocity - p.growth_speed - margin * p.velocity_size,
                           p.acceleration - bound.growth_acceleration - margin * p.acceleration_size);
 }
 
-double earliest_separation(const Bound& bound, const HalfSpace& wall, double from, double horizon,
+double earliest_separation(const Bound& bound, const HalfSpace& wall, double from, double until,
                            double distance) {
   const Projection p(bound, wall.normal, from);
   const double size = p.position_size + std::abs(wall.offset) + std::abs(distance);
-  return time_of_crossing(from, horizon,
+  return time_of_crossing(from, until,
                           (wall.offset - p.position) + bound.radius - p.growth + distance - margin * size,
                           -p.velocity - p.growth_speed - margin * p.velocity_size,
                           -p.acceleration - bound.growth_acceleration - margin * p.acceleration_size);
 }
 
-double earliest_exit(const Bound& bound, const Box& box, double from, double horizon) {
-  const double span = horizon - from;
+double earliest_exit(const Bound& bound, const Box& box, double from, double until) {
+  const double span = until - from;
   double first = infinity;
   for (int axis = 0; axis < 3; ++axis) {
     if (box.upper[axis] == infinity) continue;
@@ -166,7 +166,7 @@ double earliest_exit(const Bound& bound, const Box& box, double from, double hor
         std::min(first, crossing(p.position - box.lower[axis], box.lower[axis], p.velocity, p.acceleration));
   }
   const double time = rounding::sum_down(from, first);
-  if (time > horizon) return infinity;
+  if (time > until) return infinity;
   return time > from ? time : from;
 }
 

@@ -72,10 +72,10 @@ RealRoots real_roots(const Quartic& c) {
   return roots;
 }
 
-/// The time that is `d` after `from`, unless that is beyond the horizon.
-double time_after(double from, double d, double horizon) {
+/// The time that is `d` after `from`, unless that is beyond the until.
+double time_after(double from, double d, double until) {
   const double time = from + d;
-  return time <= horizon ? time : infinity;
+  return time <= until ? time : infinity;
 }
 
 }  // namespace
@@ -104,13 +104,12 @@ double first_root_closed_form(const Quartic& quartic) {
   return first;
 }
 
-double meeting_time_numeric(const Bound& a, const Bound& b, double from, double horizon, double distance) {
-  return time_after(from, first_root_numeric(meeting_quartic(a, b, from, distance), horizon - from), horizon);
+double meeting_time_numeric(const Bound& a, const Bound& b, double from, double until, double distance) {
+  return time_after(from, first_root_numeric(meeting_quartic(a, b, from, distance), until - from), until);
 }
 
-double meeting_time_closed_form(const Bound& a, const Bound& b, double from, double horizon,
-                                double distance) {
-  return time_after(from, first_root_closed_form(meeting_quartic(a, b, from, distance)), horizon);
+double meeting_time_closed_form(const Bound& a, const Bound& b, double from, double until, double distance) {
+  return time_after(from, first_root_closed_form(meeting_quartic(a, b, from, distance)), until);
 }
 
 }  // namespace kinesphere

@@ -35,10 +35,9 @@ double first_root_numeric(const Quartic& quartic, double end = std::numeric_limi
 double first_root_closed_form(const Quartic& quartic);
 
 /// The time of the colliding event of two bounds, as earliest_meeting but for its certainty: in
-/// [from, horizon], or +infinity.
-double meeting_time_numeric(const Bound& a, const Bound& b, double from, double horizon,
-                            double distance = 0.0);
-double meeting_time_closed_form(const Bound& a, const Bound& b, double from, double horizon,
+/// [from, until], or +infinity.
+double meeting_time_numeric(const Bound& a, const Bound& b, double from, double until, double distance = 0.0);
+double meeting_time_closed_form(const Bound& a, const Bound& b, double from, double until,
                                 double distance = 0.0);
 
 /// The numerical solution in any precision: `Number` may be wider than double.

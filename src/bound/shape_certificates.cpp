@@ -19,11 +19,11 @@ HalfSpace supporting_plane(const Solid& solid, const Vec3& normal) {
 }
 
 template <class Solid>
-double meeting(const Bound& bound, const Solid& solid, double from, double horizon, double distance) {
+double meeting(const Bound& bound, const Solid& solid, double from, double until, double distance) {
   double time = from;
   for (int round = 0; round < most_rounds; ++round) {
     const HalfSpace plane = supporting_plane(solid, nearest_point(solid, bound.centre_at(time)).normal);
-    const double next = earliest_meeting(bound, plane, time, horizon, distance);
+    const double next = earliest_meeting(bound, plane, time, until, distance);
     if (next == infinity) return infinity;
     const double gain = next - time;
     time = next;
@@ -112,14 +112,14 @@ Companion companion(const Triangle& triangle, const Bound& bound, double now) {
 }
 
 template <class Solid>
-double separation(const Bound& bound, const Solid& solid, double from, double horizon, double distance) {
+double separation(const Bound& bound, const Solid& solid, double from, double until, double distance) {
   double time = from;
   for (int round = 0; round < most_rounds; ++round) {
     const Companion at = companion(solid, bound, time);
-    const double parted = earliest_separation(bound, at.path, time, horizon, distance - at.wrong);
+    const double parted = earliest_separation(bound, at.path, time, until, distance - at.wrong);
     const double leaves = rounding::sum_down(time, at.stays);
     if (parted <= leaves) return parted;
-    if (leaves > horizon) return infinity;
+    if (leaves > until) return infinity;
     const double gain = leaves - time;
     time = std::max(time, leaves);
     if (!(gain > (time - from) * negligible_gain)) break;
@@ -141,31 +141,30 @@ struct Reported {
 
 }  // namespace
 
-double earliest_meeting(const Bound& bound, const Box& shape, double from, double horizon, double distance) {
-  return meeting(bound, shape, from, horizon, distance);
+double earliest_meeting(const Bound& bound, const Box& shape, double from, double until, double distance) {
+  return meeting(bound, shape, from, until, distance);
 }
 
-double earliest_meeting(const Bound& bound, const Triangle& shape, double from, double horizon,
+double earliest_meeting(const Bound& bound, const Triangle& shape, double from, double until,
                         double distance) {
   // A triangle has no inside: a gap is never less than minus the radius.
   const double least =
-      bound.radius + distance < 0.0 ? earliest_meeting(bound, HalfSpace{}, from, horizon, distance) : from;
-  return least == infinity ? infinity : meeting(bound, shape, least, horizon, distance);
+      bound.radius + distance < 0.0 ? earliest_meeting(bound, HalfSpace{}, from, until, distance) : from;
+  return least == infinity ? infinity : meeting(bound, shape, least, until, distance);
 }
 
-double earliest_separation(const Bound& bound, const Box& shape, double from, double horizon,
-                           double distance) {
+double earliest_separation(const Bound& bound, const Box& shape, double from, double until, double distance) {
   const double depth = -(bound.radius + distance);
-  if (!(depth >= 0.0)) return separation(bound, shape, from, horizon, distance);
+  if (!(depth >= 0.0)) return separation(bound, shape, from, until, distance);
   // As long as the centre is so deep inside.
   Bound inside = bound;
   inside.radius = depth + margin * (bound.radius + std::abs(distance));
-  return earliest_exit(inside, shape, from, horizon);
+  return earliest_exit(inside, shape, from, until);
 }
 
-double earliest_separation(const Bound& bound, const Triangle& shape, double from, double horizon,
+double earliest_separation(const Bound& bound, const Triangle& shape, double from, double until,
                            double distance) {
-  return separation(bound, shape, from, horizon, distance);
+  return separation(bound, shape, from, until, distance);
 }
 
 GapLimits gap_limits(const Bound& bound, const Box& shape, double t) {

@@ -56,7 +56,7 @@ Verdict Outlook<Partner>::judge(const Event& current, const Promise& promise) co
   }
   if (rule_.is_deep(gap)) {
     const double surfaces = separation(rule_.surface_gap());
-    // What is known of the meeting ends at its horizon.
+    // What is known of the meeting ends at its until.
     if (surfaces <= horizons_.meeting) time = std::min(time, surfaces);
   }
   verdict.next_look = std::max(time, just_after(now_));
@@ -95,16 +95,16 @@ Box walls_in_reach(const ContactRule& rule, const MovedBound& bound, const Box& 
 
 }  // namespace
 
-Box walls_in_reach(const ContactRule& rule, const Bound& bound, const Box& box, double now, double horizon) {
-  return walls_in_reach(rule, MovedBound(bound, now), box, horizon - now);
+Box walls_in_reach(const ContactRule& rule, const Bound& bound, const Box& box, double now, double until) {
+  return walls_in_reach(rule, MovedBound(bound, now), box, until - now);
 }
 
 double until_reports_of_walls(const ContactRule& rule, const Bound& bound, const Box& box, double now,
-                              double horizon) {
+                              double until) {
   const MovedBound moved(bound, now);
-  const Box near = walls_in_reach(rule, moved, box, horizon - now);
+  const Box near = walls_in_reach(rule, moved, box, until - now);
   if (!has_sides(near)) return infinity;
-  const double time = earliest_exit(bound, near, now, horizon);
+  const double time = earliest_exit(bound, near, now, until);
   if (time == infinity || time <= now) return time;
   // The time holds in any case; whether fresh reports would give a better one may be off by rounding.
   const bool far = !has_sides(sides_in_reach(moved, near, 0.0, rule.tolerance()));

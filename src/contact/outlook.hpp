@@ -96,13 +96,13 @@ extern template class Outlook<HalfSpace>;
 extern template class Outlook<Box>;
 extern template class Outlook<Triangle>;
 
-/// The walls of the box to which the body may come as near as the tolerance before the horizon: the box,
+/// The walls of the box to which the body may come as near as the tolerance before the until: the box,
 /// without end on all other axes. A quick test; it may name some too many.
-Box walls_in_reach(const ContactRule& rule, const Bound& bound, const Box& box, double now, double horizon);
+Box walls_in_reach(const ContactRule& rule, const Bound& bound, const Box& box, double now, double until);
 
 /// Outlook::until_reports for a body that touches none of the walls of the box, all walls at once.
 double until_reports_of_walls(const ContactRule& rule, const Bound& bound, const Box& box, double now,
-                              double horizon);
+                              double until);
 
 /// The least time after this one.
 double just_after(double time);

@@ -29,7 +29,7 @@ Result<void> BoundDetector::remove(std::uint32_t number) {
   return {};
 }
 
-Result<void> BoundDetector::kick(std::uint32_t number, const Vec3& velocity) {
+Result<void> BoundDetector::set_velocity(std::uint32_t number, const Vec3& velocity) {
   Body& body = bodies_[number];
   body.kicked_to = velocity;
   if (!fresh(number)) probe(number);

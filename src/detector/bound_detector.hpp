@@ -21,7 +21,7 @@ class BoundDetector : public Detector {
  public:
   Result<void> add(std::uint32_t number, const BodyDefinition& definition) override;
   Result<void> remove(std::uint32_t number) override;
-  Result<void> kick(std::uint32_t number, const Vec3& velocity) override;
+  Result<void> set_velocity(std::uint32_t number, const Vec3& velocity) override;
   Result<std::optional<Event>> advance(double until) override;
   double time() const override { return time_; }
   Counters counters() const override { return counters_; }

@@ -41,10 +41,10 @@ class CheckedDetector final : public Detector {
     return removed;
   }
 
-  Result<void> kick(std::uint32_t body, const Vec3& velocity) override {
-    if (!is_present(body)) return absent("kick", body);
-    if (auto valid = check_velocity(velocity, {body, 0}, definition_, "kick"); !valid) return valid;
-    return detector_->kick(body, velocity);
+  Result<void> set_velocity(std::uint32_t body, const Vec3& velocity) override {
+    if (!is_present(body)) return absent("set_velocity", body);
+    if (auto valid = check_velocity(velocity, {body, 0}, definition_, "set_velocity"); !valid) return valid;
+    return detector_->set_velocity(body, velocity);
   }
 
   Result<std::optional<Event>> advance(double until) override {

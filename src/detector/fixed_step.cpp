@@ -46,7 +46,7 @@ class FixedStep final : public Detector {
     return {};
   }
 
-  Result<void> kick(std::uint32_t number, const Vec3& velocity) override {
+  Result<void> set_velocity(std::uint32_t number, const Vec3& velocity) override {
     bodies_[number].state.velocity = velocity;
     if (book_.rule().impacts_only()) book_.release_all(number);
     return {};

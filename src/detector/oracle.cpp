@@ -54,7 +54,7 @@ class Oracle final : public Detector {
     return {};
   }
 
-  Result<void> kick(std::uint32_t number, const Vec3&) override {
+  Result<void> set_velocity(std::uint32_t number, const Vec3&) override {
     forget(number, rule_.impacts_only());
     return {};
   }

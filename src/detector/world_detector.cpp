@@ -32,8 +32,8 @@ class WorldDetector final : public Detector {
     return world_.remove(ids_[number]);
   }
 
-  Result<void> kick(std::uint32_t number, const Vec3& velocity) override {
-    return world_.kick(ids_[number], velocity);
+  Result<void> set_velocity(std::uint32_t number, const Vec3& velocity) override {
+    return world_.set_velocity(ids_[number], velocity);
   }
 
   Result<std::optional<Event>> advance(double until) override {

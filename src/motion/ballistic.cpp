@@ -16,8 +16,8 @@ Result<Ballistic> Ballistic::create(const BallisticDefinition& definition) {
 Ballistic::Ballistic(const BallisticDefinition& definition)
     : PiecewiseAcceleration(definition.start, definition.start_time), gravity_(definition.gravity) {}
 
-BodyDefinition Ballistic::promise(std::uint32_t body, double t) const {
-  return promise_with(body, t, 0.0, gravity_);
+BodyDefinition Ballistic::definition(std::uint32_t body, double t) const {
+  return definition_with(body, t, 0.0, gravity_);
 }
 
 std::unique_ptr<Motion> Ballistic::clone() const { return std::make_unique<Ballistic>(*this); }

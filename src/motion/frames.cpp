@@ -62,7 +62,7 @@ Result<void> Frames::push(std::span<const Vec3> positions) {
   return {};
 }
 
-BodyDefinition Frames::promise(std::uint32_t body, double t) const {
+BodyDefinition Frames::definition(std::uint32_t body, double t) const {
   const State now = state(body, t);
   return {.acceleration_limit = limits_[body],
           .position_error = position_error_,
@@ -88,7 +88,7 @@ Segment Frames::piece(std::uint32_t body, [[maybe_unused]] double begin, double 
           .jerk = {}};
 }
 
-bool Frames::kick(std::uint32_t body, double t, const Vec3& velocity) {
+bool Frames::set_velocity(std::uint32_t body, double t, const Vec3& velocity) {
   if (!(chords_[body].begin <= t && t <= latest_time()) || !is_finite(velocity)) return false;
   chords_[body] = {t, state(body, t).position, velocity};
   latest_[body] = chords_[body].position + velocity * (latest_time() - t);

@@ -35,7 +35,7 @@ Trajectory PiecewiseAcceleration::trajectory(std::uint32_t body, double begin, d
   return result;
 }
 
-bool PiecewiseAcceleration::kick(std::uint32_t body, double t, const Vec3& velocity) {
+bool PiecewiseAcceleration::set_velocity(std::uint32_t body, double t, const Vec3& velocity) {
   if (!std::isfinite(t) || t < last_change(body) || !is_finite(velocity)) return false;
   restart(body, t, {state(body, t).position, velocity});
   return true;
@@ -45,8 +45,8 @@ void PiecewiseAcceleration::restart(std::uint32_t body, double t, const State& s
   courses_[body] = {t, state, no_piece};
 }
 
-BodyDefinition PiecewiseAcceleration::promise_with(std::uint32_t body, double t, double acceleration_limit,
-                                                   const Vec3& planned_acceleration) const {
+BodyDefinition PiecewiseAcceleration::definition_with(std::uint32_t body, double t, double acceleration_limit,
+                                                      const Vec3& planned_acceleration) const {
   const State now = state(body, t);
   return {.acceleration_limit = acceleration_limit,
           .planned_acceleration = planned_acceleration,

@@ -94,7 +94,7 @@ PiecewiseMotion::PiecewiseMotion(std::vector<Trajectory> trajectories)
   }
 }
 
-BodyDefinition PiecewiseMotion::promise(std::uint32_t body, double t) const {
+BodyDefinition PiecewiseMotion::definition(std::uint32_t body, double t) const {
   const State now = state(body, t);
   return {.acceleration_limit = limits_[body], .position = now.position, .velocity = now.velocity};
 }
@@ -114,7 +114,7 @@ Trajectory PiecewiseMotion::trajectory(std::uint32_t body, double begin, double 
   return result;
 }
 
-bool PiecewiseMotion::kick(std::uint32_t, double, const Vec3&) { return false; }
+bool PiecewiseMotion::set_velocity(std::uint32_t, double, const Vec3&) { return false; }
 
 std::unique_ptr<Motion> PiecewiseMotion::clone() const { return std::make_unique<PiecewiseMotion>(*this); }
 

@@ -23,8 +23,8 @@ RandomForces::RandomForces(RandomForcesDefinition definition)
       limits_(std::move(definition.acceleration_limits)),
       seed_(definition.seed) {}
 
-BodyDefinition RandomForces::promise(std::uint32_t body, double t) const {
-  return promise_with(body, t, limits_[body]);
+BodyDefinition RandomForces::definition(std::uint32_t body, double t) const {
+  return definition_with(body, t, limits_[body]);
 }
 
 std::unique_ptr<Motion> RandomForces::clone() const { return std::make_unique<RandomForces>(*this); }

@@ -41,8 +41,8 @@ Result<void> Steered::steer(std::uint32_t body, double t, const Vec3& accelerati
   return {};
 }
 
-BodyDefinition Steered::promise(std::uint32_t body, double t) const {
-  return promise_with(body, t, limits_[body]);
+BodyDefinition Steered::definition(std::uint32_t body, double t) const {
+  return definition_with(body, t, limits_[body]);
 }
 
 std::unique_ptr<Motion> Steered::clone() const { return std::make_unique<Steered>(*this); }

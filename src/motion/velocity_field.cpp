@@ -47,8 +47,8 @@ VelocityField::VelocityField(VelocityFieldDefinition definition)
       limits_(std::move(definition.acceleration_limits)),
       response_time_(definition.response_time) {}
 
-BodyDefinition VelocityField::promise(std::uint32_t body, double t) const {
-  return promise_with(body, t, limits_[body]);
+BodyDefinition VelocityField::definition(std::uint32_t body, double t) const {
+  return definition_with(body, t, limits_[body]);
 }
 
 std::unique_ptr<Motion> VelocityField::clone() const { return std::make_unique<VelocityField>(*this); }

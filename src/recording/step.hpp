@@ -73,11 +73,11 @@ struct With {
     archive(changed, value);
   }
 };
-using Kick = With<BodyId, Vec3, const Vec3&, &World::kick>;
+using SetVelocity = With<BodyId, Vec3, const Vec3&, &World::set_velocity>;
 using Teleport = With<BodyId, State, const State&, &World::teleport>;
 using Enable = With<BodyId, State, const State&, &World::enable>;
 using SetRadius = With<BodyId, double, double, &World::set_radius>;
-using SetPromise = With<BodyId, MotionPromise, const MotionPromise&, &World::set_promise>;
+using SetMotionLimits = With<BodyId, MotionLimits, const MotionLimits&, &World::set_motion_limits>;
 using SetFilter = With<BodyId, Filter, const Filter&, &World::set_filter>;
 using SetSolid = With<BodyId, bool, bool, &World::set_solid>;
 using SetSensor = With<SensorClass, Sensor, const Sensor&, &World::set_sensor>;
@@ -142,10 +142,10 @@ struct End {
 }  // namespace step
 
 /// Their order is part of the format.
-using Step = std::variant<step::Asking, step::Add, step::AddFixed, step::Remove, step::Kick, step::Teleport,
-                          step::SetRadius, step::SetPromise, step::Disable, step::Enable, step::SetFilter,
-                          step::SetPairFilter, step::Refilter, step::SetSolid, step::SetSensor,
-                          step::SetSensorClass, step::SetUserData, step::End>;
+using Step = std::variant<step::Asking, step::Add, step::AddFixed, step::Remove, step::SetVelocity,
+                          step::Teleport, step::SetRadius, step::SetMotionLimits, step::Disable, step::Enable,
+                          step::SetFilter, step::SetPairFilter, step::Refilter, step::SetSolid,
+                          step::SetSensor, step::SetSensorClass, step::SetUserData, step::End>;
 
 /// A hash over the outcomes of all steps so far: events to the last bit, and all work that was done.
 class StepHash {

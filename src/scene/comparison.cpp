@@ -84,7 +84,7 @@ class Comparison {
   GapCourse course(const Key& key) const {
     const auto& [a, b, wall] = key;
     const auto radius = [this](std::uint32_t number) {
-      return scene_.bodies[number].radius + scene_.motion->promise(number, appears(number)).position_error;
+      return scene_.bodies[number].radius + scene_.motion->definition(number, appears(number)).position_error;
     };
     if (wall != Wall::none) return {trajectories_[a], half_space(*scene_.world.box, wall), radius(a)};
     return {trajectories_[a], trajectories_[b], radius(a) + radius(b)};

@@ -127,7 +127,7 @@ Result<void> check(const Scene& scene, const GasBlocks& blocks) {
     const SceneBody& body = scene.bodies[number];
     const BodyId id{number, 0};
     const double start = scene.world.start_time;
-    const BodyDefinition promise = scene.motion->promise(number, start);
+    const BodyDefinition promise = scene.motion->definition(number, start);
     check
         .require(body.radius == scene.bodies.front().radius && body.radius > 0.0, ErrorCode::unsupported,
                  {"radius", id}, "must be the same for all and larger than 0", body.radius)

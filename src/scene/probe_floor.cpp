@@ -54,7 +54,7 @@ class FloorCount {
     bodies_.resize(scene.bodies.size());
     for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
       Body& body = bodies_[number];
-      body.promise = scene.motion->promise(number, start);
+      body.promise = scene.motion->definition(number, start);
       body.promise.radius = scene.bodies[number].radius;
       body.bound = bound_of(body.promise, state(number, start), start);
     }
@@ -219,7 +219,7 @@ Result<void> check(const Scene& scene, const Flight& flight) {
   for (std::uint32_t number = 0; number < scene.bodies.size(); ++number) {
     const BodyId id{number, 0};
     const SceneBody& body = scene.bodies[number];
-    const BodyDefinition promise = scene.motion->promise(number, scene.world.start_time);
+    const BodyDefinition promise = scene.motion->definition(number, scene.world.start_time);
     const double start = scene.world.start_time;
     check
         .require(body.appears <= start, ErrorCode::unsupported, {"appears", id},

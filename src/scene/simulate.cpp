@@ -91,7 +91,7 @@ class Simulation {
 
   Result<void> apply(const Change& change) {
     if (change.kind == Change::vanishes) return detector_.remove(change.body);
-    BodyDefinition definition = motion_.promise(change.body, change.time);
+    BodyDefinition definition = motion_.definition(change.body, change.time);
     definition.radius = scene_.bodies[change.body].radius;
     return detector_.add(change.body, definition);
   }
@@ -111,18 +111,18 @@ class Simulation {
     const Bounce after = scene_.resting_speed > 0.0
                              ? settle(event, mass(first), mass(second), restitution, scene_.resting_speed)
                              : bounce(event, mass(first), mass(second), restitution);
-    if (auto kicked = kick(first, event.time, after.first_velocity); !kicked) return kicked;
-    return pair ? kick(second, event.time, after.second_velocity) : Result<void>();
+    if (auto kicked = set_velocity(first, event.time, after.first_velocity); !kicked) return kicked;
+    return pair ? set_velocity(second, event.time, after.second_velocity) : Result<void>();
   }
 
-  Result<void> kick(std::uint32_t body, double time, const Vec3& velocity) {
-    if (!motion_.kick(body, time, velocity)) {
+  Result<void> set_velocity(std::uint32_t body, double time, const Vec3& velocity) {
+    if (!motion_.set_velocity(body, time, velocity)) {
       return Error{ErrorCode::unsupported,
                    "response",
                    {body, 0},
                    "simulate: response bounce needs a motion that can be kicked, and this one cannot"};
     }
-    return detector_.kick(body, velocity);
+    return detector_.set_velocity(body, velocity);
   }
 
   const Scene& scene_;

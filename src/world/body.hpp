@@ -58,7 +58,7 @@ static_assert(sizeof(Body) == 192);
 struct Change {
   std::uint32_t body = 0;
   std::optional<Vec3> kicked_to{};  ///< its velocity
-  MotionPromise promise{};
+  MotionLimits promise{};
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {

@@ -52,9 +52,9 @@ void World::Engine::set_radius(BodyId id, double radius) {
   bodies_[id.index].radius = radius;
 }
 
-void World::Engine::set_promise(BodyId id, const MotionPromise& promise) {
+void World::Engine::set_motion_limits(BodyId id, const MotionLimits& promise) {
   Body& body = bodies_[id.index];
-  const BodyDefinition changed = with_promise(definition_of(id.index), promise);
+  const BodyDefinition changed = with_motion_limits(definition_of(id.index), promise);
   if (body.enabled) replace(id.index, bound_with(id, changed));
   body.position_error = promise.position_error;
   if (!body.enabled || !body.fresh(time_)) change_of(id.index).promise = promise;
@@ -65,7 +65,7 @@ void World::Engine::set_promise(BodyId id, const MotionPromise& promise) {
 Change& World::Engine::change_of(std::uint32_t number) {
   Body& body = bodies_[number];
   if (body.change_number == Body::none) {
-    changes_.push_back({number, std::nullopt, promise_of(definition_of(number))});
+    changes_.push_back({number, std::nullopt, motion_limits_of(definition_of(number))});
     body.change_number = static_cast<std::uint32_t>(changes_.size() - 1);
   }
   return changes_[body.change_number];

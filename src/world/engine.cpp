@@ -146,7 +146,7 @@ BodyDefinition World::Engine::definition_of(std::uint32_t number) const {
                             .sensor_class = body.sensor_class,
                             .user_data = body.user_data};
   if (const Change* change = change_since_report(number)) {
-    definition = with_promise(definition, change->promise);
+    definition = with_motion_limits(definition, change->promise);
     definition.velocity = change->kicked_to.value_or(bound.velocity);
   }
   return definition;
@@ -185,7 +185,7 @@ std::optional<BodyId> World::Engine::certain_overlap(BodyId id, const Extent& ex
   return found;
 }
 
-void World::Engine::kick(BodyId id, const Vec3& velocity) {
+void World::Engine::set_velocity(BodyId id, const Vec3& velocity) {
   Body& body = bodies_[id.index];
   body.turned = true;
   if (body.fresh(time_)) {

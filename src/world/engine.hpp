@@ -59,12 +59,12 @@ class World::Engine {
   BodyId add(const BodyDefinition& definition);
   BodyId add_fixed(const FixedDefinition& definition);
   void remove(BodyId id);
-  void kick(BodyId id, const Vec3& velocity);
+  void set_velocity(BodyId id, const Vec3& velocity);
   Result<std::optional<Event>> advance(double until, const Probe& probe);
   // changes.cpp: further ones.
   void teleport(BodyId id, const State& state);
   void set_radius(BodyId id, double radius);
-  void set_promise(BodyId id, const MotionPromise& promise);
+  void set_motion_limits(BodyId id, const MotionLimits& promise);
   void disable(BodyId id);
   void enable(BodyId id, const State& state);
   void set_filter(BodyId id, const Filter& filter);

@@ -29,7 +29,7 @@ inline Place place_of(const Body& body, double now) {
 inline Bound present_bound(const Body& body, const Change* change, double now) {
   const Bound& last = body.bound;
   if (!change) return last;
-  const MotionPromise& promise = change->promise;
+  const MotionLimits& promise = change->promise;
   const bool as_promised = last.growth_speed == promise.velocity_error &&
                            last.growth_acceleration == promise.acceleration_limit &&
                            last.planned_acceleration == promise.planned_acceleration;

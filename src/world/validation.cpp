@@ -47,7 +47,7 @@ void require_room(InputCheck& check, std::string_view argument, const BodyDefini
   }
 }
 
-void require_promise(InputCheck& check, const MotionPromise& promise, BodyId body,
+void require_promise(InputCheck& check, const MotionLimits& promise, BodyId body,
                      const WorldDefinition& world) {
   require_size(check, {"acceleration_limit", body}, promise.acceleration_limit, magnitude_limit);
   require_size(check, {"position_error", body}, promise.position_error, coordinate_limit(world));
@@ -161,7 +161,7 @@ Result<void> check_world(const WorldDefinition& definition) {
 Result<void> check_body(const BodyDefinition& body, const WorldDefinition& world, std::string_view call) {
   InputCheck check(call);
   require_radius(check, body.radius, no_body, world);
-  require_promise(check, promise_of(body), no_body, world);
+  require_promise(check, motion_limits_of(body), no_body, world);
   require_state(check, {body.position, body.velocity}, body, no_body, world);
   require_room(check, "radius", body, no_body, world);
   return check.result();
@@ -187,7 +187,7 @@ Result<void> check_radius(const BodyDefinition& changed, BodyId body, const Worl
 Result<void> check_promise(const BodyDefinition& changed, BodyId body, const WorldDefinition& world,
                            std::string_view call) {
   InputCheck check(call);
-  require_promise(check, promise_of(changed), body, world);
+  require_promise(check, motion_limits_of(changed), body, world);
   require_room(check, "position_error", changed, body, world);
   return check.result();
 }

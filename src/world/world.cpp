@@ -165,10 +165,10 @@ Result<void> World::remove_all(std::span<const BodyId> bodies) {
   return {};
 }
 
-Result<void> World::kick(BodyId body, const Vec3& velocity) {
-  auto valid = check_mobile(body, "kick");
-  if (valid) valid = check_velocity(velocity, body, definition(), "kick");
-  if (valid) changing(step::Kick{body, velocity}).kick(body, velocity);
+Result<void> World::set_velocity(BodyId body, const Vec3& velocity) {
+  auto valid = check_mobile(body, "set_velocity");
+  if (valid) valid = check_velocity(velocity, body, definition(), "set_velocity");
+  if (valid) changing(step::SetVelocity{body, velocity}).set_velocity(body, velocity);
   return valid;
 }
 
@@ -207,13 +207,13 @@ Result<void> World::set_radius(BodyId body, double radius) {
   return valid;
 }
 
-Result<void> World::set_promise(BodyId body, const MotionPromise& promise) {
-  auto valid = check_moving(body, "set_promise");
+Result<void> World::set_motion_limits(BodyId body, const MotionLimits& promise) {
+  auto valid = check_moving(body, "set_motion_limits");
   if (!valid) return valid;
-  const BodyDefinition changed = with_promise(engine_->definition_of(body.index), promise);
-  valid = check_promise(changed, body, definition(), "set_promise");
-  if (valid) valid = check_growth(changed, body, "position_error", "set_promise");
-  if (valid) changing(step::SetPromise{body, promise}).set_promise(body, promise);
+  const BodyDefinition changed = with_motion_limits(engine_->definition_of(body.index), promise);
+  valid = check_promise(changed, body, definition(), "set_motion_limits");
+  if (valid) valid = check_growth(changed, body, "position_error", "set_motion_limits");
+  if (valid) changing(step::SetMotionLimits{body, promise}).set_motion_limits(body, promise);
   return valid;
 }
 

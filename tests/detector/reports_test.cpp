@@ -19,8 +19,8 @@ class Jumping final : public Motion {
       : rest_(Ballistic::create({.start = {{{0, 0, 0}, {}}, {{50, 0, 0}, {}}}}).value()), jump_(jump) {}
 
   std::size_t size() const override { return 2; }
-  BodyDefinition promise(std::uint32_t body, double t) const override {
-    BodyDefinition promise = rest_.promise(body, t);
+  BodyDefinition definition(std::uint32_t body, double t) const override {
+    BodyDefinition promise = rest_.definition(body, t);
     promise.acceleration_limit = 8.0;
     return promise;
   }
@@ -32,7 +32,7 @@ class Jumping final : public Motion {
   Trajectory trajectory(std::uint32_t body, double begin, double end) const override {
     return rest_.trajectory(body, begin, end);
   }
-  bool kick(std::uint32_t, double, const Vec3&) override { return false; }
+  bool set_velocity(std::uint32_t, double, const Vec3&) override { return false; }
   std::unique_ptr<Motion> clone() const override { return std::make_unique<Jumping>(jump_); }
 
  private:
@@ -44,7 +44,7 @@ class Reports : public ::testing::TestWithParam<std::string> {
  protected:
   static std::unique_ptr<Detector> detector_of(const Motion& motion) {
     auto detector = detector_maker(GetParam()).value()({}, motion).value();
-    for (const std::uint32_t body : {0u, 1u}) detector->add(body, motion.promise(body, 0.0)).value();
+    for (const std::uint32_t body : {0u, 1u}) detector->add(body, motion.definition(body, 0.0)).value();
     return detector;
   }
 };

@@ -20,7 +20,7 @@ TEST(SensingDetector, TellsAlarmsBeforeContacts) {
   const Ballistic motion = meeting();
   const auto detector = make_sensing_detector({}, motion, {.distances = {5.0, 1.0}}).value();
   for (const std::uint32_t body : {0u, 1u}) {
-    BodyDefinition definition = motion.promise(body, 0.0);
+    BodyDefinition definition = motion.definition(body, 0.0);
     definition.radius = 0.5;
     ASSERT_TRUE(detector->add(body, definition));
   }

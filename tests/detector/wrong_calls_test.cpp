@@ -22,7 +22,7 @@ class WrongCalls : public ::testing::TestWithParam<DetectorEntry> {
   }
 
   BodyDefinition body(std::uint32_t number) const {
-    BodyDefinition definition = motion.promise(number, 0.0);
+    BodyDefinition definition = motion.definition(number, 0.0);
     definition.radius = 0.5;
     return definition;
   }
@@ -72,8 +72,8 @@ TEST_P(WrongCalls, AreAnsweredAndForgotten) {
   expect_error(detector.add(0, wrong), ErrorCode::not_finite, "position");
   for (const std::uint32_t number : {0u, 1u}) ASSERT_TRUE(detector.add(number, body(number)));
   expect_error(detector.add(1, body(1)), ErrorCode::out_of_range, "body");
-  expect_error(detector.kick(0, {nothing, 0, 0}), ErrorCode::not_finite, "velocity");
-  expect_error(detector.kick(2, {}), ErrorCode::unknown_body, "body");
+  expect_error(detector.set_velocity(0, {nothing, 0, 0}), ErrorCode::not_finite, "velocity");
+  expect_error(detector.set_velocity(2, {}), ErrorCode::unknown_body, "body");
   expect_error(detector.advance(nothing), ErrorCode::not_finite, "until");
   const auto contact = detector.advance(10.0);
   ASSERT_TRUE(contact && *contact);
@@ -81,7 +81,7 @@ TEST_P(WrongCalls, AreAnsweredAndForgotten) {
   EXPECT_NEAR((*contact)->time, 1.5, 0.11);
   expect_error(detector.advance(1.0), ErrorCode::time_backwards, "until");
   ASSERT_TRUE(detector.remove(0));
-  expect_error(detector.kick(0, {}), ErrorCode::stale_body, "body");
+  expect_error(detector.set_velocity(0, {}), ErrorCode::stale_body, "body");
 }
 
 std::string name_of_detector(const ::testing::TestParamInfo<DetectorEntry>& detector) {

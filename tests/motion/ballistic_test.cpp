@@ -13,9 +13,9 @@ TEST(Ballistic, FollowsAParabolaAndPlansIt) {
       Ballistic::create({.start = {{{0, 0, 10}, {2, 0, 4}}}, .gravity = {0, 0, -8}, .start_time = 1.0})
           .value();
   EXPECT_EQ(motion.state(0, 2.0), (State{{2, 0, 10}, {2, 0, -4}}));
-  EXPECT_EQ(motion.promise(0, 2.0).acceleration_limit, 0.0);
-  EXPECT_EQ(motion.promise(0, 2.0).planned_acceleration, (Vec3{0, 0, -8}));
-  ASSERT_TRUE(motion.kick(0, 2.0, {0, 0, 4}));
+  EXPECT_EQ(motion.definition(0, 2.0).acceleration_limit, 0.0);
+  EXPECT_EQ(motion.definition(0, 2.0).planned_acceleration, (Vec3{0, 0, -8}));
+  ASSERT_TRUE(motion.set_velocity(0, 2.0, {0, 0, 4}));
   EXPECT_EQ(motion.state(0, 3.0), (State{{2, 0, 10}, {0, 0, -4}}));
   EXPECT_EQ(motion.trajectory(0, 2.0, 1e9).size(), 1u);
 }

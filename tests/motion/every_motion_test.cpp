@@ -152,7 +152,7 @@ TEST_P(EveryMotion, KickChangesTheVelocityAndNothingElse) {
       time = random.uniform(time, end);
       const auto before = motion.clone();
       const Vec3 velocity = 20 * random.point_in_ball();
-      ASSERT_EQ(motion.kick(2, time, velocity), GetParam().can_be_kicked);
+      ASSERT_EQ(motion.set_velocity(2, time, velocity), GetParam().can_be_kicked);
       const State expected = GetParam().can_be_kicked ? State{before->state(2, time).position, velocity}
                                                       : before->state(2, time);
       EXPECT_EQ(motion.state(2, time), expected);
@@ -165,23 +165,23 @@ TEST_P(EveryMotion, KickChangesTheVelocityAndNothingElse) {
 
 TEST_P(EveryMotion, RefusesKicksThatMakeNoSense) {
   for_motions([&](Motion& motion, Random&) {
-    motion.kick(1, 3.0, {1, 2, 3});
+    motion.set_velocity(1, 3.0, {1, 2, 3});
     const State before = motion.state(1, end);
-    EXPECT_FALSE(motion.kick(1, 2.5, {}));
-    EXPECT_FALSE(motion.kick(1, std::numeric_limits<double>::quiet_NaN(), {}));
-    EXPECT_FALSE(motion.kick(1, std::numeric_limits<double>::infinity(), {}));
-    EXPECT_FALSE(motion.kick(1, 4.0, {0, std::numeric_limits<double>::infinity(), 0}));
+    EXPECT_FALSE(motion.set_velocity(1, 2.5, {}));
+    EXPECT_FALSE(motion.set_velocity(1, std::numeric_limits<double>::quiet_NaN(), {}));
+    EXPECT_FALSE(motion.set_velocity(1, std::numeric_limits<double>::infinity(), {}));
+    EXPECT_FALSE(motion.set_velocity(1, 4.0, {0, std::numeric_limits<double>::infinity(), 0}));
     EXPECT_EQ(motion.state(1, end), before);
   });
 }
 
 TEST_P(EveryMotion, ClonesGoTheirOwnWay) {
   for_motions([&](Motion& motion, Random&) {
-    motion.kick(0, 2.0, {1, 2, 3});
+    motion.set_velocity(0, 2.0, {1, 2, 3});
     const auto clone = motion.clone();
     const State before = motion.state(0, end);
     EXPECT_EQ(clone->state(0, end), before);
-    const bool kicked = clone->kick(0, 4.0, {-50, 0, 0});
+    const bool kicked = clone->set_velocity(0, 4.0, {-50, 0, 0});
     EXPECT_EQ(motion.state(0, end), before);
     EXPECT_EQ(clone->state(0, end) == before, !kicked);
   });

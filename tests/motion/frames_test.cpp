@@ -33,7 +33,7 @@ TEST(Frames, InterpolateBetweenTheLastTwo) {
 TEST(Frames, BeginWithTheVelocitiesOfTheGame) {
   FramesDefinition definition{.start = {{1, 2, 3}}, .velocities = {{4, 5, 6}}, .acceleration_limits = {1.0}};
   const Frames frames = Frames::create(definition).value();
-  EXPECT_EQ(frames.promise(0, 0.0).velocity, (Vec3{4, 5, 6}));
+  EXPECT_EQ(frames.definition(0, 0.0).velocity, (Vec3{4, 5, 6}));
   definition.velocities.push_back({});
   EXPECT_EQ(Frames::create(definition).error().code, ErrorCode::out_of_range);
   EXPECT_EQ(Frames::create(definition).error().argument, "velocities");
@@ -46,15 +46,15 @@ TEST(Frames, KickTurnsTheRestOfTheFrame) {
       Frames::create({.start = {{0, 0, 0}, {5, 5, 5}}, .acceleration_limits = {8.0, 8.0}, .interval = 1.0})
           .value();
   frames.push(std::vector<Vec3>{{4, 0, 0}, {5, 5, 5}}).value();
-  EXPECT_TRUE(frames.kick(0, 0.5, {-2, 0, 6}));
+  EXPECT_TRUE(frames.set_velocity(0, 0.5, {-2, 0, 6}));
   EXPECT_EQ(frames.state(0, 0.5), (State{{2, 0, 0}, {-2, 0, 6}}));
   EXPECT_EQ(frames.state(0, 0.75), (State{{1.5, 0, 1.5}, {-2, 0, 6}}));
   EXPECT_EQ(frames.latest()[0], (Vec3{1, 0, 3}));
   EXPECT_EQ(frames.latest()[1], (Vec3{5, 5, 5}));
-  EXPECT_FALSE(frames.kick(0, 0.25, {})) << "before the last kick";
-  EXPECT_FALSE(frames.kick(0, 1.25, {})) << "after the last frame";
-  EXPECT_FALSE(frames.kick(0, 0.75, {std::numeric_limits<double>::quiet_NaN(), 0, 0}));
-  EXPECT_TRUE(frames.kick(0, 1.0, {0, 7, 0}));
+  EXPECT_FALSE(frames.set_velocity(0, 0.25, {})) << "before the last kick";
+  EXPECT_FALSE(frames.set_velocity(0, 1.25, {})) << "after the last frame";
+  EXPECT_FALSE(frames.set_velocity(0, 0.75, {std::numeric_limits<double>::quiet_NaN(), 0, 0}));
+  EXPECT_TRUE(frames.set_velocity(0, 1.0, {0, 7, 0}));
   EXPECT_EQ(frames.state(0, 1.0), (State{{1, 0, 3}, {0, 7, 0}}));
   frames.push(std::vector<Vec3>{{1, 7, 3}, {5, 5, 5}}).value();
   EXPECT_EQ(frames.state(0, 1.5), (State{{1, 3.5, 3}, {0, 7, 0}}));
@@ -65,7 +65,7 @@ TEST(Frames, PromiseTheJumpsOfTheChord) {
       Frames::create(
           {.start = {{}, {}}, .acceleration_limits = {8.0, 2.0}, .interval = 0.5, .position_error = 0.125})
           .value();
-  const BodyDefinition promise = frames.promise(1, 0.0);
+  const BodyDefinition promise = frames.definition(1, 0.0);
   EXPECT_EQ(promise.acceleration_limit, 2.0);
   EXPECT_EQ(promise.velocity_error, 1.0 + 0.5);
   EXPECT_EQ(promise.position_error, 0.125);
@@ -141,10 +141,10 @@ double expect_promise_across_frames(const Game& game, double limit, double inter
         EXPECT_LE(off, 2 * promise.position_error + growth + 1e-11);
         largest_part = std::max(largest_part, off / growth);
       }
-      reports.push_back({t, frames.promise(0, t)});
+      reports.push_back({t, frames.definition(0, t)});
     }
-    reports.push_back({frames.previous_time(), frames.promise(0, frames.previous_time())});
-    reports.push_back({frames.latest_time(), frames.promise(0, frames.latest_time())});
+    reports.push_back({frames.previous_time(), frames.definition(0, frames.previous_time())});
+    reports.push_back({frames.latest_time(), frames.definition(0, frames.latest_time())});
   }
   return largest_part;
 }
@@ -213,7 +213,7 @@ TEST(Frames, KeepTheirPromiseAfterKicks) {
                                     .acceleration_limits = {limit},
                                     .interval = interval})
                         .value();
-    BodyDefinition promise = frames.promise(0, 0.0);
+    BodyDefinition promise = frames.definition(0, 0.0);
     double since = 0.0;
     const Vec3 push = random.unit_vector();
     for (int k = 0; k < 200; ++k) {
@@ -228,8 +228,8 @@ TEST(Frames, KeepTheirPromiseAfterKicks) {
         ASSERT_LE(norm(frames.state(0, now).position - predicted), growth + 1e-11);
         if (random.uniform() > 0.1) continue;
         velocity = 5 * random.point_in_ball();
-        ASSERT_TRUE(frames.kick(0, now, velocity));
-        promise = frames.promise(0, now);
+        ASSERT_TRUE(frames.set_velocity(0, now, velocity));
+        promise = frames.definition(0, now);
         since = now;
       }
     }

@@ -51,7 +51,7 @@ inline void expect_promise_kept(const Motion& motion, std::uint32_t body, double
   const double t0 = random.uniform(begin, end);
   const double t1 = random.uniform(t0, end);
   const double s = t1 - t0;
-  const BodyDefinition promise = motion.promise(body, t0);
+  const BodyDefinition promise = motion.definition(body, t0);
   const State now = motion.state(body, t1);
   const double limit = promise.acceleration_limit;
   const double error = promise.velocity_error;

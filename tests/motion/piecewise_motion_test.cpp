@@ -43,9 +43,9 @@ TEST(PiecewiseMotion, GoesStraightOnBeforeAndAfter) {
 TEST(PiecewiseMotion, LimitIsTheLargestAcceleration) {
   const Segment curved{0.0, 2.0, {}, {}, {1, 0, 0}, {-3, 2, 0}};  // ends with acceleration (-5, 4, 0)
   const PiecewiseMotion motion = PiecewiseMotion::create({{curved}, there_and_back()}).value();
-  EXPECT_NEAR(motion.promise(0, 0.0).acceleration_limit, std::sqrt(41.0), 1e-11);
-  EXPECT_GE(motion.promise(0, 0.0).acceleration_limit, std::sqrt(41.0));
-  EXPECT_NEAR(motion.promise(1, 1.0).acceleration_limit, 3.0, 1e-11);
+  EXPECT_NEAR(motion.definition(0, 0.0).acceleration_limit, std::sqrt(41.0), 1e-11);
+  EXPECT_GE(motion.definition(0, 0.0).acceleration_limit, std::sqrt(41.0));
+  EXPECT_NEAR(motion.definition(1, 1.0).acceleration_limit, 3.0, 1e-11);
 }
 
 std::string error_of(const Trajectory& wrong) {

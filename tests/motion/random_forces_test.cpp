@@ -42,7 +42,7 @@ TEST(RandomForces, EveryBodyAndSeedHasItsOwn) {
 TEST(RandomForces, KickKeepsTheForce) {
   RandomForces motion = RandomForces::create(two_bodies()).value();
   const Trajectory before = motion.trajectory(1, 0.5, 1.5);
-  ASSERT_TRUE(motion.kick(1, 0.5, {9, 9, 9}));
+  ASSERT_TRUE(motion.set_velocity(1, 0.5, {9, 9, 9}));
   const Trajectory after = motion.trajectory(1, 0.5, 1.5);
   ASSERT_EQ(before.size(), after.size());
   EXPECT_EQ(after.front().begin, 0.5);
@@ -89,7 +89,7 @@ TEST(RandomForces, NoIntervalIsSkippedOrRepeatedByRounding) {
     for (std::size_t k = 0; k < 2999; ++k) {
       ASSERT_EQ(whole[k].begin, static_cast<double>(k) * interval);
       const double just_before = std::nextafter(whole[k].end, 0.0);
-      ASSERT_TRUE(motion.kick(0, just_before, {}));
+      ASSERT_TRUE(motion.set_velocity(0, just_before, {}));
       const Trajectory kicked = motion.trajectory(0, just_before, whole[k].end);
       ASSERT_EQ(kicked.front().end, whole[k].end);
       ASSERT_EQ(kicked.front().acceleration, whole[k].acceleration);

@@ -43,7 +43,7 @@ RC_GTEST_PROP(RecordedTracks, AreSmooth, (std::uint64_t seed)) {
   const Track track = random_track(random, *rc::gen::inRange<std::size_t>(3, 40));
   const Trajectory trajectory = tracks_of(track).trajectory(0, track.front().time, track.back().time);
   RC_ASSERT(trajectory.size() == track.size() - 1);
-  const double limit = tracks_of(track).promise(0, track.front().time).acceleration_limit;
+  const double limit = tracks_of(track).definition(0, track.front().time).acceleration_limit;
   for (std::size_t k = 1; k < trajectory.size(); ++k) {
     const Segment& before = trajectory[k - 1];
     const Segment& after = trajectory[k];
@@ -69,7 +69,7 @@ RC_GTEST_PROP(RecordedTracks, LimitIsTheLargestAccelerationAndNoMore, (std::uint
       largest = std::max(largest, norm(segment.acceleration_at(t)));
     }
   }
-  const double limit = motion.promise(0, track.front().time).acceleration_limit;
+  const double limit = motion.definition(0, track.front().time).acceleration_limit;
   RC_ASSERT(largest <= limit);
   RC_ASSERT(limit <= largest * (1.0 + 1e-11));
 }
@@ -79,14 +79,14 @@ TEST(RecordedTracks, TwoSamplesMakeAStraightLine) {
   EXPECT_EQ(motion.state(0, 3.0), (State{{2, 4, -1}, {2, 4, -1}}));
   EXPECT_EQ(motion.state(0, 1.0), (State{{-2, -4, 1}, {2, 4, -1}}));
   EXPECT_EQ(motion.state(0, 5.0), (State{{6, 12, -3}, {2, 4, -1}}));
-  EXPECT_EQ(motion.promise(0, 3.0).acceleration_limit, 0.0);
+  EXPECT_EQ(motion.definition(0, 3.0).acceleration_limit, 0.0);
 }
 
 // The natural spline through (0, 0), (1, 1), (2, 0) has the acceleration -3 in its middle: M (1 + 1) 2 = 6
 // (-1 - 1).
 TEST(RecordedTracks, AreTheNaturalSpline) {
   const RecordedTracks motion = tracks_of({{0.0, {0, 0, 0}}, {1.0, {1, 0, 0}}, {2.0, {0, 0, 0}}});
-  EXPECT_DOUBLE_EQ(motion.promise(0, 0.0).acceleration_limit, 3.0 * (1.0 + 1e-12));
+  EXPECT_DOUBLE_EQ(motion.definition(0, 0.0).acceleration_limit, 3.0 * (1.0 + 1e-12));
   EXPECT_DOUBLE_EQ(motion.state(0, 0.0).velocity.x, 1.5);
   EXPECT_DOUBLE_EQ(motion.state(0, 0.5).position.x, 1.5 * 0.5 - 0.5 * 0.125);
   EXPECT_DOUBLE_EQ(motion.state(0, 1.0).velocity.x, 0.0);

@@ -31,7 +31,7 @@ TEST(Steered, MovesAsItIsTold) {
 TEST(Steered, KickKeepsTheAcceleration) {
   Steered motion = two_bodies();
   motion.steer(0, 1.0, {0, 4, 0}).value();
-  ASSERT_TRUE(motion.kick(0, 2.0, {}));
+  ASSERT_TRUE(motion.set_velocity(0, 2.0, {}));
   EXPECT_EQ(motion.state(0, 3.0), (State{{2, 4, 0}, {0, 4, 0}}));
 }
 
@@ -40,7 +40,7 @@ TEST(Steered, KeepsThePromiseOfTheStartWhateverItIsTold) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     Steered motion = two_bodies();
-    const BodyDefinition promise = motion.promise(0, 0.0);
+    const BodyDefinition promise = motion.definition(0, 0.0);
     double time = 0.0;
     for (int k = 0; k < 50; ++k) {
       motion.steer(0, time, 4.0 * random.unit_vector()).value();

@@ -97,7 +97,7 @@ TEST(VelocityField, AccelerationIsProportionalUntilTheLimit) {
 
 TEST(VelocityField, KickedBodiesLookAtTheFieldAtOnce) {
   VelocityField motion = VelocityField::create(still_body()).value();
-  ASSERT_TRUE(motion.kick(0, 0.05, {0, 0, 100}));
+  ASSERT_TRUE(motion.set_velocity(0, 0.05, {0, 0, 100}));
   const Segment segment = motion.trajectory(0, 0.05, 0.05).front();
   EXPECT_EQ(segment.begin, 0.05);
   EXPECT_LT(segment.acceleration.z, -29.0);

@@ -15,7 +15,7 @@ class StillDetector : public Detector {
   std::string_view name() const override { return "still"; }
   Result<void> add(std::uint32_t, const BodyDefinition&) override { return {}; }
   Result<void> remove(std::uint32_t) override { return {}; }
-  Result<void> kick(std::uint32_t, const Vec3&) override { return {}; }
+  Result<void> set_velocity(std::uint32_t, const Vec3&) override { return {}; }
   Result<std::optional<Event>> advance(double) override { return std::optional<Event>{}; }
   double time() const override { return 0; }
   Counters counters() const override { return {}; }

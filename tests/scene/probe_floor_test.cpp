@@ -122,7 +122,7 @@ std::uint64_t sampled_floor(const Scene& scene, const Flight& flight, std::uint3
   const auto state = [&](std::uint32_t number, double time) {
     return segment_at(flight.paths[number], time).state_at(time);
   };
-  BodyDefinition promise = scene.motion->promise(body, 0.0);
+  BodyDefinition promise = scene.motion->definition(body, 0.0);
   promise.radius = scene.bodies[body].radius;
   std::vector<double> stops;
   for (const FlightContact& contact : flight.contacts)

@@ -21,22 +21,22 @@ double Player::radius(const Operation& operation) const {
   return truth_.definition().periodic.any() ? std::min(0.3, operation.radius()) : operation.radius();
 }
 
-MotionPromise Player::promise(const Operation& operation) const {
-  MotionPromise promise = operation.promise();
+MotionLimits Player::definition(const Operation& operation) const {
+  MotionLimits promise = operation.definition();
   promise.planned_acceleration = truth_.in_space(promise.planned_acceleration);
   return promise;
 }
 
 /// In a world without overlaps it lies in the box as a whole.
 BodyDefinition Player::new_body(const Operation& operation) const {
-  BodyDefinition body = with_promise({.radius = radius(operation),
-                                      .position = operation.position(),
-                                      .velocity = truth_.in_space(operation.velocity()),
-                                      .filter = operation.filter(),
-                                      .solid = !kind_.sensors || operation.solid(),
-                                      .sensor_class = operation.sensor_class(),
-                                      .user_data = operation.code()},
-                                     promise(operation));
+  BodyDefinition body = with_motion_limits({.radius = radius(operation),
+                                            .position = operation.position(),
+                                            .velocity = truth_.in_space(operation.velocity()),
+                                            .filter = operation.filter(),
+                                            .solid = !kind_.sensors || operation.solid(),
+                                            .sensor_class = operation.sensor_class(),
+                                            .user_data = operation.code()},
+                                           promise(operation));
   if (operation.byte(8) % 8 == 0) body.velocity = {};
   body.position = inside(body.position, body.radius);
   return body;
@@ -65,7 +65,7 @@ bool Player::has_room(BodyId id, const Extent& extent, const BodyDefinition& bod
 }
 
 void Player::join(BodyId id, const BodyDefinition& body, const Operation& operation) {
-  truth_.add(id, body, acceleration(operation, promise_of(body)));
+  truth_.add(id, body, acceleration(operation, motion_limits_of(body)));
   told_.appeared(id);
   changed();
 }
@@ -153,16 +153,16 @@ void Player::remove_all(const Operation& operation) {
   for (std::size_t k = 0; k < ids.size(); ++k) leave(ids[k], before[k]);
 }
 
-void Player::kick(BodyId id, const Vec3& velocity) {
-  accepted(on_world([&](World& world) { return world.kick(id, velocity); }));
+void Player::set_velocity(BodyId id, const Vec3& velocity) {
+  accepted(on_world([&](World& world) { return world.set_velocity(id, velocity); }));
   truth_.move(id, {truth_.state(id).position, velocity});
   told_.kicked(id);
   changed();
 }
 
-void Player::kick(const Operation& operation) {
+void Player::set_velocity(const Operation& operation) {
   const auto id = any_moving(operation);
-  if (id && truth_.is_present(*id)) kick(*id, truth_.in_space(operation.velocity()));
+  if (id && truth_.is_present(*id)) set_velocity(*id, truth_.in_space(operation.velocity()));
 }
 
 /// Bodies that have strayed far are sent back.
@@ -171,14 +171,14 @@ void Player::send_back() {
     if (!truth_.is_present(id) || truth_.at(id).fixed) continue;
     const State state = truth_.state(id);
     const Vec3 out = truth_.in_space(state.position - Vec3{0.5, 0.5, 0.5} * world_size);
-    if (norm(out) > 1.5 * world_size && dot(out, state.velocity) > 0.0) kick(id, out * (-0.3));
+    if (norm(out) > 1.5 * world_size && dot(out, state.velocity) > 0.0) set_velocity(id, out * (-0.3));
   }
 }
 
 /// The world learns nothing of it.
 void Player::steer(const Operation& operation) {
   const auto id = any_moving(operation);
-  if (id) truth_.steer(*id, acceleration(operation, promise_of(truth_.at(*id).definition)));
+  if (id) truth_.steer(*id, acceleration(operation, motion_limits_of(truth_.at(*id).definition)));
 }
 
 void Player::teleport(BodyId id, const State& state) {
@@ -239,13 +239,13 @@ void Player::set_radius(const Operation& operation) {
   changed();
 }
 
-void Player::set_promise(const Operation& operation) {
+void Player::set_motion_limits(const Operation& operation) {
   const auto id = any_moving(operation);
   if (!id) return;
-  const MotionPromise promise = this->promise(operation);
+  const MotionLimits promise = this->definition(operation);
   const auto before = truth_.is_present(*id) ? told_.before(world_, *id) : std::vector<Before>();
-  accepted(on_world([&](World& world) { return world.set_promise(*id, promise); }));
-  truth_.at(*id).definition = with_promise(truth_.at(*id).definition, promise);
+  accepted(on_world([&](World& world) { return world.set_motion_limits(*id, promise); }));
+  truth_.at(*id).definition = with_motion_limits(truth_.at(*id).definition, promise);
   truth_.steer(*id, acceleration(operation, promise));
   if (!truth_.is_present(*id)) return;
   told_.replaced(world_, *id, before);

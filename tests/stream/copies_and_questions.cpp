@@ -98,7 +98,7 @@ void Player::call_wrongly(const Operation& operation) {
       refused(world_.remove_all(wrong_batch), code);
       break;
     case 1:
-      refused(world_.kick(wrong, {}), code);
+      refused(world_.set_velocity(wrong, {}), code);
       refused(world_.teleport(wrong, state), code);
       break;
     case 2:
@@ -107,7 +107,7 @@ void Player::call_wrongly(const Operation& operation) {
       break;
     case 3:
       refused(world_.set_radius(wrong, 1), code);
-      refused(world_.set_promise(wrong, {}), code);
+      refused(world_.set_motion_limits(wrong, {}), code);
       break;
     case 4:
       refused(world_.set_filter(wrong, {}), code);
@@ -141,24 +141,24 @@ void Player::call_wrongly(const Operation& operation) {
       if (!id) break;
       if (truth_.at(*id).fixed) {
         refused(world_.set_radius(*id, 0.5), ErrorCode::fixed_body);
-        refused(world_.set_promise(*id, {}), ErrorCode::fixed_body);
-        refused(world_.kick(*id, {}), ErrorCode::fixed_body);
+        refused(world_.set_motion_limits(*id, {}), ErrorCode::fixed_body);
+        refused(world_.set_velocity(*id, {}), ErrorCode::fixed_body);
         refused(world_.teleport(*id, state), ErrorCode::fixed_body);
         refused(world_.add_fixed({.shape = HalfSpace{{1, 1, 0}, 0}}), ErrorCode::out_of_range);
       } else {
         refused(world_.set_radius(*id, -0.5), ErrorCode::out_of_range);
-        refused(world_.set_promise(*id, {.acceleration_limit = nan}), ErrorCode::not_finite);
+        refused(world_.set_motion_limits(*id, {.acceleration_limit = nan}), ErrorCode::not_finite);
       }
       break;
     case 9:
       if (!id || truth_.at(*id).fixed) break;
       if (truth_.is_present(*id)) {
         refused(world_.enable(*id, state), ErrorCode::enabled_body);
-        refused(world_.kick(*id, {nan, 0, 0}), ErrorCode::not_finite);
+        refused(world_.set_velocity(*id, {nan, 0, 0}), ErrorCode::not_finite);
         refused(world_.teleport(*id, {{0, nan, 0}, {}}), ErrorCode::not_finite);
       } else {
         refused(world_.disable(*id), ErrorCode::disabled_body);
-        refused(world_.kick(*id, {}), ErrorCode::disabled_body);
+        refused(world_.set_velocity(*id, {}), ErrorCode::disabled_body);
         refused(world_.teleport(*id, state), ErrorCode::disabled_body);
         refused(world_.enable(*id, {{0, 0, nan}, {}}), ErrorCode::not_finite);
       }

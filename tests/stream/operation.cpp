@@ -14,8 +14,8 @@ std::uint8_t header(std::span<const std::uint8_t> bytes, std::size_t k) {
 
 }  // namespace
 
-MotionPromise Operation::promise() const {
-  MotionPromise promise;
+MotionLimits Operation::definition() const {
+  MotionLimits promise;
   if (byte(7) % 4 != 0) promise.acceleration_limit = 5.0 * fraction(7);
   if (byte(7) % 16 < 4) promise.planned_acceleration = {0, 0, -3};
   if (byte(7) % 16 == 4) promise.planned_acceleration = {2.0 * fraction(3), 1, -2.0 * fraction(4)};

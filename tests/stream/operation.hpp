@@ -43,9 +43,9 @@ struct Operation {
   Vec3 position() const { return Vec3{fraction(0), fraction(1), fraction(2)} * world_size; }
   Vec3 velocity() const { return {speed(3), speed(4), speed(5)}; }
   double radius() const { return byte(6) % 16 == 1 ? 1.5 * fraction(6) : 0.5 * fraction(6); }
-  MotionPromise promise() const;
+  MotionLimits promise() const;
   /// An acceleration within a promise.
-  Vec3 acceleration(const MotionPromise& promise) const {
+  Vec3 acceleration(const MotionLimits& promise) const {
     return promise.planned_acceleration +
            0.999 * promise.acceleration_limit * Random(byte(8)).point_in_ball();
   }

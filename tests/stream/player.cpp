@@ -17,12 +17,12 @@ const std::array<Player::Kind, 26> Player::kinds{{
     {"add_all", 3, &Player::add_all},
     {"remove", 8, &Player::remove},
     {"remove_all", 2, &Player::remove_all},
-    {"kick", 18, &Player::kick},
+    {"set_velocity", 18, &Player::set_velocity},
     {"steer", 12, &Player::steer},
     {"teleport", 8, &Player::teleport},
     {"nudge", 12, &Player::nudge},
     {"set_radius", 10, &Player::set_radius},
-    {"set_promise", 8, &Player::set_promise},
+    {"set_motion_limits", 8, &Player::set_motion_limits},
     {"set_filter", 8, &Player::set_filter},
     {"set_pair_filter", 2, &Player::set_pair_filter},
     {"refilter", 6, &Player::haunt},
@@ -193,7 +193,7 @@ void Player::answer(const Event& event, const Operation& operation) {
     const auto moves = [this](BodyId id) { return truth_.is_present(id) && !truth_.at(id).fixed; };
     const bool alone = !moves(event.first) || !moves(event.second);
     const auto turn = [&](BodyId id, const Vec3& by) {
-      if (moves(id)) kick(id, truth_.state(id).velocity + (alone ? 2.0 : 1.0) * by);
+      if (moves(id)) set_velocity(id, truth_.state(id).velocity + (alone ? 2.0 : 1.0) * by);
     };
     turn(event.first, -change);
     turn(event.second, change);

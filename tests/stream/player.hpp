@@ -42,12 +42,12 @@ class Player {
   void add_all(const Operation& operation);
   void remove(const Operation& operation);
   void remove_all(const Operation& operation);
-  void kick(const Operation& operation);
+  void set_velocity(const Operation& operation);
   void steer(const Operation& operation);
   void teleport(const Operation& operation);
   void nudge(const Operation& operation);
   void set_radius(const Operation& operation);
-  void set_promise(const Operation& operation);
+  void set_motion_limits(const Operation& operation);
   void set_filter(const Operation& operation);
   void set_pair_filter(const Operation& operation);
   void haunt(const Operation& operation);
@@ -80,10 +80,10 @@ class Player {
   // changes.cpp
   BodyDefinition new_body(const Operation& operation) const;
   double radius(const Operation& operation) const;
-  Vec3 acceleration(const Operation& operation, const MotionPromise& promise) const {
+  Vec3 acceleration(const Operation& operation, const MotionLimits& promise) const {
     return truth_.in_space(operation.acceleration(promise));
   }
-  MotionPromise promise(const Operation& operation) const;
+  MotionLimits promise(const Operation& operation) const;
   bool has_room(BodyId id, const Extent& extent, const BodyDefinition& body) const;
   template <class Change>
   void refilter(const std::vector<BodyId>& ids, Change change);
@@ -92,7 +92,7 @@ class Player {
   Vec3 inside(Vec3 position, double radius) const;
   bool room_of_fixed(BodyId id) const;
   State place(const Operation& operation, double radius) const;
-  void kick(BodyId id, const Vec3& velocity);
+  void set_velocity(BodyId id, const Vec3& velocity);
   void teleport(BodyId id, const State& state);
   void send_back();
   void give_pair_filter(World& world) const;

@@ -67,13 +67,13 @@ class Playground {
   State state(BodyId id) const { return state(id, world.time()); }
 
   /// Changes the true velocity and tells the world.
-  void kick(BodyId id, const Vec3& velocity) {
-    set_velocity(id, velocity);
-    world.kick(id, velocity).value();
+  void set_velocity(BodyId id, const Vec3& velocity) {
+    set_velocity_unseen(id, velocity);
+    world.set_velocity(id, velocity).value();
   }
 
   /// Changes the true motion behind the world's back. A new acceleration within the promise is legitimate.
-  void set_velocity(BodyId id, const Vec3& velocity) {
+  void set_velocity_unseen(BodyId id, const Vec3& velocity) {
     restart(id);
     courses_[id.index].state.velocity = velocity;
   }

@@ -64,7 +64,7 @@ inline void use_for_a_while(World world, Random& random) {
       if (bodies.empty()) break;
       const BodyId body = bodies[random.bits() % bodies.size()];
       (void)world.body(body);
-      if (k % 3 == 0) (void)world.kick(body, random.point_in_ball());
+      if (k % 3 == 0) (void)world.set_velocity(body, random.point_in_ball());
       if (k % 5 == 0) (void)world.remove(body);
       if (k % 7 == 0) (void)world.add({.position = 5.0 * random.point_in_ball()});
     }

@@ -220,7 +220,7 @@ TEST(SafeUntil, TakesAKickIntoAccountBeforeTheNextAdvance) {
   const BodyId b = p.add({.radius = 1, .position = {10, 0, 0}});
   EXPECT_FALSE(p.advance(2.0));
   EXPECT_EQ(p.world.safe_until(a, b)->time, infinity);
-  p.kick(a, {1, 0, 0});
+  p.set_velocity(a, {1, 0, 0});
   EXPECT_NEAR(p.world.safe_until(a, b)->time, 12.0, 1e-5);
   EXPECT_NEAR(p.world.distance_limits(a, b, 7.0)->upper, 5.0, 1e-9);
 }

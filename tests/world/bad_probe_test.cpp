@@ -63,8 +63,8 @@ std::vector<Event> run(const Kind& kind, const Spoil& spoil, std::uint64_t& fail
     events.push_back(event);
     EXPECT_TRUE(is_clean(p.world));
     if (kind.bounces && event.kind == EventKind::contact_begin && event.approach_speed > 0) {
-      p.kick(event.first, event.first_state.velocity - event.normal * event.approach_speed);
-      p.kick(event.second, event.second_state.velocity + event.normal * event.approach_speed);
+      p.set_velocity(event.first, event.first_state.velocity - event.normal * event.approach_speed);
+      p.set_velocity(event.second, event.second_state.velocity + event.normal * event.approach_speed);
     }
   }
   EXPECT_TRUE(is_clean(p.world));
@@ -180,7 +180,7 @@ TEST(BadAnswer, KicksAndNewBodiesBeforeTheRepetitionCount) {
   fail = true;
   ASSERT_FALSE(p.world.advance(100.0, p.probe()));
   fail = false;
-  p.kick(a, {0, 1, 0});
+  p.set_velocity(a, {0, 1, 0});
   const Vec3 there = p.state(a).position;
   p.add({.radius = 1, .position = there + Vec3{0, 5, 0}});
   p.steer(a, {0, 0, 0});
@@ -238,10 +238,10 @@ TEST(Probe, MayNotCallTheWorldThatAskedIt) {
     refused(p.world.add_all(std::vector<BodyDefinition>(2)), "add_all");
     refused(p.world.reserve(5), "reserve");
     refused(p.world.remove(a), "remove");
-    refused(p.world.kick(a, {}), "kick");
+    refused(p.world.set_velocity(a, {}), "set_velocity");
     refused(p.world.teleport(a, {}), "teleport");
     refused(p.world.set_radius(a, 1), "set_radius");
-    refused(p.world.set_promise(a, {}), "set_promise");
+    refused(p.world.set_motion_limits(a, {}), "set_motion_limits");
     refused(p.world.disable(a), "disable");
     refused(p.world.enable(a, {}), "enable");
     refused(p.world.set_filter(a, {}), "set_filter");

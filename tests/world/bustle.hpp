@@ -67,7 +67,7 @@ class Bustle : public Crowd {
 
   void place(BodyId id, const State& state) {
     set_position(id, state.position);
-    set_velocity(id, state.velocity);
+    set_velocity_unseen(id, state.velocity);
   }
 
   void do_anything() {
@@ -89,7 +89,7 @@ class Bustle : public Crowd {
       case 3: {
         const BodyDefinition now = world.body(id).value().definition;
         const Vec3 plan = random.point_in_ball();
-        world.set_promise(id, {2.0, plan, now.position_error, now.velocity_error}).value();
+        world.set_motion_limits(id, {2.0, plan, now.position_error, now.velocity_error}).value();
         return Playground::steer(id, plan + 1.9 * random.point_in_ball());
       }
       case 4:
@@ -124,7 +124,7 @@ class Bustle : public Crowd {
       case 11:
         return join();
       default:
-        if (is_enabled(id)) kick(id, 2.0 * random.point_in_ball());
+        if (is_enabled(id)) set_velocity(id, 2.0 * random.point_in_ball());
     }
   }
 

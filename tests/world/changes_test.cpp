@@ -12,7 +12,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 void teleport(Playground& p, BodyId id, const State& state) {
   p.set_position(id, state.position);
-  p.set_velocity(id, state.velocity);
+  p.set_velocity_unseen(id, state.velocity);
   p.world.teleport(id, state).value();
 }
 
@@ -162,10 +162,10 @@ TEST(Change, PromiseHoldsFromNowOnAndTheOldOneUntilNow) {
   const BodyId a = p.add({.radius = 1, .acceleration_limit = 2, .position = {0, 0, 0}}, Vec3{1.9, 0, 0});
   const BodyId b = p.add({.radius = 1, .position = {20, 0, 0}});
   p.run(1.0);
-  p.world.set_promise(a, {.planned_acceleration = {-1, 0, 0}}).value();
+  p.world.set_motion_limits(a, {.planned_acceleration = {-1, 0, 0}}).value();
   p.steer(a, {-1, 0, 0});
   EXPECT_TRUE(p.run(2.0).empty());
-  p.world.set_promise(a, {.acceleration_limit = 10}).value();
+  p.world.set_motion_limits(a, {.acceleration_limit = 10}).value();
   p.steer(a, {9.9, 0, 0});
   const auto event = p.advance(20.0);
   ASSERT_TRUE(event);
@@ -177,7 +177,7 @@ TEST(Change, BrokenNewPromiseIsTold) {
   Playground p;
   const BodyId a = p.add({.radius = 1, .acceleration_limit = 2}, Vec3{1.9, 0, 0});
   p.run(1.0);
-  p.world.set_promise(a, {}).value();
+  p.world.set_motion_limits(a, {}).value();
   p.add({.radius = 1, .position = {6, 0, 0}});
   EXPECT_EQ(of_kind(p.run(3.0), EventKind::bound_violation).size(), 1u);
 }
@@ -233,7 +233,7 @@ void expect_error(const Result<T>& result, ErrorCode code, const std::string& ca
 void expect_all_refused(World& world, BodyId id, ErrorCode code) {
   expect_error(world.teleport(id, {}), code, "teleport");
   expect_error(world.set_radius(id, 1), code, "set_radius");
-  expect_error(world.set_promise(id, {}), code, "set_promise");
+  expect_error(world.set_motion_limits(id, {}), code, "set_motion_limits");
   expect_error(world.disable(id), code, "disable");
   expect_error(world.enable(id, {}), code, "enable");
   expect_error(world.set_filter(id, {}), code, "set_filter");
@@ -259,11 +259,14 @@ TEST(WrongChange, IsRefusedAndLeavesNoTrace) {
   expect_error(p.world.set_radius(a, nan), ErrorCode::not_finite, "set_radius");
   expect_error(p.world.set_radius(a, 2.5), ErrorCode::overlapping, "set_radius");
   expect_error(p.world.set_radius(b, 2.5), ErrorCode::outside_domain, "set_radius");
-  expect_error(p.world.set_promise(a, {.acceleration_limit = -1}), ErrorCode::out_of_range, "set_promise");
-  expect_error(p.world.set_promise(a, {.planned_acceleration = {nan, 0, 0}}), ErrorCode::not_finite,
-               "set_promise");
-  expect_error(p.world.set_promise(a, {.position_error = 1.5}), ErrorCode::overlapping, "set_promise");
-  expect_error(p.world.set_promise(a, {.velocity_error = nan}), ErrorCode::not_finite, "set_promise");
+  expect_error(p.world.set_motion_limits(a, {.acceleration_limit = -1}), ErrorCode::out_of_range,
+               "set_motion_limits");
+  expect_error(p.world.set_motion_limits(a, {.planned_acceleration = {nan, 0, 0}}), ErrorCode::not_finite,
+               "set_motion_limits");
+  expect_error(p.world.set_motion_limits(a, {.position_error = 1.5}), ErrorCode::overlapping,
+               "set_motion_limits");
+  expect_error(p.world.set_motion_limits(a, {.velocity_error = nan}), ErrorCode::not_finite,
+               "set_motion_limits");
   expect_error(p.world.enable(a, {{5, 5, 5}, {}}), ErrorCode::enabled_body, "enable");
   expect_error(p.world.remove_all(std::vector<BodyId>{a, b, a}), ErrorCode::stale_body,
                "remove_all: bodies[2]");
@@ -272,7 +275,7 @@ TEST(WrongChange, IsRefusedAndLeavesNoTrace) {
   p.world.disable(a).value();
   expect_error(p.world.disable(a), ErrorCode::disabled_body, "disable");
   expect_error(p.world.teleport(a, {{5, 5, 5}, {}}), ErrorCode::disabled_body, "teleport");
-  expect_error(p.world.kick(a, {}), ErrorCode::disabled_body, "kick");
+  expect_error(p.world.set_velocity(a, {}), ErrorCode::disabled_body, "set_velocity");
   expect_error(p.world.enable(a, {{7, 5, 5}, {}}), ErrorCode::overlapping, "enable");
   EXPECT_TRUE(p.run(2.0).empty());
   EXPECT_TRUE(is_clean(p.world));
@@ -305,18 +308,20 @@ TEST(WrongChange, NamesEachNumberThatIsWrong) {
     refused(p.world.enable(off, {v, {}}), code, "position", off, "enable");
     refused(p.world.enable(off, {{5, 5, 5}, v}), code, "velocity", off, "enable");
     refused(p.world.set_radius(a, bad), code, "radius", a, "set_radius");
-    refused(p.world.set_promise(a, {.acceleration_limit = bad}), code, "acceleration_limit", a,
-            "set_promise");
-    refused(p.world.set_promise(a, {.planned_acceleration = v}), code, "planned_acceleration", a,
-            "set_promise");
-    refused(p.world.set_promise(a, {.position_error = bad}), code, "position_error", a, "set_promise");
-    refused(p.world.set_promise(a, {.velocity_error = bad}), code, "velocity_error", a, "set_promise");
+    refused(p.world.set_motion_limits(a, {.acceleration_limit = bad}), code, "acceleration_limit", a,
+            "set_motion_limits");
+    refused(p.world.set_motion_limits(a, {.planned_acceleration = v}), code, "planned_acceleration", a,
+            "set_motion_limits");
+    refused(p.world.set_motion_limits(a, {.position_error = bad}), code, "position_error", a,
+            "set_motion_limits");
+    refused(p.world.set_motion_limits(a, {.velocity_error = bad}), code, "velocity_error", a,
+            "set_motion_limits");
   };
   for (const double bad : {nan, infinity, -infinity}) check(bad, ErrorCode::not_finite);
   check(1e200, ErrorCode::out_of_range);
-  for (const MotionPromise& bad : {MotionPromise{.acceleration_limit = -1},
-                                   MotionPromise{.position_error = -1}, MotionPromise{.velocity_error = -1}})
-    expect_error(p.world.set_promise(a, bad), ErrorCode::out_of_range, "set_promise");
+  for (const MotionLimits& bad : {MotionLimits{.acceleration_limit = -1}, MotionLimits{.position_error = -1},
+                                  MotionLimits{.velocity_error = -1}})
+    expect_error(p.world.set_motion_limits(a, bad), ErrorCode::out_of_range, "set_motion_limits");
   refused(p.world.teleport(a, {{5, 5, 11}, {}}), ErrorCode::outside_domain, "position", a, "teleport");
   refused(p.world.enable(off, {{5, -1, 5}, {}}), ErrorCode::outside_domain, "position", off, "enable");
   EXPECT_FALSE(p.world.body(off).value().enabled);

@@ -63,7 +63,7 @@ class Crowd : public Playground {
     else if (choice < 0.4)
       join();
     else if (choice < 0.8)
-      kick(any(), 3.0 * random.point_in_ball());
+      set_velocity(any(), 3.0 * random.point_in_ball());
     else
       steer(any());
   }
@@ -79,8 +79,8 @@ class Crowd : public Playground {
     const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
     if (world.definition().contacts != ContactMode::impacts || !begins) return;
     const Vec3 change = event.normal * event.approach_speed;
-    kick(event.first, state(event.first).velocity - change);
-    if (event.second != no_body) kick(event.second, state(event.second).velocity + change);
+    set_velocity(event.first, state(event.first).velocity - change);
+    if (event.second != no_body) set_velocity(event.second, state(event.second).velocity + change);
   }
 
   BodyId any() {

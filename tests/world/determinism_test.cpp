@@ -32,8 +32,8 @@ WorldDefinition definition(ContactMode mode) {
 void answer(Playground& p, const Event& event, ContactMode mode) {
   if (mode == ContactMode::begin_and_end || event.approach_speed <= 0) return;
   const Bounce after = bounce(event, 1.0, 1.0, 1.0);
-  p.kick(event.first, after.first_velocity);
-  if (event.second != no_body) p.kick(event.second, after.second_velocity);
+  p.set_velocity(event.first, after.first_velocity);
+  if (event.second != no_body) p.set_velocity(event.second, after.second_velocity);
 }
 
 class Determinism : public testing::TestWithParam<ContactMode> {};

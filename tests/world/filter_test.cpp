@@ -44,7 +44,7 @@ TEST(Filter, InMidContactEndsAndBeginsAgain) {
 
 TEST(Filter, KeepsBodiesFromTouchingAndCostsNoProbes) {
   Pair p({.group = -1}, 10.0);
-  p.kick(p.a, {3, 0, 0});
+  p.set_velocity(p.a, {3, 0, 0});
   EXPECT_TRUE(p.run(10.0).empty());
   EXPECT_TRUE(is_clean(p.world));
   EXPECT_EQ(p.world.counters().certificates, 0u);

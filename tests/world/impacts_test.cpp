@@ -15,8 +15,8 @@ void bounce_off(Playground& p, const Event& event, double restitution = 1.0, dou
                 double second_mass = 1.0) {
   if (event.kind != EventKind::contact_begin && event.kind != EventKind::wall_begin) return;
   const Bounce after = bounce(event, first_mass, second_mass, restitution);
-  p.kick(event.first, after.first_velocity);
-  if (event.second != no_body) p.kick(event.second, after.second_velocity);
+  p.set_velocity(event.first, after.first_velocity);
+  if (event.second != no_body) p.set_velocity(event.second, after.second_velocity);
 }
 
 TEST(Impacts, HeadOnBouncesOnce) {
@@ -60,10 +60,10 @@ TEST(Impacts, BodyThatCameOutOfAnOverlapIsSeenWhenItComesBack) {
     const BodyId ball = p.add({.radius = 1, .acceleration_limit = 2, .position = {0.5, 0, 0}}, Vec3{});
     // Many kicks teach the world that its box may be large, so that no new box comes in between.
     for (int k = 0; k < 20; ++k) {
-      p.kick(ball, {});
+      p.set_velocity(ball, {});
       for (const Event& event : p.run(0.0)) EXPECT_EQ(event.kind, EventKind::zeno_guard) << event;
     }
-    p.kick(ball, {2, 0, 0});
+    p.set_velocity(ball, {2, 0, 0});
     p.steer(ball, {-2, 0, 0});
     const auto events = p.run(1.9);
     ASSERT_EQ(events.size(), 1u) << events;
@@ -131,7 +131,7 @@ TEST(Impacts, SecondEventOfAnInstantKnowsOfTheKickAtTheFirst) {
   std::size_t told = 0;
   p.run(20.0, [&](const Event& event) {
     ++told;
-    p.kick(a, {-4, 0, 0});
+    p.set_velocity(a, {-4, 0, 0});
     EXPECT_GT(event.approach_speed, 0.0);
   });
   EXPECT_EQ(told, 1u);
@@ -175,7 +175,7 @@ TEST_P(Resting, BallDoesNotStopTime) {
           if (event.repeated) ++repeated;
           EXPECT_GE(height(), -eps) << event;
           const Bounce after = bounce(event, 1.0, 1e9, restitution);
-          p.kick(ball, event.first == ball ? after.first_velocity : after.second_velocity);
+          p.set_velocity(ball, event.first == ball ? after.first_velocity : after.second_velocity);
         },
         20000);
     ASSERT_GE(height(), -eps) << p.world.time();
@@ -221,7 +221,7 @@ TEST(Zeno, CallerWhoIgnoresRepeatedIsToldByTheGuard) {
           [&](const Event& event) {
             ++events;
             if (event.kind == EventKind::zeno_guard && guards++ == 0) at_guard = event.gap;
-            p.kick(ball, {});  // dead stop, whatever it is
+            p.set_velocity(ball, {});  // dead stop, whatever it is
           },
           50000);
     EXPECT_GT(guards, 0u);

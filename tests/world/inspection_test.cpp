@@ -102,7 +102,7 @@ TEST(Certificates, OfBodiesThatAreKickedAreGone) {
   BusyCrowd crowd;
   const auto kicked = [](BodyId id) { return id.index % 3 == 0; };
   for (const BodyId id : crowd.world.bodies())
-    if (kicked(id)) crowd.kick(id, {1, 1, 1});
+    if (kicked(id)) crowd.set_velocity(id, {1, 1, 1});
   ASSERT_FALSE(crowd.world.certificates().empty());
   for (const Certificate& certificate : crowd.world.certificates())
     EXPECT_FALSE(kicked(certificate.first) || kicked(certificate.second));
@@ -134,9 +134,9 @@ TEST(Timings, CountAProbeThatThrows) {
   Playground p;
   p.add({});
   p.world.set_timing(true).value();
-  p.kick({0, 0}, {1, 0, 0});
+  p.set_velocity({0, 0}, {1, 0, 0});
   p.run(1.0);
-  p.kick({0, 0}, {2, 0, 0});
+  p.set_velocity({0, 0}, {2, 0, 0});
   p.distort = [](BodyId, double, State&) {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
     throw std::runtime_error("no answer");
@@ -170,9 +170,9 @@ TEST(WrongCalls, AProbeMayLookInsideButNotSwitchTimingOn) {
     EXPECT_LE(p.world.cells().size(), 8u);
     EXPECT_TRUE(p.world.certificates().empty());
   };
-  p.kick({0, 0}, {1, 0, 0});
+  p.set_velocity({0, 0}, {1, 0, 0});
   p.advance(1.0);
-  p.kick({0, 0}, {2, 0, 0});
+  p.set_velocity({0, 0}, {2, 0, 0});
   p.advance(2.0);
   EXPECT_GT(calls, 0);
   EXPECT_EQ(p.world.timings().advances, 0u);

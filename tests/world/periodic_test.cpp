@@ -353,8 +353,8 @@ TEST(PeriodicBox, HoldsThroughEveryKindOfChange) {
         if (event.kind != EventKind::contact_end) p.check_event(event);
         if (event.kind == EventKind::contact_begin && mode == ContactMode::impacts) {
           const Vec3 change = event.normal * event.approach_speed;
-          p.kick(event.first, p.state(event.first).velocity - change);
-          p.kick(event.second, p.state(event.second).velocity + change);
+          p.set_velocity(event.first, p.state(event.first).velocity - change);
+          p.set_velocity(event.second, p.state(event.second).velocity + change);
         } else if (event.kind == EventKind::contact_begin) {
           EXPECT_TRUE(touching.insert({event.first, event.second}).second) << event;
         } else if (event.kind == EventKind::contact_end) {
@@ -378,7 +378,7 @@ TEST(PeriodicBox, HoldsThroughEveryKindOfChange) {
       const BodyId id = p.world.bodies()[p.random.bits() % p.world.size()];
       const double choice = p.random.uniform();
       if (choice < 0.3) {
-        p.kick(id, 4.0 * p.random.point_in_ball());
+        p.set_velocity(id, 4.0 * p.random.point_in_ball());
       } else if (choice < 0.5) {
         const Vec3 place = p.any_point() + Vec3{12, -6, 0};
         p.world.teleport(id, {place, p.state(id).velocity}).value();
@@ -386,7 +386,7 @@ TEST(PeriodicBox, HoldsThroughEveryKindOfChange) {
       } else if (choice < 0.7) {
         p.world.set_radius(id, 0.6 * p.random.uniform()).value();
       } else if (choice < 0.85) {
-        p.world.set_promise(id, {.acceleration_limit = p.random.uniform()}).value();
+        p.world.set_motion_limits(id, {.acceleration_limit = p.random.uniform()}).value();
       } else {
         p.world.remove(id).value();
         p.add({.radius = 0.3,
@@ -466,8 +466,8 @@ TEST(PeriodicBox, AGasConservesMomentumAndEnergy) {
       ASSERT_EQ(event.kind, EventKind::contact_begin) << event;
       ++bounces;
       const Vec3 change = event.normal * event.approach_speed;
-      p.kick(event.first, p.state(event.first).velocity - change);
-      p.kick(event.second, p.state(event.second).velocity + change);
+      p.set_velocity(event.first, p.state(event.first).velocity - change);
+      p.set_velocity(event.second, p.state(event.second).velocity + change);
     });
     for (const BodyId a : p.ids)
       for (const BodyId b : p.ids)
@@ -517,8 +517,8 @@ TEST(WrongPeriodic, IsRefused) {
   const BodyId id = world.add({.radius = 1.0, .position = {-3, 55, 5}}).value();
   const auto bytes = world.save().value();
   expect_error(world.set_radius(id, 1.9), ErrorCode::out_of_range, "radius", "set_radius", id);
-  expect_error(world.set_promise(id, {.position_error = 0.3}), ErrorCode::out_of_range, "position_error",
-               "set_promise", id);
+  expect_error(world.set_motion_limits(id, {.position_error = 0.3}), ErrorCode::out_of_range,
+               "position_error", "set_motion_limits", id);
   expect_error(world.sphere_cast({1, 1, 1}, 5.1, {1, 0, 0}, 10), ErrorCode::out_of_range, "radius",
                "sphere_cast");
   expect_error(world.ray_cast({1, 1, 1}, {1, 0, 0}, 641), ErrorCode::out_of_range, "length", "ray_cast");

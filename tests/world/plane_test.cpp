@@ -90,9 +90,10 @@ TEST(Plane, BouncingDiscsStayApart) {
   for (int step = 1; step <= 10; ++step) {
     p.run(0.5 * step, [&](const Event& event) {
       const Vec3 change = event.normal * event.approach_speed;
-      if (event.second == no_body) return p.kick(event.first, p.state(event.first).velocity - 2.0 * change);
-      p.kick(event.first, p.state(event.first).velocity - change);
-      p.kick(event.second, p.state(event.second).velocity + change);
+      if (event.second == no_body)
+        return p.set_velocity(event.first, p.state(event.first).velocity - 2.0 * change);
+      p.set_velocity(event.first, p.state(event.first).velocity - change);
+      p.set_velocity(event.second, p.state(event.second).velocity + change);
     });
     ASSERT_TRUE(is_clean(p.world));
     for (const BodyId a : ids)
@@ -172,11 +173,11 @@ TEST(WrongPlane, IsRefused) {
   const BodyId id = p.add({.radius = 1, .acceleration_limit = 1});
   p.run(1.0);
   const auto bytes = p.world.save().value();
-  expect_error(p.world.kick(id, {0, 0, 1}), ErrorCode::out_of_range, "velocity", "kick", id);
+  expect_error(p.world.set_velocity(id, {0, 0, 1}), ErrorCode::out_of_range, "velocity", "set_velocity", id);
   expect_error(p.world.teleport(id, {{0, 0, 1}, {}}), ErrorCode::out_of_range, "position", "teleport", id);
   expect_error(p.world.teleport(id, {{}, {0, 0, 1}}), ErrorCode::out_of_range, "velocity", "teleport", id);
-  expect_error(p.world.set_promise(id, {.planned_acceleration = {0, 0, 1}}), ErrorCode::out_of_range,
-               "planned_acceleration", "set_promise", id);
+  expect_error(p.world.set_motion_limits(id, {.planned_acceleration = {0, 0, 1}}), ErrorCode::out_of_range,
+               "planned_acceleration", "set_motion_limits", id);
   expect_error(p.world.overlapping({0, 0, 1}, 1.0), ErrorCode::out_of_range, "centre", "overlapping");
   expect_error(p.world.nearest({0, 0, 1}, 1), ErrorCode::out_of_range, "point", "nearest");
   expect_error(p.world.ray_cast({0, 0, 1}, {1, 0, 0}, 1), ErrorCode::out_of_range, "origin", "ray_cast");

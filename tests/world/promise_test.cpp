@@ -117,7 +117,7 @@ TEST(BrokenPromise, JumpOfVelocityIsReportedWithItsSize) {
   Breach breach;
   Playground& p = breach.p;
   const BodyView before = p.world.body(breach.culprit).value();
-  p.set_velocity(breach.culprit, {1, 20, 0});
+  p.set_velocity_unseen(breach.culprit, {1, 20, 0});
   const auto event = p.advance(50.0);
   ASSERT_TRUE(event);
   EXPECT_EQ(event->kind, EventKind::bound_violation);
@@ -125,7 +125,7 @@ TEST(BrokenPromise, JumpOfVelocityIsReportedWithItsSize) {
   EXPECT_NEAR(event->velocity_excess, 20.0 - s, 1e-6);
   EXPECT_GE(event->position_excess, 0.0);
   // The world goes on from the new report: they meet at (500 - 2) / 20 from t = 5, beside each other by now.
-  p.kick(breach.culprit, {0, 0, 0});
+  p.set_velocity(breach.culprit, {0, 0, 0});
   EXPECT_TRUE(p.run(100.0).empty());
 }
 
@@ -152,16 +152,16 @@ TEST(BrokenPromise, AccelerationBeyondTheLimitIsReportedAndTheContactFound) {
 TEST(BrokenPromise, TeleportIntoAndOutOfContactBeginsAndEndsIt) {
   Breach breach;
   Playground& p = breach.p;
-  p.set_velocity(breach.culprit, {1, 0, 0});
+  p.set_velocity_unseen(breach.culprit, {1, 0, 0});
   p.set_position(breach.culprit, {0, 499, 0});
   auto events = p.run(p.world.time() + 0.0);
-  p.kick(breach.culprit, {0, 0, 0});  // makes the world ask at once
+  p.set_velocity(breach.culprit, {0, 0, 0});  // makes the world ask at once
   events = p.run(p.world.time() + 1.0);
   ASSERT_EQ(events.size(), 2u) << events;
   EXPECT_EQ(events[0].kind, EventKind::bound_violation);
   EXPECT_EQ(events[1].kind, EventKind::contact_begin);
   p.set_position(breach.culprit, {0, -100, 0});
-  p.kick(breach.culprit, {0, 0, 0});
+  p.set_velocity(breach.culprit, {0, 0, 0});
   events = p.run(p.world.time() + 1.0);
   ASSERT_EQ(events.size(), 2u) << events;
   EXPECT_EQ(events[0].kind, EventKind::bound_violation);
@@ -177,7 +177,7 @@ TEST(BrokenPromise, SeveralAtOneInstantAreAllTold) {
   p.run(1.0);
   for (const BodyId id : ids) {
     p.set_position(id, p.state(id).position + Vec3{0, 0, 1000});
-    p.kick(id, {});
+    p.set_velocity(id, {});
   }
   const auto events = p.run(2.0);
   ASSERT_EQ(events.size(), 6u) << events;
@@ -210,7 +210,7 @@ TEST(BrokenPromise, FoundOutAtAMeetingSettlesThePairInItsNewImage) {
         if (id != culprit || time == 0.0 || broken) return;
         broken = true;
         p.set_position(culprit, state.position + Vec3{4.9, 0, 0});
-        p.set_velocity(culprit, {speed, 0, 0});
+        p.set_velocity_unseen(culprit, {speed, 0, 0});
         state = p.state(culprit);
       };
       const auto violation = p.advance(10.0);

@@ -85,7 +85,7 @@ class RandomSurroundings : public testing::TestWithParam<Kind> {
       }
       case 3: {
         const Vec3 back = (Vec3{4, 4, 4} - p.state(ball).position) * 0.5;
-        return p.kick(ball, back + random.point_in_ball());
+        return p.set_velocity(ball, back + random.point_in_ball());
       }
       default:
         return steer(ball);

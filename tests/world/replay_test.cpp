@@ -110,7 +110,7 @@ TEST(RecordingOfAWorld, GoesWithAWorldThatIsMovedAndNotWithAClone) {
   World moved = std::move(p.world);
   EXPECT_TRUE(moved.recording());
   p.world = std::move(moved);
-  p.kick({0, 0}, {1, 0, 0});
+  p.set_velocity({0, 0}, {1, 0, 0});
   Replay replay = Replay::open(p.world.stop_recording().value()).value();
   EXPECT_FALSE(p.world.recording());
   EXPECT_FALSE(replay.advance().value());
@@ -127,7 +127,7 @@ Bytes meeting(bool with_kick = false) {
   p.add({.acceleration_limit = 1, .position = {-3, 0, 0}, .velocity = {1, 0, 0}});
   p.add({.acceleration_limit = 1, .position = {3, 0, 0}, .velocity = {-1, 0, 0}});
   EXPECT_TRUE(p.advance(20.0));
-  if (with_kick) p.kick({1, 0}, {0, 1, 0});
+  if (with_kick) p.set_velocity({1, 0}, {0, 1, 0});
   while (p.advance(20.0)) {
   }
   return p.world.stop_recording().value();
@@ -211,7 +211,7 @@ TEST(Divergence, IsNamedWithStepAndTime) {
 TEST(Divergence, ShowsInAChangeThatCannotBeMade) {
   const Bytes bytes = altered(meeting(true), [](auto& steps) {
     for (Step& step : steps)
-      if (auto* kick = std::get_if<step::Kick>(&step)) kick->subject.index = 9;
+      if (auto* kick = std::get_if<step::SetVelocity>(&step)) kick->subject.index = 9;
   });
   const std::string message = divergence(bytes);
   EXPECT_NE(
@@ -341,9 +341,9 @@ TEST(WrongCalls, OfRecording) {
     EXPECT_EQ(started.error().message, "start_recording: a probe may not call the world that asked it");
     EXPECT_EQ(stopped.error().message, "stop_recording: a probe may not call the world that asked it");
   };
-  p.kick({0, 0}, {1, 0, 0});
+  p.set_velocity({0, 0}, {1, 0, 0});
   p.advance(1.0);
-  p.kick({0, 0}, {2, 0, 0});
+  p.set_velocity({0, 0}, {2, 0, 0});
   p.advance(2.0);
   EXPECT_GT(calls, 0);
   EXPECT_TRUE(p.world.stop_recording());

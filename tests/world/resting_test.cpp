@@ -31,8 +31,8 @@ struct Heap : Playground {
     const bool pair = event.second != no_body;
     const Bounce after =
         settle(event, mass(event.first), pair ? mass(event.second) : 1.0, restitution, resting_speed);
-    kick(event.first, after.first_velocity);
-    if (pair) kick(event.second, after.second_velocity);
+    set_velocity(event.first, after.first_velocity);
+    if (pair) set_velocity(event.second, after.second_velocity);
   }
 
   void settle_until(double time, std::size_t at_most) {
@@ -164,7 +164,7 @@ TEST(Resting, HeldByTheCallerIsOneLastingContact) {
     if (!wall) p.add({.radius = 1.5, .position = {0, 0, 2}});
     const auto events = p.run(20.0, [&](const Event&) {
       p.steer(ball, {});
-      p.kick(ball, {});
+      p.set_velocity(ball, {});
     });
     ASSERT_EQ(events.size(), 1u) << events;
     EXPECT_NEAR(events[0].time, std::sqrt(0.1 * (wall ? 1.0 : 2.0)), 1e-5);
@@ -190,7 +190,7 @@ TEST(Jammed, BallInACorridorComesThrough) {
           5.0,
           [&](const Event& event) {
             if (event.kind == EventKind::wall_begin)
-              p.kick(p.ball, bounce(event, 1, 1, restitution).first_velocity);
+              p.set_velocity(p.ball, bounce(event, 1, 1, restitution).first_velocity);
           },
           1000);
       ASSERT_EQ(p.world.time(), 5.0) << width << " restitution " << restitution;
@@ -211,7 +211,7 @@ TEST(Jammed, AnswersThatGoOnAreStoppedByTheZenoGuard) {
     if (++events == 3000) break;
     if (event->kind != EventKind::wall_begin) continue;
     const Vec3 velocity = p.state(p.ball).velocity;
-    p.kick(p.ball, velocity - event->normal * (2.0 * dot(velocity, event->normal)));
+    p.set_velocity(p.ball, velocity - event->normal * (2.0 * dot(velocity, event->normal)));
   }
   EXPECT_GT(p.world.time(), 0.0);
   EXPECT_GT(p.world.counters().zeno_steps, 3u);

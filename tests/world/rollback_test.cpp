@@ -33,7 +33,7 @@ class Game {
 
   /// What a player does to one of the bodies at the start of the frame.
   void push(std::uint32_t body) {
-    kick({body, 0}, courses_[body].at(world_.time()).velocity + Vec3{0, 0, 5});
+    set_velocity({body, 0}, courses_[body].at(world_.time()).velocity + Vec3{0, 0, 5});
   }
 
   void play_frame() {
@@ -48,8 +48,8 @@ class Game {
       hash_.add(*event);
       if (event->approach_speed <= 0.0) continue;
       const Bounce after = bounce(*event, 1.0, 1.0, 1.0);
-      kick(event->first, after.first_velocity);
-      if (event->second != no_body) kick(event->second, after.second_velocity);
+      set_velocity(event->first, after.first_velocity);
+      if (event->second != no_body) set_velocity(event->second, after.second_velocity);
     }
   }
 
@@ -64,10 +64,10 @@ class Game {
   Game(const Game& from, World world)
       : world_(std::move(world)), courses_(from.courses_), hash_(from.hash_), frames_(from.frames_) {}
 
-  void kick(BodyId body, const Vec3& velocity) {
+  void set_velocity(BodyId body, const Vec3& velocity) {
     Course& course = courses_[body.index];
     course = {world_.time(), {course.at(world_.time()).position, velocity}, course.acceleration};
-    world_.kick(body, velocity).value();
+    world_.set_velocity(body, velocity).value();
   }
 
   World world_ =

@@ -61,8 +61,9 @@ class Billiards {
       hash.add(*event);
       if (event->approach_speed <= 0.0) continue;
       const Bounce after = bounce(*event, 1.0, 1.0, 0.9);
-      kick(event->first, event->first_state.position, after.first_velocity);
-      if (event->second != no_body) kick(event->second, event->second_state.position, after.second_velocity);
+      set_velocity(event->first, event->first_state.position, after.first_velocity);
+      if (event->second != no_body)
+        set_velocity(event->second, event->second_state.position, after.second_velocity);
     }
   }
 
@@ -70,10 +71,10 @@ class Billiards {
   EventHash hash;
 
  private:
-  void kick(BodyId id, const Vec3& position, const Vec3& velocity) {
+  void set_velocity(BodyId id, const Vec3& position, const Vec3& velocity) {
     courses_[id.index].since = world.time();
     courses_[id.index].state = {position, velocity};
-    world.kick(id, velocity).value();
+    world.set_velocity(id, velocity).value();
   }
 
   std::vector<Course> courses_;

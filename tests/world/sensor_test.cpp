@@ -232,7 +232,7 @@ TEST(Sensor, RefusesDistancesThatAreNone) {
     expect_error(world.set_solid(ids[0], false), busy, "probe", "set_solid");
   };
   world.advance(1.0, calls_back).value();
-  world.kick({0, 0}, {}).value();
+  world.set_velocity({0, 0}, {}).value();
   world.advance(2.0, calls_back).value();
 }
 
@@ -293,7 +293,7 @@ class SensingCrowd : public testing::TestWithParam<std::uint64_t> {
         std::erase(alive, id);
         return add();
       default:
-        if (view.enabled) p.kick(id, 4.0 * random.point_in_ball());
+        if (view.enabled) p.set_velocity(id, 4.0 * random.point_in_ball());
     }
   }
 
@@ -301,7 +301,7 @@ class SensingCrowd : public testing::TestWithParam<std::uint64_t> {
     for (const BodyId id : alive) {
       const Vec3 out = p.state(id).position - Vec3{0.5, 0.5, 0.5} * size;
       if (p.world.body(id).value().enabled && norm(out) > size && dot(out, p.state(id).velocity) > 0.0)
-        p.kick(id, out * (-0.3));
+        p.set_velocity(id, out * (-0.3));
     }
   }
 

@@ -72,8 +72,9 @@ class Crowd {
   void bounce_off(const Event& event) {
     if (event.approach_speed <= 0.0 || !playground_.world.contains(event.first)) return;
     const Bounce after = bounce(event, 1.0, 1.0, 0.9);
-    playground_.kick(event.first, after.first_velocity);
-    if (playground_.world.contains(event.second)) playground_.kick(event.second, after.second_velocity);
+    playground_.set_velocity(event.first, after.first_velocity);
+    if (playground_.world.contains(event.second))
+      playground_.set_velocity(event.second, after.second_velocity);
   }
 
   Random random_{4711};
@@ -179,7 +180,7 @@ TEST(SnapshotOfAWorld, KeepsAKickThatNoReportHasShownYet) {
   Playground p;
   const BodyId body = p.add({.velocity = {1, 0, 0}});
   ASSERT_FALSE(p.advance(1.0));
-  p.kick(body, {0, 5, 0});
+  p.set_velocity(body, {0, 5, 0});
   p.world = World::restore(p.world.save().value()).value();
   EXPECT_FALSE(p.advance(2.0)) << "the kick is taken for a broken promise";
 }
@@ -247,7 +248,7 @@ Bytes rich_snapshot(ContactMode mode, const Axes& periodic = {}) {
   p.world.remove(gone).value();
   p.add({.position = {5, 5, 2}});
   p.world.remove(p.add({.position = {5, 8, 2}})).value();
-  if (event) p.kick(event->first, {0, 1, 0});
+  if (event) p.set_velocity(event->first, {0, 1, 0});
   return p.world.save().value();
 }
 
@@ -364,9 +365,9 @@ TEST(WrongCalls, AProbeMayNeitherSaveNorClone) {
     EXPECT_EQ(saved.error().message, "save: a probe may not call the world that asked it");
     EXPECT_EQ(cloned.error().message, "clone: a probe may not call the world that asked it");
   };
-  p.kick({0, 0}, {1, 0, 0});
+  p.set_velocity({0, 0}, {1, 0, 0});
   p.advance(1.0);
-  p.kick({0, 0}, {2, 0, 0});
+  p.set_velocity({0, 0}, {2, 0, 0});
   p.advance(2.0);
   EXPECT_GT(calls, 0);
 }

@@ -60,8 +60,8 @@ class Surroundings : public Playground {
     const bool first_moves = !fixed.contains(event.first);
     const bool second_moves = event.second != no_body && !fixed.contains(event.second);
     const double part = first_moves && second_moves ? 1.0 : 2.0;
-    if (first_moves) kick(event.first, state(event.first).velocity - part * change);
-    if (second_moves) kick(event.second, state(event.second).velocity + part * change);
+    if (first_moves) set_velocity(event.first, state(event.first).velocity - part * change);
+    if (second_moves) set_velocity(event.second, state(event.second).velocity + part * change);
   }
 
   std::map<BodyId, Shape> fixed;

@@ -279,7 +279,7 @@ TEST(Surroundings, ABallRestsAndRollsOnAMesh) {
   p.run(2.0, [&](const Event& event) {
     if (event.kind != EventKind::contact_begin) return;
     const Vec3 v = p.state(ball).velocity;
-    p.kick(ball, v + event.normal * ((event.repeated ? 2.0 : 1.5) * event.approach_speed));
+    p.set_velocity(ball, v + event.normal * ((event.repeated ? 2.0 : 1.5) * event.approach_speed));
     lowest = std::min(lowest, p.state(ball).position.z - 0.5);
   });
   EXPECT_GE(lowest, -eps);
@@ -530,10 +530,10 @@ TEST(Surroundings, WrongCalls) {
   const std::vector<FixedDefinition> two{{.shape = ground}, {.shape = Triangle{}}};
   expect_error(w.add_fixed_all(two), range, "shape", "add_fixed_all: bodies[1]: ");
   EXPECT_EQ(w.size(), 1u);
-  expect_error(w.kick(box, {}), ErrorCode::fixed_body, "body", "kick: ", box);
+  expect_error(w.set_velocity(box, {}), ErrorCode::fixed_body, "body", "kick: ", box);
   expect_error(w.teleport(box, {}), ErrorCode::fixed_body, "body", "teleport: ", box);
   expect_error(w.set_radius(box, 1), ErrorCode::fixed_body, "body", "set_radius: ", box);
-  expect_error(w.set_promise(box, {}), ErrorCode::fixed_body, "body", "set_promise: ", box);
+  expect_error(w.set_motion_limits(box, {}), ErrorCode::fixed_body, "body", "set_motion_limits: ", box);
   expect_error(w.shape_of({7, 0}), ErrorCode::unknown_body, "body", "shape_of: ", {7, 0});
   expect_error(w.add({.radius = 1, .position = {1.5, 0, 0}}), ErrorCode::overlapping, "position",
                "add: ", box);

@@ -31,7 +31,7 @@ TEST(AnswersAfterALooserPromise, AreNotLaterThanTheContact) {
   const BodyId post = p.world.add_fixed({.shape = Ball{{95, 50, 50}, 1}}).value();
   p.run(10.0);
   p.steer(runner, {5, 0, 0});
-  p.world.set_promise(runner, {.acceleration_limit = 5}).value();
+  p.world.set_motion_limits(runner, {.acceleration_limit = 5}).value();
   const double of_world = p.world.safe_until()->time;
   const double of_body = p.world.safe_until(runner)->time;
   const double of_pair = p.world.safe_until(runner, post)->time;

@@ -34,7 +34,7 @@ TEST(UnusualBodies, AgentsWithOnlyASpeedLimitNeverMissEachOther) {
   for (int k = 0; k < 12; ++k) {
     agents.push_back(
         p.add({.radius = 0.4, .velocity_error = top_speed, .position = {1.0 * (k % 4), 1.0 * (k / 4), 0}}));
-    p.set_velocity(agents.back(), 0.99 * top_speed * random.unit_vector());
+    p.set_velocity_unseen(agents.back(), 0.99 * top_speed * random.unit_vector());
   }
   p.distort = [](BodyId, double, State& state) { state.velocity = {}; };
   std::set<std::pair<BodyId, BodyId>> touching;
@@ -53,7 +53,7 @@ TEST(UnusualBodies, AgentsWithOnlyASpeedLimitNeverMissEachOther) {
           EXPECT_GE(gap, -eps);
         }
       }
-    for (const BodyId id : agents) p.set_velocity(id, 0.99 * top_speed * random.unit_vector());
+    for (const BodyId id : agents) p.set_velocity_unseen(id, 0.99 * top_speed * random.unit_vector());
   }
   EXPECT_GT(p.world.counters().count(EventKind::contact_begin), 0u);
 }
@@ -187,7 +187,7 @@ TEST(UnusualBodies, PointAtTheOriginIsFoundAfterAKick) {
   const BodyId point = p.add({.radius = 0});
   p.add({.radius = 1, .position = {10, 0, 0}});
   p.run(1.0);
-  p.kick(point, {1, 0, 0});
+  p.set_velocity(point, {1, 0, 0});
   const auto events = p.run(20.0);
   ASSERT_EQ(events.size(), 2u) << events;
   EXPECT_NEAR(events[0].time, 10.0, 1e-5);

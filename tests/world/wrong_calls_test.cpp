@@ -134,7 +134,7 @@ std::uint64_t hash_of_scene(const WorldDefinition& definition,
     p.run(0.2 * stop, [&](const Event& event) {
       if (--budget > 0) disturb(p);
       if (event.kind != EventKind::contact_begin) return;
-      p.kick(event.first, p.state(event.first).velocity - event.normal);
+      p.set_velocity(event.first, p.state(event.first).velocity - event.normal);
       if (budget > 0) disturb(p);
     });
     disturb(p);
@@ -159,8 +159,8 @@ TEST(WrongCalls, LeaveNoTrace) {
     if (!bodies.empty()) {
       const Vec3 here = p.state(bodies.front()).position;
       EXPECT_FALSE(world.add({.radius = 1e-3, .position = here}));
-      EXPECT_FALSE(world.kick(bodies.front(), {0, nan, 0}));
-      EXPECT_FALSE(world.kick(bodies.front(), {0, 1e300, 0}));
+      EXPECT_FALSE(world.set_velocity(bodies.front(), {0, nan, 0}));
+      EXPECT_FALSE(world.set_velocity(bodies.front(), {0, 1e300, 0}));
     }
     const std::vector<BodyDefinition> last_is_bad{{.radius = 1e-3, .position = {0.1, 0.1, 9.9}},
                                                   {.radius = 1e-3, .position = {0.2, 0.1, 9.9}},
@@ -170,7 +170,7 @@ TEST(WrongCalls, LeaveNoTrace) {
                                                          {.radius = 1e-3, .position = {0.2, 0.1, 9.9}},
                                                          {.radius = 1e-3, .position = {0.2, 0.1, 9.9}}};
     EXPECT_FALSE(world.add_all(overlap_each_other));
-    EXPECT_FALSE(world.kick({12345, 0}, {}));
+    EXPECT_FALSE(world.set_velocity({12345, 0}, {}));
     EXPECT_FALSE(world.remove(no_body));
     EXPECT_FALSE(world.body({3, 77}));
     EXPECT_FALSE(world.advance(time - 1e-9, p.probe()));
@@ -229,7 +229,7 @@ TEST(WrongIds, UnknownAndStaleAreToldApart) {
   const BodyId too_new{id.index, id.generation + 1};
   for (const BodyId wrong : {never, too_new, no_body}) {
     expect_error(world.remove(wrong), ErrorCode::unknown_body, "body", "remove", wrong);
-    expect_error(world.kick(wrong, {}), ErrorCode::unknown_body, "body", "kick", wrong);
+    expect_error(world.set_velocity(wrong, {}), ErrorCode::unknown_body, "body", "set_velocity", wrong);
     expect_error(world.body(wrong), ErrorCode::unknown_body, "body", "body", wrong);
     EXPECT_FALSE(world.contains(wrong));
   }
@@ -238,7 +238,7 @@ TEST(WrongIds, UnknownAndStaleAreToldApart) {
   expect_error(world.remove(too_new), ErrorCode::unknown_body, "body", "remove", too_new);
   const auto stale = [&] {
     expect_error(world.remove(id), ErrorCode::stale_body, "body", "remove", id);
-    expect_error(world.kick(id, {1, 0, 0}), ErrorCode::stale_body, "body", "kick", id);
+    expect_error(world.set_velocity(id, {1, 0, 0}), ErrorCode::stale_body, "body", "set_velocity", id);
     expect_error(world.body(id), ErrorCode::stale_body, "body", "body", id);
     EXPECT_FALSE(world.contains(id));
   };

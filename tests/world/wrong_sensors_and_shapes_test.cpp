@@ -23,10 +23,10 @@ TEST(WrongIdOfAFixedBody, IsStaleEverywhere) {
   stale(world.sensed(gone), "sensed");
   stale(world.set_solid(gone, false), "set_solid");
   stale(world.set_sensor_class(gone, 1), "set_sensor_class");
-  stale(world.kick(gone, {}), "kick");
+  stale(world.set_velocity(gone, {}), "set_velocity");
   stale(world.teleport(gone, {}), "teleport");
   stale(world.set_radius(gone, 1), "set_radius");
-  stale(world.set_promise(gone, {}), "set_promise");
+  stale(world.set_motion_limits(gone, {}), "set_motion_limits");
   stale(world.disable(gone), "disable");
   stale(world.enable(gone, {}), "enable");
 }
@@ -82,7 +82,8 @@ TEST(WrongBounce, IsRefusedByTheKickThatFollows) {
   for (const Bounce& wrong :
        {bounce(contact, 0, 0, 1), bounce(contact, nan, 1, 1), bounce(contact, -1, 1, 1),
         bounce(contact, 1, 1, nan), settle(contact, 0, 0, 1, 1), settle(contact, 1, 1, nan, 1)})
-    expect_error(world.kick(id, wrong.first_velocity), ErrorCode::not_finite, "velocity", "kick", id);
+    expect_error(world.set_velocity(id, wrong.first_velocity), ErrorCode::not_finite, "velocity",
+                 "set_velocity", id);
   EXPECT_TRUE(std::isnan(least_resting_speed(-1, 1)));
 }
 

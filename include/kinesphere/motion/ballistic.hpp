@@ -24,7 +24,7 @@ class Ballistic final : public PiecewiseAcceleration {
   /// Errors: not_finite, naming the field and the body.
   static Result<Ballistic> create(const BallisticDefinition& definition);
 
-  BodyDefinition promise(std::uint32_t body, double t) const override;
+  BodyDefinition definition(std::uint32_t body, double t) const override;
   std::unique_ptr<Motion> clone() const override;
 
  private:

@@ -4,7 +4,7 @@
 //                                   .velocities = velocities,
 //                                   .acceleration_limits = limits,
 //                                   .interval = 1.0 / 60}).value();
-//   // add bodies with frames.promise(); then, each frame:
+//   // add bodies with frames.definition(); then, each frame:
 //   frames.push(positions).value();
 //   while (auto event = world.advance(frames.latest_time(), frames.probe()).value()) { ... }
 //   positions = frames.latest();  // where kicks at events have left the bodies
@@ -49,13 +49,13 @@ struct FramesDefinition {
 ///
 /// A contact comes at its exact time, between those two frames. Whoever wants it answered there kicks the
 /// body in the frames and in the world:
-///   frames.kick(id.index, event->time, velocity);
-///   world.kick(id, velocity).value();
+///   frames.set_velocity(id.index, event->time, velocity);
+///   world.set_velocity(id, velocity).value();
 /// From then to the last frame the body goes on with that velocity, and the game takes its place from
 /// latest() and its velocity from there. A velocity jump that the game makes by itself, in a frame that it
 /// pushes, is not covered by the promise either. The world must be told: with its time at latest_time(), push
 /// the frame, then call
-///   world.kick(id, frames.state(id.index, world.time()).velocity).value();
+///   world.set_velocity(id, frames.state(id.index, world.time()).velocity).value();
 /// before going on (and again a frame later if the jump fell between two frames, as then two chords differ
 /// from the one before).
 class Frames final : public Motion {
@@ -77,12 +77,12 @@ class Frames final : public Motion {
   const std::vector<Vec3>& latest() const { return latest_; }
 
   std::size_t size() const override { return latest_.size(); }
-  BodyDefinition promise(std::uint32_t body, double t) const override;
+  BodyDefinition definition(std::uint32_t body, double t) const override;
   State state(std::uint32_t body, double t) const override;
   /// One segment.
   Trajectory trajectory(std::uint32_t body, double begin, double end) const override;
   /// Needs previous_time() <= t <= latest_time().
-  bool kick(std::uint32_t body, double t, const Vec3& velocity) override;
+  bool set_velocity(std::uint32_t body, double t, const Vec3& velocity) override;
   std::unique_ptr<Motion> clone() const override;
 
  private:

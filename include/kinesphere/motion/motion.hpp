@@ -21,7 +21,7 @@ class Motion {
 
   virtual std::size_t size() const = 0;
   /// The body's promise (limit, plan, errors) and its state at time t; the radius is left at its default.
-  virtual BodyDefinition promise(std::uint32_t body, double t) const = 0;
+  virtual BodyDefinition definition(std::uint32_t body, double t) const = 0;
   /// State at time t, which may not lie before the body's last kick (or its start). The answer does not
   /// depend on which times were asked for before. It may be cached, so threads need clones of their own.
   virtual State state(std::uint32_t body, double t) const = 0;
@@ -31,7 +31,7 @@ class Motion {
   virtual Trajectory trajectory(std::uint32_t body, double begin, double end) const = 0;
   /// Gives the body a new velocity at time t. Returns false, and changes nothing, when t lies before its last
   /// kick, when a number is not finite, and for motions that cannot be changed (recordings).
-  virtual bool kick(std::uint32_t body, double t, const Vec3& velocity) = 0;
+  virtual bool set_velocity(std::uint32_t body, double t, const Vec3& velocity) = 0;
   /// An independent copy, kicks included.
   virtual std::unique_ptr<Motion> clone() const = 0;
 

@@ -24,7 +24,7 @@ class PiecewiseAcceleration : public Motion {
   /// body's last kick.
   State state(std::uint32_t body, double t) const final;
   Trajectory trajectory(std::uint32_t body, double begin, double end) const final;
-  bool kick(std::uint32_t body, double t, const Vec3& velocity) final;
+  bool set_velocity(std::uint32_t body, double t, const Vec3& velocity) final;
 
  protected:
   /// States at start_time by body. Interval k lasts from k * interval to (k + 1) * interval; with an infinite
@@ -43,8 +43,8 @@ class PiecewiseAcceleration : public Motion {
   /// When the body was last kicked or restarted.
   double last_change(std::uint32_t body) const { return courses_[body].since; }
   /// A promise with the state at t, and no errors.
-  BodyDefinition promise_with(std::uint32_t body, double t, double acceleration_limit,
-                              const Vec3& planned_acceleration = {}) const;
+  BodyDefinition definition_with(std::uint32_t body, double t, double acceleration_limit,
+                                 const Vec3& planned_acceleration = {}) const;
 
  private:
   /// All answers are found by walking from piece to piece, from the last kick on, so they are the same

@@ -23,12 +23,12 @@ class PiecewiseMotion : public Motion {
   std::size_t size() const final { return trajectories_.size(); }
   /// The limit is the largest acceleration of the whole trajectory, plus a relative 1e-12 for rounding. It is
   /// exact, and found at an end of a segment, because the length of a linear function is convex.
-  BodyDefinition promise(std::uint32_t body, double t) const final;
+  BodyDefinition definition(std::uint32_t body, double t) const final;
   /// Cost: O(log segments).
   State state(std::uint32_t body, double t) const final;
   Trajectory trajectory(std::uint32_t body, double begin, double end) const final;
   /// Returns false.
-  bool kick(std::uint32_t body, double t, const Vec3& velocity) final;
+  bool set_velocity(std::uint32_t body, double t, const Vec3& velocity) final;
   std::unique_ptr<Motion> clone() const override;
 
   double first_time(std::uint32_t body) const { return trajectories_[body].front().begin; }

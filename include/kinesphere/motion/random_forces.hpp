@@ -28,7 +28,7 @@ class RandomForces final : public PiecewiseAcceleration {
   /// Errors: not_finite or out_of_range, naming the field and the body.
   static Result<RandomForces> create(RandomForcesDefinition definition);
 
-  BodyDefinition promise(std::uint32_t body, double t) const override;
+  BodyDefinition definition(std::uint32_t body, double t) const override;
   std::unique_ptr<Motion> clone() const override;
 
  private:

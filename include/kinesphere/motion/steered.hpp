@@ -35,7 +35,7 @@ class Steered final : public PiecewiseAcceleration {
 
   /// The limit is a relative 1e-12 more than that of the definition, so that an acceleration that was scaled
   /// to that length passes however it was rounded.
-  BodyDefinition promise(std::uint32_t body, double t) const override;
+  BodyDefinition definition(std::uint32_t body, double t) const override;
   std::unique_ptr<Motion> clone() const override;
 
  private:

@@ -48,7 +48,7 @@ class VelocityField final : public PiecewiseAcceleration {
   /// Errors: not_finite or out_of_range, naming the field of the definition and the body.
   static Result<VelocityField> create(VelocityFieldDefinition definition);
 
-  BodyDefinition promise(std::uint32_t body, double t) const override;
+  BodyDefinition definition(std::uint32_t body, double t) const override;
   std::unique_ptr<Motion> clone() const override;
 
  private:

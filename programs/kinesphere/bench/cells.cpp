@@ -12,7 +12,7 @@ constexpr double good_enough = 1.25;
 CostModel model_of(const Scene& scene, const UnitCosts& costs) {
   std::vector<MovingSphere> spheres;
   for (std::uint32_t body = 0; body < scene.bodies.size(); ++body) {
-    const BodyDefinition promise = scene.motion->promise(body, scene.world.start_time);
+    const BodyDefinition promise = scene.motion->definition(body, scene.world.start_time);
     spheres.push_back({.radius = scene.bodies[body].radius + promise.position_error,
                        .speed = norm(promise.velocity),
                        .growth_speed = promise.velocity_error,

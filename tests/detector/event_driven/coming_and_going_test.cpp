@@ -39,7 +39,7 @@ class Twins {
   void act(Random& random) {
     const auto body = static_cast<std::uint32_t>(random.bits() % bodies);
     if (!present_[body]) {
-      BodyDefinition definition = motion_->promise(body, time_);
+      BodyDefinition definition = motion_->definition(body, time_);
       definition.radius = random.uniform() < 0.2 ? 0.0 : random.uniform(0.1, 2.0);
       // Refused when it is outside the box.
       if (!world_->add(body, definition)) return;
@@ -51,9 +51,9 @@ class Twins {
       present_[body] = false;
     } else {
       const Vec3 velocity = 10.0 * random.point_in_ball();
-      ASSERT_TRUE(motion_->kick(body, time_, velocity));
-      detector_->kick(body, velocity).value();
-      world_->kick(body, velocity).value();
+      ASSERT_TRUE(motion_->set_velocity(body, time_, velocity));
+      detector_->set_velocity(body, velocity).value();
+      world_->set_velocity(body, velocity).value();
     }
   }
 

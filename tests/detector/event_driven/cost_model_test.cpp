@@ -163,7 +163,7 @@ class CostModelOfScene : public testing::TestWithParam<std::uint32_t> {
   CostModel model() const {
     std::vector<MovingSphere> spheres;
     for (std::uint32_t k = 0; k < scene_.bodies.size(); ++k) {
-      const BodyDefinition body = scene_.motion->promise(k, 0.0);
+      const BodyDefinition body = scene_.motion->definition(k, 0.0);
       spheres.push_back({.radius = scene_.bodies[k].radius,
                          .speed = norm(body.velocity),
                          .limit = body.acceleration_limit});

@@ -129,7 +129,7 @@ TEST(PaperDetectorEvents, are_those_of_a_lonely_sphere) {
   lonely.acceleration_limits = {0.5};
   const RandomForces motion = RandomForces::create(lonely).value();
   auto detector = make_paper_detector({}, motion, {.cell_edge = 10.0}).value();
-  BodyDefinition body = motion.promise(0, 0.0);
+  BodyDefinition body = motion.definition(0, 0.0);
   body.radius = 1.0;
   ASSERT_TRUE(detector->add(0, body));
   ASSERT_FALSE(detector->advance(4.2).value());
@@ -196,7 +196,7 @@ TEST(BallisticDetectorBodies, may_deviate_from_nothing_but_a_common_plan) {
   const Ballistic motion = Ballistic::create({.start = {{}, {}}, .gravity = {0, 0, -9.81}}).value();
   const auto refused = [&](const BodyDefinition& second) {
     auto detector = make_ballistic_detector({}, motion).value();
-    BodyDefinition first = motion.promise(0, 0.0);
+    BodyDefinition first = motion.definition(0, 0.0);
     EXPECT_TRUE(detector->add(0, first));
     const auto added = detector->add(1, second);
     if (added) return false;
@@ -204,7 +204,7 @@ TEST(BallisticDetectorBodies, may_deviate_from_nothing_but_a_common_plan) {
     EXPECT_EQ(added.error().body.index, 1u);
     return true;
   };
-  const BodyDefinition good = motion.promise(1, 0.0);
+  const BodyDefinition good = motion.definition(1, 0.0);
   EXPECT_FALSE(refused(good));
   BodyDefinition bad = good;
   bad.acceleration_limit = 1e-9;

@@ -19,7 +19,7 @@ class Flight {
                     .value()),
         detector_(make_hubbard_detector(definition, motion_).value()) {
     for (std::uint32_t number = 0; number < start.size(); ++number)
-      detector_->add(number, motion_.promise(number, 0.0)).value();
+      detector_->add(number, motion_.definition(number, 0.0)).value();
   }
 
   /// Goes on to a time or to the next event.
@@ -28,9 +28,9 @@ class Flight {
     EXPECT_EQ(detector_->audit().has_value(), false);
     return event;
   }
-  void kick(std::uint32_t number, const Vec3& velocity) {
-    ASSERT_TRUE(motion_.kick(number, detector_->time(), velocity));
-    detector_->kick(number, velocity).value();
+  void set_velocity(std::uint32_t number, const Vec3& velocity) {
+    ASSERT_TRUE(motion_.set_velocity(number, detector_->time(), velocity));
+    detector_->set_velocity(number, velocity).value();
   }
   void remove(std::uint32_t number) { detector_->remove(number).value(); }
 
@@ -62,7 +62,7 @@ TEST(HubbardDetector, a_kick_and_a_removal_ask_for_a_rebuild) {
   Flight flight({{{0, 0, 0}, {}}, {{100, 0, 0}, {}}, {{0, 100, 0}, {}}}, 0.0);
   EXPECT_FALSE(flight.advance(1.0));
   const std::uint64_t rebuilds = flight.counters().rebuilds;
-  flight.kick(0, {0.1, 0, 0});
+  flight.set_velocity(0, {0.1, 0, 0});
   EXPECT_FALSE(flight.advance(1.0));
   EXPECT_EQ(flight.counters().rebuilds, rebuilds + 1);
   flight.remove(1);

@@ -40,8 +40,8 @@ class Walkers final : public PiecewiseAcceleration {
   Walkers(const std::vector<State>& start, std::uint64_t seed)
       : PiecewiseAcceleration(start, 0.0, walking_interval), seed_(seed) {}
 
-  BodyDefinition promise(std::uint32_t body, double t) const override {
-    return promise_with(body, t, walking_limit);
+  BodyDefinition definition(std::uint32_t body, double t) const override {
+    return definition_with(body, t, walking_limit);
   }
   std::unique_ptr<Motion> clone() const override { return std::make_unique<Walkers>(*this); }
 

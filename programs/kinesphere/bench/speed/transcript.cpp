@@ -17,7 +17,9 @@ class WrittenMotion final : public Motion {
   WrittenMotion(const Motion& motion, std::vector<State>& answers) : motion_(motion), answers_(answers) {}
 
   std::size_t size() const override { return motion_.size(); }
-  BodyDefinition promise(std::uint32_t body, double t) const override { return motion_.promise(body, t); }
+  BodyDefinition definition(std::uint32_t body, double t) const override {
+    return motion_.definition(body, t);
+  }
   State state(std::uint32_t body, double t) const override {
     answers_.push_back(motion_.state(body, t));
     return answers_.back();
@@ -25,7 +27,7 @@ class WrittenMotion final : public Motion {
   Trajectory trajectory(std::uint32_t body, double begin, double end) const override {
     return motion_.trajectory(body, begin, end);
   }
-  bool kick(std::uint32_t, double, const Vec3&) override { return false; }
+  bool set_velocity(std::uint32_t, double, const Vec3&) override { return false; }
   std::unique_ptr<Motion> clone() const override { return std::make_unique<WrittenMotion>(*this); }
 
  private:
@@ -46,7 +48,7 @@ class PlayedMotion final : public Motion {
   explicit PlayedMotion(const Transcript& transcript) : transcript_(transcript) {}
 
   std::size_t size() const override { return transcript_.bodies.size(); }
-  BodyDefinition promise(std::uint32_t body, double) const override { return transcript_.bodies[body]; }
+  BodyDefinition definition(std::uint32_t body, double) const override { return transcript_.bodies[body]; }
   State state(std::uint32_t, double) const override {
     const State& answer = transcript_.answers[next_];
     fetch_ahead(transcript_.answers, next_);
@@ -54,7 +56,7 @@ class PlayedMotion final : public Motion {
     return answer;
   }
   Trajectory trajectory(std::uint32_t, double, double) const override { return {}; }
-  bool kick(std::uint32_t, double, const Vec3&) override { return false; }
+  bool set_velocity(std::uint32_t, double, const Vec3&) override { return false; }
   std::unique_ptr<Motion> clone() const override { return std::make_unique<PlayedMotion>(*this); }
 
  private:
@@ -76,10 +78,10 @@ class WrittenDetector final : public Detector {
     return detector_->add(body, definition);
   }
   Result<void> remove(std::uint32_t body) override { return detector_->remove(body); }
-  Result<void> kick(std::uint32_t body, const Vec3& velocity) override {
+  Result<void> set_velocity(std::uint32_t body, const Vec3& velocity) override {
     transcript_.kicks.push_back({body, velocity});
     ++transcript_.kicks_after.back();
-    return detector_->kick(body, velocity);
+    return detector_->set_velocity(body, velocity);
   }
   Result<std::optional<Event>> advance(double until) override {
     auto event = detector_->advance(until);
@@ -108,7 +110,7 @@ class Player {
         throw ProgramError("bench: a detector found more contacts when it ran again");
       for (std::uint32_t k = 0; k < transcript_.kicks_after[event_]; ++k, ++kick_) {
         fetch_ahead(transcript_.kicks, kick_);
-        require(detector_.kick(transcript_.kicks[kick_].body, transcript_.kicks[kick_].velocity));
+        require(detector_.set_velocity(transcript_.kicks[kick_].body, transcript_.kicks[kick_].velocity));
       }
       ++event_;
     }

@@ -12,7 +12,7 @@ TEST(Kick, OfABodyNotProbedForLongAsksFirst) {
   p.run(0.125);
   // Where the world thinks it is, nobody is: only its bound holds it.
   const Vec3 there = p.state(a).position;
-  p.kick(a, {0, 0, 100});
+  p.set_velocity(a, {0, 0, 100});
   p.steer(a, {});
   p.add({.radius = 1, .position = there + Vec3{0, 0, 50}});
   bool asked_at_once = false;
@@ -24,13 +24,14 @@ TEST(Kick, OfABodyNotProbedForLongAsksFirst) {
 }
 
 TEST(Kick, DoesNotTrustTheVelocityOfTheKickForAStaleBody) {
-  // The probe is right and the velocity handed to kick() wrong: the report counts, and the caller is told.
+  // The probe is right and the velocity handed to set_velocity() wrong: the report counts, and the caller is
+  // told.
   Playground p;
   const BodyId a = p.add({.radius = 1, .velocity = {1, 0, 0}});
   p.add({.radius = 1, .position = {0.5, 0, 20}});
   p.run(0.5);
-  p.set_velocity(a, {0, 0, 10});
-  p.world.kick(a, {0, 0, -10}).value();
+  p.set_velocity_unseen(a, {0, 0, 10});
+  p.world.set_velocity(a, {0, 0, -10}).value();
   const auto events = p.run(10.0);
   ASSERT_EQ(events.size(), 3u) << events;
   EXPECT_EQ(events[0].kind, EventKind::bound_violation);
@@ -44,9 +45,9 @@ TEST(Kick, LastOfSeveralAtOneStopCounts) {
   p.add({.radius = 1, .position = {10, 0, 0}});
   p.add({.radius = 1, .position = {0, 10, 0}});
   p.run(1.0);
-  p.kick(a, {0, 100, 0});
-  p.kick(a, {-100, 0, 0});
-  p.kick(a, {4, 0, 0});
+  p.set_velocity(a, {0, 100, 0});
+  p.set_velocity(a, {-100, 0, 0});
+  p.set_velocity(a, {4, 0, 0});
   const auto events = p.run(4.0);
   ASSERT_EQ(events.size(), 1u) << events;
   EXPECT_NEAR(events[0].time, 3.0, 1e-6);
@@ -59,14 +60,14 @@ TEST(Kick, WaitsForTheReportWhileOthersThatWereKickedGo) {
   for (int k = 0; k < 6; ++k) bodies.push_back(p.add({.radius = 1, .position = {10.0 * k, 0, 0}}));
   p.run(1.0);
   for (int k = 0; k < 4; ++k) {
-    p.kick(bodies[static_cast<std::size_t>(k)], {0, 1.0 + k, 0});
-    p.world.set_promise(bodies[static_cast<std::size_t>(k)], {.acceleration_limit = 0.5 + k}).value();
+    p.set_velocity(bodies[static_cast<std::size_t>(k)], {0, 1.0 + k, 0});
+    p.world.set_motion_limits(bodies[static_cast<std::size_t>(k)], {.acceleration_limit = 0.5 + k}).value();
   }
   p.world.remove(bodies[1]).value();
   p.world.disable(bodies[0]).value();
   p.world.enable(bodies[0], p.state(bodies[0])).value();
-  p.kick(bodies[4], {0, 0, 1});
-  p.kick(bodies[5], {0, 0, 1});
+  p.set_velocity(bodies[4], {0, 0, 1});
+  p.set_velocity(bodies[5], {0, 0, 1});
   for (const int k : {2, 3}) {
     const BodyDefinition definition = p.world.body(bodies[static_cast<std::size_t>(k)]).value().definition;
     EXPECT_EQ(definition.velocity, (Vec3{0, 1.0 + k, 0}));
@@ -88,7 +89,8 @@ TEST(Kick, OfABodyFarFromTheEventCounts) {
   p.add({.radius = 1, .position = {10, 0, 0}, .velocity = {-4, 0, 0}});
   std::vector<Event> hits;
   for (const Event& event : p.run(20.0, [&](const Event& event) {
-         if (event.kind == EventKind::contact_begin && event.first != idle) p.kick(idle, {0, 1000, 0});
+         if (event.kind == EventKind::contact_begin && event.first != idle)
+           p.set_velocity(idle, {0, 1000, 0});
        }))
     if (event.first == idle) hits.push_back(event);
   ASSERT_EQ(hits.size(), 2u) << hits;
@@ -102,7 +104,7 @@ TEST(Kick, InContactKeepsTheContactUntilTheyAreApart) {
   const BodyId b = p.add({.radius = 1, .position = {1, 0, 0}});
   int kicks = 0;
   const auto events = p.run(10.0, [&](const Event& event) {
-    if (event.kind == EventKind::contact_begin && kicks++ == 0) p.kick(a, {-1, 0, 0});
+    if (event.kind == EventKind::contact_begin && kicks++ == 0) p.set_velocity(a, {-1, 0, 0});
   });
   ASSERT_EQ(events.size(), 2u) << events;
   EXPECT_EQ(events[1].kind, EventKind::contact_end);
@@ -117,8 +119,8 @@ TEST(Kick, BackAndForthInContactIsOneContact) {
   const BodyId b = p.add({.radius = 1, .position = {1, 0, 0}});
   EXPECT_EQ(p.run(0.0).size(), 1u);
   for (int k = 1; k <= 20; ++k) {
-    p.kick(a, {k % 2 == 0 ? 3.0 : -3.0, 0, 0});
-    if (k % 3 == 0) p.kick(b, {0, 0, 0});
+    p.set_velocity(a, {k % 2 == 0 ? 3.0 : -3.0, 0, 0});
+    if (k % 3 == 0) p.set_velocity(b, {0, 0, 0});
     EXPECT_TRUE(p.run(0.1 * k).empty());
   }
   EXPECT_TRUE(is_clean(p.world));
@@ -128,7 +130,7 @@ TEST(Kick, AtTheStartBeforeAnyAdvanceCounts) {
   Playground p({.start_time = 100.0});
   const BodyId a = p.add({.radius = 1, .velocity = {-5, 0, 0}});
   p.add({.radius = 1, .position = {10, 0, 0}});
-  p.kick(a, {8, 0, 0});
+  p.set_velocity(a, {8, 0, 0});
   const auto event = p.advance(200.0);
   ASSERT_TRUE(event);
   EXPECT_NEAR(event->time, 101.0, 1e-6);
@@ -139,7 +141,7 @@ TEST(Kick, EveryStopWithoutTimeGoingOnTerminates) {
   Playground p;
   const BodyId a = p.add({.radius = 1, .acceleration_limit = 1}, Vec3{});
   for (int k = 0; k < 100; ++k) {
-    p.kick(a, {0.01 * k, 0, 0});
+    p.set_velocity(a, {0.01 * k, 0, 0});
     EXPECT_FALSE(p.advance(0.0));
   }
   EXPECT_LE(p.world.counters().probes, 100u);
@@ -150,7 +152,7 @@ TEST(Kick, IsExemptFromTheVelocityPromise) {
   const BodyId a = p.add({.radius = 1, .acceleration_limit = 0.5, .velocity = {1, 2, 3}}, Vec3{});
   for (int k = 1; k < 20; ++k) {
     EXPECT_TRUE(p.run(0.37 * k).empty());
-    p.kick(a, {100.0 * (k % 3), -50.0, 7.0 * k});
+    p.set_velocity(a, {100.0 * (k % 3), -50.0, 7.0 * k});
   }
   EXPECT_EQ(p.world.counters().count(EventKind::bound_violation), 0u);
 }
