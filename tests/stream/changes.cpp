@@ -21,8 +21,8 @@ double Player::radius(const Operation& operation) const {
   return truth_.definition().periodic.any() ? std::min(0.3, operation.radius()) : operation.radius();
 }
 
-MotionLimits Player::definition(const Operation& operation) const {
-  MotionLimits promise = operation.definition();
+MotionLimits Player::limits(const Operation& operation) const {
+  MotionLimits promise = operation.motion_limits();
   promise.planned_acceleration = truth_.in_space(promise.planned_acceleration);
   return promise;
 }
@@ -36,7 +36,7 @@ BodyDefinition Player::new_body(const Operation& operation) const {
                                             .solid = !kind_.sensors || operation.solid(),
                                             .sensor_class = operation.sensor_class(),
                                             .user_data = operation.code()},
-                                           promise(operation));
+                                           limits(operation));
   if (operation.byte(8) % 8 == 0) body.velocity = {};
   body.position = inside(body.position, body.radius);
   return body;
@@ -242,7 +242,7 @@ void Player::set_radius(const Operation& operation) {
 void Player::set_motion_limits(const Operation& operation) {
   const auto id = any_moving(operation);
   if (!id) return;
-  const MotionLimits promise = this->definition(operation);
+  const MotionLimits promise = limits(operation);
   const auto before = truth_.is_present(*id) ? told_.before(world_, *id) : std::vector<Before>();
   accepted(on_world([&](World& world) { return world.set_motion_limits(*id, promise); }));
   truth_.at(*id).definition = with_motion_limits(truth_.at(*id).definition, promise);

@@ -14,7 +14,7 @@ std::uint8_t header(std::span<const std::uint8_t> bytes, std::size_t k) {
 
 }  // namespace
 
-MotionLimits Operation::definition() const {
+MotionLimits Operation::motion_limits() const {
   MotionLimits promise;
   if (byte(7) % 4 != 0) promise.acceleration_limit = 5.0 * fraction(7);
   if (byte(7) % 16 < 4) promise.planned_acceleration = {0, 0, -3};

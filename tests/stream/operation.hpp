@@ -43,7 +43,7 @@ struct Operation {
   Vec3 position() const { return Vec3{fraction(0), fraction(1), fraction(2)} * world_size; }
   Vec3 velocity() const { return {speed(3), speed(4), speed(5)}; }
   double radius() const { return byte(6) % 16 == 1 ? 1.5 * fraction(6) : 0.5 * fraction(6); }
-  MotionLimits promise() const;
+  MotionLimits motion_limits() const;
   /// An acceleration within a promise.
   Vec3 acceleration(const MotionLimits& promise) const {
     return promise.planned_acceleration +

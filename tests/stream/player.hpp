@@ -83,7 +83,7 @@ class Player {
   Vec3 acceleration(const Operation& operation, const MotionLimits& promise) const {
     return truth_.in_space(operation.acceleration(promise));
   }
-  MotionLimits promise(const Operation& operation) const;
+  MotionLimits limits(const Operation& operation) const;
   bool has_room(BodyId id, const Extent& extent, const BodyDefinition& body) const;
   template <class Change>
   void refilter(const std::vector<BodyId>& ids, Change change);
