@@ -530,7 +530,7 @@ TEST(Surroundings, WrongCalls) {
   const std::vector<FixedDefinition> two{{.shape = ground}, {.shape = Triangle{}}};
   expect_error(w.add_fixed_all(two), range, "shape", "add_fixed_all: bodies[1]: ");
   EXPECT_EQ(w.size(), 1u);
-  expect_error(w.set_velocity(box, {}), ErrorCode::fixed_body, "body", "kick: ", box);
+  expect_error(w.set_velocity(box, {}), ErrorCode::fixed_body, "body", "set_velocity: ", box);
   expect_error(w.teleport(box, {}), ErrorCode::fixed_body, "body", "teleport: ", box);
   expect_error(w.set_radius(box, 1), ErrorCode::fixed_body, "body", "set_radius: ", box);
   expect_error(w.set_motion_limits(box, {}), ErrorCode::fixed_body, "body", "set_motion_limits: ", box);
