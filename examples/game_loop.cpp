@@ -50,7 +50,7 @@ int main() {
     frames.push(position).value();
     const auto set_velocity = [&](BodyId ball, double time, const Vec3& bounced) {
       velocity[ball.index] = bounced;
-      frames.set_velocity(ball.index, time, bounced);
+      frames.set_velocity(ball.index, time, bounced).value();
       world.set_velocity(ball, bounced).value();
     };
     while (auto event = world.advance(frames.latest_time(), frames.probe()).value()) {

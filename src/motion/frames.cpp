@@ -1,10 +1,13 @@
 // Interpolation between the last two frames of a game.
 #include "kinesphere/motion/frames.hpp"
 
-#include <cassert>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "input/input_check.hpp"
+#include "motion/checks.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 
@@ -37,6 +40,7 @@ Result<Frames> Frames::create(FramesDefinition definition) {
 Frames::Frames(FramesDefinition definition)
     : latest_(std::move(definition.start)),
       limits_(std::move(definition.acceleration_limits)),
+      refuse_violations_(definition.refuse_violations),
       interval_(definition.interval),
       position_error_(definition.position_error),
       start_time_(definition.start_time) {
@@ -47,14 +51,54 @@ Frames::Frames(FramesDefinition definition)
   }
 }
 
+double Frames::time_of(std::uint64_t frame) const {
+  return start_time_ + static_cast<double>(frame) * interval_;
+}
+
+double Frames::previous_time() const { return time_of(latest_frame_ == 0 ? 0 : latest_frame_ - 1); }
+
+double Frames::latest_time() const { return time_of(latest_frame_); }
+
+/// Whether the next frame may have the body there. Its chord then turns by at most A dt, and its end moves by
+/// that times dt; the four errors are those of p_(k+1), twice p_k, and p_(k-1).
+std::optional<FrameViolation> Frames::violation(std::uint32_t body, const Vec3& position) const {
+  const Vec3& before = latest_[body];
+  const Vec3 way = chords_[body].velocity * interval_;
+  const Vec3 deviation = position - before - way;
+  const double allowed = limits_[body] * interval_ * interval_ + 4.0 * position_error_;
+  if (norm_squared(deviation) <= allowed * allowed) return std::nullopt;
+  // What a game's own rounding may add: a few units in the last place of what it adds up.
+  const double rounding = 1e-9 * allowed + 0x1p-48 * (norm_one(position) + norm_one(before) + norm_one(way));
+  const double length = norm(deviation);
+  if (length <= allowed + rounding) return std::nullopt;
+  return FrameViolation{.body = body,
+                        .excess = length - allowed,
+                        .acceleration = (length - 4.0 * position_error_) / (interval_ * interval_),
+                        .velocity = (position - before) / interval_};
+}
+
 Result<void> Frames::push(std::span<const Vec3> positions) {
   InputCheck check("push");
   check.require(positions.size() == size(), ErrorCode::out_of_range, {"positions"},
                 "must have one entry per body,", size(), positions.size());
-  check_vectors(check, "positions", positions);
   if (check.error()) return *check.error();
+  std::vector<FrameViolation> violations;
+  for (std::uint32_t body = 0; body < size(); ++body) {
+    if (!contains(body)) continue;
+    if (check.finite({"positions", {body, 0}}, positions[body]).error()) return *check.error();
+    if (const auto found = violation(body, positions[body])) violations.push_back(*found);
+  }
+  if (refuse_violations_ && !violations.empty()) {
+    const FrameViolation& first = violations.front();
+    check.require(false, ErrorCode::out_of_range, {"positions", {first.body, 0}, "acceleration"},
+                  "must be at most its limit", limits_[first.body], first.acceleration);
+    return *check.error();
+  }
+  violations_ = std::move(violations);
+  violation_count_ += violations_.size();
   const double begin = latest_time();
-  for (std::size_t body = 0; body < size(); ++body) {
+  for (std::uint32_t body = 0; body < size(); ++body) {
+    if (!contains(body)) continue;
     chords_[body] = {begin, latest_[body], (positions[body] - latest_[body]) / interval_};
     latest_[body] = positions[body];
   }
@@ -62,37 +106,96 @@ Result<void> Frames::push(std::span<const Vec3> positions) {
   return {};
 }
 
+bool Frames::contains(std::uint32_t body) const { return body < size() && chords_[body].begin < infinity; }
+
+const Frames::Chord& Frames::known_chord(std::uint32_t body, double t, std::string_view call,
+                                         std::string_view argument) const {
+  const double latest = latest_time();
+  if (body >= size() || !(chords_[body].begin <= t && t <= latest)) [[unlikely]]
+    refuse_question(call, *this, body, argument, t, {body < size() ? chords_[body].begin : t, latest});
+  return chords_[body];
+}
+
 BodyDefinition Frames::definition(std::uint32_t body, double t) const {
-  const State now = state(body, t);
+  const Chord& chord = known_chord(body, t, "Frames::definition", "t");
   return {.acceleration_limit = limits_[body],
           .position_error = position_error_,
           .velocity_error = limits_[body] * interval_ + 2.0 * position_error_ / interval_,
-          .position = now.position,
-          .velocity = now.velocity};
+          .position = chord.segment(t).state_at(t).position,
+          .velocity = chord.velocity};
 }
 
-State Frames::state(std::uint32_t body, double t) const { return piece(body, t, t).state_at(t); }
+Segment Frames::Chord::segment(double end) const {
+  return {
+      .begin = begin, .end = end, .position = position, .velocity = velocity, .acceleration = {}, .jerk = {}};
+}
+
+State Frames::state(std::uint32_t body, double t) const {
+  return known_chord(body, t, "Frames::state", "t").segment(t).state_at(t);
+}
 
 Trajectory Frames::trajectory(std::uint32_t body, double begin, double end) const {
-  return {piece(body, begin, end)};
+  constexpr std::string_view call = "Frames::trajectory";
+  known_chord(body, begin, call, "begin");
+  const Chord& chord = known_chord(body, end, call, "end");
+  if (end < begin) refuse_order(call, body, begin, end);
+  return {chord.segment(end)};
 }
 
-Segment Frames::piece(std::uint32_t body, [[maybe_unused]] double begin, double end) const {
-  const Chord& chord = chords_[body];
-  assert(chord.begin <= begin && begin <= end && end <= latest_time());
-  return {.begin = chord.begin,
-          .end = end,
-          .position = chord.position,
-          .velocity = chord.velocity,
-          .acceleration = {},
-          .jerk = {}};
+Result<void> Frames::check_change(std::string_view call, std::uint32_t body, double t) const {
+  if (const auto error = wrong_body(call, *this, body)) return *error;
+  if (const auto error = wrong_time(call, {body, 0}, "t", t, {chords_[body].begin, latest_time()}))
+    return *error;
+  return {};
 }
 
-bool Frames::set_velocity(std::uint32_t body, double t, const Vec3& velocity) {
-  if (!(chords_[body].begin <= t && t <= latest_time()) || !is_finite(velocity)) return false;
-  chords_[body] = {t, state(body, t).position, velocity};
-  latest_[body] = chords_[body].position + velocity * (latest_time() - t);
-  return true;
+void Frames::turn(std::uint32_t body, double t, const State& state) {
+  chords_[body] = {t, state.position, state.velocity};
+  latest_[body] = state.position + state.velocity * (latest_time() - t);
+}
+
+Result<void> Frames::set_velocity(std::uint32_t body, double t, const Vec3& velocity) {
+  constexpr std::string_view call = "Frames::set_velocity";
+  if (auto valid = check_change(call, body, t); !valid) return valid;
+  InputCheck check(call);
+  if (check.finite({"velocity", {body, 0}}, velocity).error()) return check.result();
+  turn(body, t, {state(body, t).position, velocity});
+  return {};
+}
+
+Result<void> Frames::teleport(std::uint32_t body, double t, const State& state) {
+  constexpr std::string_view call = "Frames::teleport";
+  if (auto valid = check_change(call, body, t); !valid) return valid;
+  if (const auto error = wrong_state(call, {body, 0}, state)) return *error;
+  turn(body, t, state);
+  return {};
+}
+
+Result<void> Frames::remove(std::uint32_t body) {
+  if (const auto error = wrong_body("Frames::remove", *this, body)) return *error;
+  chords_[body].begin = infinity;
+  free_.push_back(body);
+  return {};
+}
+
+Result<std::uint32_t> Frames::add(double t, const State& state, double acceleration_limit) {
+  constexpr std::string_view call = "Frames::add";
+  if (const auto error = wrong_time(call, no_body, "t", t, {previous_time(), latest_time()})) return *error;
+  if (const auto error = wrong_state(call, no_body, state)) return *error;
+  InputCheck check(call);
+  if (check.not_negative({"acceleration_limit"}, acceleration_limit).error()) return *check.error();
+  auto body = static_cast<std::uint32_t>(size());
+  if (free_.empty()) {
+    chords_.emplace_back();
+    latest_.emplace_back();
+    limits_.emplace_back();
+  } else {
+    body = free_.back();
+    free_.pop_back();
+  }
+  limits_[body] = acceleration_limit;
+  turn(body, t, state);
+  return body;
 }
 
 std::unique_ptr<Motion> Frames::clone() const { return std::make_unique<Frames>(*this); }

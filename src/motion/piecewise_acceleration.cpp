@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "input/input_check.hpp"
+#include "motion/checks.hpp"
 #include "number/infinity.hpp"
 
 namespace kinesphere {
@@ -23,22 +25,67 @@ PiecewiseAcceleration::PiecewiseAcceleration(const std::vector<State>& start, do
   for (const State& state : start) courses_.push_back({start_time, state, no_piece});
 }
 
+bool PiecewiseAcceleration::contains(std::uint32_t body) const {
+  return body < size() && courses_[body].since < infinity;
+}
+
 State PiecewiseAcceleration::state(std::uint32_t body, double t) const {
-  return piece_at(body, t).state_at(t);
+  return known_piece_at(body, t, "state", "t").state_at(t);
 }
 
 Trajectory PiecewiseAcceleration::trajectory(std::uint32_t body, double begin, double end) const {
-  assert(begin <= end);
-  Trajectory result{piece_at(body, begin)};
+  constexpr std::string_view call = "trajectory";
+  Trajectory result{known_piece_at(body, begin, call, "begin")};
+  if (!std::isfinite(end)) refuse_question(call, *this, body, "end", end, {begin, infinity});
+  if (end < begin) refuse_order(call, body, begin, end);
   while (result.back().end < end) result.push_back(piece_after(body, result.back()));
   result.back().end = end;
   return result;
 }
 
-bool PiecewiseAcceleration::set_velocity(std::uint32_t body, double t, const Vec3& velocity) {
-  if (!std::isfinite(t) || t < last_change(body) || !is_finite(velocity)) return false;
+Result<void> PiecewiseAcceleration::check_change(std::string_view call, std::uint32_t body, double t) const {
+  if (const auto error = wrong_body(call, *this, body)) return *error;
+  if (const auto error = wrong_time(call, {body, 0}, "t", t, {last_change(body), infinity})) return *error;
+  return {};
+}
+
+Result<void> PiecewiseAcceleration::set_velocity(std::uint32_t body, double t, const Vec3& velocity) {
+  constexpr std::string_view call = "set_velocity";
+  if (auto valid = check_change(call, body, t); !valid) return valid;
+  InputCheck check(call);
+  if (check.finite({"velocity", {body, 0}}, velocity).error()) return check.result();
   restart(body, t, {state(body, t).position, velocity});
-  return true;
+  return {};
+}
+
+Result<void> PiecewiseAcceleration::teleport(std::uint32_t body, double t, const State& state) {
+  constexpr std::string_view call = "teleport";
+  if (auto valid = check_change(call, body, t); !valid) return valid;
+  if (const auto error = wrong_state(call, {body, 0}, state)) return *error;
+  restart(body, t, state);
+  return {};
+}
+
+Result<void> PiecewiseAcceleration::remove(std::uint32_t body) {
+  if (const auto error = wrong_body("remove", *this, body)) return *error;
+  courses_[body] = {infinity, {}, no_piece};
+  free_.push_back(body);
+  return {};
+}
+
+Result<std::uint32_t> PiecewiseAcceleration::add_body(std::string_view call, double t, const State& state) {
+  InputCheck check(call);
+  if (check.finite({"t"}, t).error()) return *check.error();
+  if (const auto error = wrong_state(call, no_body, state)) return *error;
+  auto body = static_cast<std::uint32_t>(size());
+  if (free_.empty()) {
+    courses_.emplace_back();
+  } else {
+    body = free_.back();
+    free_.pop_back();
+  }
+  restart(body, t, state);
+  return body;
 }
 
 void PiecewiseAcceleration::restart(std::uint32_t body, double t, const State& state) {
@@ -47,11 +94,25 @@ void PiecewiseAcceleration::restart(std::uint32_t body, double t, const State& s
 
 BodyDefinition PiecewiseAcceleration::definition_with(std::uint32_t body, double t, double acceleration_limit,
                                                       const Vec3& planned_acceleration) const {
-  const State now = state(body, t);
+  const State now = known_piece_at(body, t, "definition", "t").state_at(t);
   return {.acceleration_limit = acceleration_limit,
           .planned_acceleration = planned_acceleration,
           .position = now.position,
           .velocity = now.velocity};
+}
+
+BodyDefinition PiecewiseAcceleration::definition_with(std::uint32_t body, double t,
+                                                      const std::vector<double>& limits) const {
+  BodyDefinition definition = definition_with(body, t, 0.0);
+  definition.acceleration_limit = limits[body];
+  return definition;
+}
+
+const Segment& PiecewiseAcceleration::known_piece_at(std::uint32_t body, double t, std::string_view call,
+                                                     std::string_view argument) const {
+  if (body >= size() || !(t >= courses_[body].since && t < infinity)) [[unlikely]]
+    refuse_question(call, *this, body, argument, t, {body < size() ? courses_[body].since : t, infinity});
+  return piece_at(body, t);
 }
 
 const Segment& PiecewiseAcceleration::piece_at(std::uint32_t body, double t) const {

@@ -2,12 +2,13 @@
 #include "kinesphere/motion/piecewise_motion.hpp"
 
 #include <algorithm>
-#include <cassert>
-#include <limits>
+#include <cmath>
 #include <utility>
 
 #include "input/input_check.hpp"
+#include "motion/checks.hpp"
 #include "motion/limit_rounding.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 
@@ -86,12 +87,27 @@ PiecewiseMotion::PiecewiseMotion(std::vector<Trajectory> trajectories)
     const double last_time = trajectory.back().end;
     const State last = trajectory.back().state_at(last_time);
     trajectory.push_back({.begin = last_time,
-                          .end = std::numeric_limits<double>::infinity(),
+                          .end = infinity,
                           .position = last.position,
                           .velocity = last.velocity,
                           .acceleration = {},
                           .jerk = {}});
   }
+}
+
+const Trajectory& PiecewiseMotion::known_trajectory(std::uint32_t body, double t, std::string_view call,
+                                                    std::string_view argument) const {
+  if (body >= size() || !std::isfinite(t)) [[unlikely]]
+    refuse_question(call, *this, body, argument, t, {-infinity, infinity});
+  return trajectories_[body];
+}
+
+double PiecewiseMotion::first_time(std::uint32_t body) const {
+  return known_trajectory(body, 0.0, "first_time", "body").front().begin;
+}
+
+double PiecewiseMotion::last_time(std::uint32_t body) const {
+  return known_trajectory(body, 0.0, "last_time", "body").back().begin;
 }
 
 BodyDefinition PiecewiseMotion::definition(std::uint32_t body, double t) const {
@@ -100,21 +116,27 @@ BodyDefinition PiecewiseMotion::definition(std::uint32_t body, double t) const {
 }
 
 State PiecewiseMotion::state(std::uint32_t body, double t) const {
-  if (t < first_time(body)) return lead_in(body, t).state_at(t);
-  return piece_at(trajectories_[body], t)->state_at(t);
+  const Trajectory& known = known_trajectory(body, t, "state", "t");
+  if (t < known.front().begin) return lead_in(body, t).state_at(t);
+  return piece_at(known, t)->state_at(t);
 }
 
 Trajectory PiecewiseMotion::trajectory(std::uint32_t body, double begin, double end) const {
-  assert(begin <= end);
+  constexpr std::string_view call = "trajectory";
+  const Trajectory& known = known_trajectory(body, begin, call, "begin");
+  if (!std::isfinite(end)) refuse_question(call, *this, body, "end", end, {begin, infinity});
+  if (end < begin) refuse_order(call, body, begin, end);
   Trajectory result;
-  if (begin < first_time(body)) result.push_back(lead_in(body, begin));
-  auto segment = piece_at(trajectories_[body], begin);
+  if (begin < known.front().begin) result.push_back(lead_in(body, begin));
+  auto segment = piece_at(known, begin);
   while (result.empty() || result.back().end < end) result.push_back(*segment++);
   result.back().end = end;
   return result;
 }
 
-bool PiecewiseMotion::set_velocity(std::uint32_t, double, const Vec3&) { return false; }
+Result<void> PiecewiseMotion::set_velocity(std::uint32_t body, double, const Vec3&) {
+  return cannot_change("set_velocity", *this, body, "given a velocity");
+}
 
 std::unique_ptr<Motion> PiecewiseMotion::clone() const { return std::make_unique<PiecewiseMotion>(*this); }
 

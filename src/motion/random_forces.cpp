@@ -23,8 +23,16 @@ RandomForces::RandomForces(RandomForcesDefinition definition)
       limits_(std::move(definition.acceleration_limits)),
       seed_(definition.seed) {}
 
+Result<std::uint32_t> RandomForces::add(double t, const State& state, double acceleration_limit) {
+  InputCheck check("add");
+  if (check.not_negative({"acceleration_limit"}, acceleration_limit).error()) return *check.error();
+  auto body = add_body("add", t, state);
+  if (body) keep_of(limits_, *body, acceleration_limit);
+  return body;
+}
+
 BodyDefinition RandomForces::definition(std::uint32_t body, double t) const {
-  return definition_with(body, t, limits_[body]);
+  return definition_with(body, t, limits_);
 }
 
 std::unique_ptr<Motion> RandomForces::clone() const { return std::make_unique<RandomForces>(*this); }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "input/input_check.hpp"
+#include "motion/checks.hpp"
 #include "motion/limit_rounding.hpp"
 
 namespace kinesphere {
@@ -23,11 +24,19 @@ Steered::Steered(SteeredDefinition definition)
   for (double& limit : limits_) limit *= slightly_more;
 }
 
+Result<std::uint32_t> Steered::add(double t, const State& state, double acceleration_limit) {
+  InputCheck check("add");
+  if (check.not_negative({"acceleration_limit"}, acceleration_limit).error()) return *check.error();
+  auto body = add_body("add", t, state);
+  if (!body) return body;
+  keep_of(limits_, *body, slightly_more * acceleration_limit);
+  keep_of(accelerations_, *body, {});
+  return body;
+}
+
 Result<void> Steered::steer(std::uint32_t body, double t, const Vec3& acceleration) {
   InputCheck check("steer");
-  check.require(body < size(), ErrorCode::unknown_body, {"body"}, "must be less than", size(),
-                std::size_t{body});
-  if (check.error()) return *check.error();
+  if (const auto error = wrong_body("steer", *this, body)) return *error;
   const BodyId id{body, 0};
   check.finite({"t", id}, t)
       .finite({"acceleration", id}, acceleration)
@@ -42,7 +51,7 @@ Result<void> Steered::steer(std::uint32_t body, double t, const Vec3& accelerati
 }
 
 BodyDefinition Steered::definition(std::uint32_t body, double t) const {
-  return definition_with(body, t, limits_[body]);
+  return definition_with(body, t, limits_);
 }
 
 std::unique_ptr<Motion> Steered::clone() const { return std::make_unique<Steered>(*this); }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "input/input_check.hpp"
+#include "motion/checks.hpp"
 #include "motion/limit_rounding.hpp"
 
 namespace kinesphere {
@@ -47,8 +48,18 @@ VelocityField::VelocityField(VelocityFieldDefinition definition)
       limits_(std::move(definition.acceleration_limits)),
       response_time_(definition.response_time) {}
 
+Result<std::uint32_t> VelocityField::add(double t, const State& state, double acceleration_limit) {
+  InputCheck check("add");
+  if (check.not_negative({"acceleration_limit"}, acceleration_limit).error()) return *check.error();
+  if (const auto error = wrong_state("add", no_body, state)) return *error;
+  if (check.finite({"field"}, field_(state.position)).error()) return *check.error();
+  auto body = add_body("add", t, state);
+  if (body) keep_of(limits_, *body, acceleration_limit);
+  return body;
+}
+
 BodyDefinition VelocityField::definition(std::uint32_t body, double t) const {
-  return definition_with(body, t, limits_[body]);
+  return definition_with(body, t, limits_);
 }
 
 std::unique_ptr<Motion> VelocityField::clone() const { return std::make_unique<VelocityField>(*this); }

@@ -116,7 +116,8 @@ class Simulation {
   }
 
   Result<void> set_velocity(std::uint32_t body, double time, const Vec3& velocity) {
-    if (!motion_.set_velocity(body, time, velocity)) {
+    if (auto turned = motion_.set_velocity(body, time, velocity); !turned) {
+      if (turned.error().code != ErrorCode::unsupported) return turned;
       return Error{ErrorCode::unsupported,
                    "response",
                    {body, 0},

@@ -32,7 +32,9 @@ class Jumping final : public Motion {
   Trajectory trajectory(std::uint32_t body, double begin, double end) const override {
     return rest_.trajectory(body, begin, end);
   }
-  bool set_velocity(std::uint32_t, double, const Vec3&) override { return false; }
+  Result<void> set_velocity(std::uint32_t, double, const Vec3&) override {
+    return Error{ErrorCode::unsupported, "body", no_body, "set_velocity: not here"};
+  }
   std::unique_ptr<Motion> clone() const override { return std::make_unique<Jumping>(jump_); }
 
  private:

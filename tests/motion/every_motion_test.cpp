@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "kinesphere/motion/recorded_tracks.hpp"
 #include "kinesphere/motion/steered.hpp"
 #include "kinesphere/motion/velocity_field.hpp"
+#include "kinesphere/world.hpp"
 #include "motion/motion_properties.hpp"
 
 namespace kinesphere {
@@ -152,7 +154,7 @@ TEST_P(EveryMotion, KickChangesTheVelocityAndNothingElse) {
       time = random.uniform(time, end);
       const auto before = motion.clone();
       const Vec3 velocity = 20 * random.point_in_ball();
-      ASSERT_EQ(motion.set_velocity(2, time, velocity), GetParam().can_be_kicked);
+      ASSERT_EQ(bool(motion.set_velocity(2, time, velocity)), GetParam().can_be_kicked);
       const State expected = GetParam().can_be_kicked ? State{before->state(2, time).position, velocity}
                                                       : before->state(2, time);
       EXPECT_EQ(motion.state(2, time), expected);
@@ -165,7 +167,7 @@ TEST_P(EveryMotion, KickChangesTheVelocityAndNothingElse) {
 
 TEST_P(EveryMotion, RefusesKicksThatMakeNoSense) {
   for_motions([&](Motion& motion, Random&) {
-    motion.set_velocity(1, 3.0, {1, 2, 3});
+    (void)motion.set_velocity(1, 3.0, {1, 2, 3});
     const State before = motion.state(1, end);
     EXPECT_FALSE(motion.set_velocity(1, 2.5, {}));
     EXPECT_FALSE(motion.set_velocity(1, std::numeric_limits<double>::quiet_NaN(), {}));
@@ -177,11 +179,11 @@ TEST_P(EveryMotion, RefusesKicksThatMakeNoSense) {
 
 TEST_P(EveryMotion, ClonesGoTheirOwnWay) {
   for_motions([&](Motion& motion, Random&) {
-    motion.set_velocity(0, 2.0, {1, 2, 3});
+    (void)motion.set_velocity(0, 2.0, {1, 2, 3});
     const auto clone = motion.clone();
     const State before = motion.state(0, end);
     EXPECT_EQ(clone->state(0, end), before);
-    const bool kicked = clone->set_velocity(0, 4.0, {-50, 0, 0});
+    const bool kicked{clone->set_velocity(0, 4.0, {-50, 0, 0})};
     EXPECT_EQ(motion.state(0, end), before);
     EXPECT_EQ(clone->state(0, end) == before, !kicked);
   });
@@ -194,6 +196,111 @@ TEST_P(EveryMotion, ProbeReadsTheStates) {
     motion.probe()(ids, 5.0, states);
     EXPECT_EQ(states[0], motion.state(4, 5.0));
     EXPECT_EQ(states[1], motion.state(1, 5.0));
+  });
+}
+
+/// The error with which a call that has no Result refuses.
+template <class Call>
+std::optional<Error> refusal(const Call& call) {
+  try {
+    call();
+  } catch (const BadResult& refused) {
+    return refused.error();
+  }
+  return std::nullopt;
+}
+
+TEST_P(EveryMotion, RefusesToAnswerForABodyThatItDoesNotHave) {
+  for_motions([&](Motion& motion, Random&) {
+    for (const std::uint32_t body : {std::uint32_t{bodies}, 1'000'000u, 0xffffffffu}) {
+      EXPECT_FALSE(motion.contains(body));
+      const std::function<void()> questions[] = {[&] { (void)motion.state(body, 5.0); },
+                                                 [&] { (void)motion.definition(body, 5.0); },
+                                                 [&] { (void)motion.trajectory(body, 5.0, 6.0); }};
+      for (const auto& question : questions) {
+        const auto error = refusal(question);
+        ASSERT_TRUE(error);
+        EXPECT_EQ(error->code, ErrorCode::unknown_body) << error->message;
+        EXPECT_EQ(error->body, (BodyId{body, 0}));
+        EXPECT_NE(error->message.find("body " + std::to_string(body)), std::string::npos) << error->message;
+      }
+      EXPECT_EQ(motion.set_velocity(body, 5.0, {}).error().code, ErrorCode::unknown_body);
+      EXPECT_EQ(motion.teleport(body, 5.0, {}).error().code, ErrorCode::unknown_body);
+      EXPECT_EQ(motion.remove(body).error().code, ErrorCode::unknown_body);
+    }
+  });
+}
+
+TEST_P(EveryMotion, RefusesTimesThatAreNone) {
+  for_motions([&](Motion& motion, Random&) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double infinity = std::numeric_limits<double>::infinity();
+    for (const double time : {nan, infinity, -infinity}) {
+      EXPECT_EQ(refusal([&] { (void)motion.state(1, time); })->code, ErrorCode::not_finite);
+      EXPECT_EQ(refusal([&] { (void)motion.definition(1, time); })->code, ErrorCode::not_finite);
+      EXPECT_EQ(refusal([&] { (void)motion.trajectory(1, time, 6.0); })->argument, "begin");
+      EXPECT_EQ(refusal([&] { (void)motion.trajectory(1, 5.0, time); })->argument, "end");
+    }
+    EXPECT_EQ(refusal([&] { (void)motion.trajectory(1, 5.0, 4.0); })->code, ErrorCode::out_of_range);
+    if (!motion.set_velocity(1, 5.0, {1, 0, 0})) return;
+    EXPECT_EQ(refusal([&] { (void)motion.state(1, 4.0); })->code, ErrorCode::time_backwards);
+    EXPECT_EQ(refusal([&] { (void)motion.trajectory(1, 4.0, 6.0); })->code, ErrorCode::time_backwards);
+  });
+}
+
+/// A body that a world has added to bodies of its own, such as a bullet.
+TEST_P(EveryMotion, ProbeRefusesABodyOfTheWorldThatIsNoneOfItsOwn) {
+  for_motions([&](Motion& motion, Random&) {
+    World world = World::create({.contact_tolerance = 1e-3, .start_time = begin_}).value();
+    for (std::uint32_t k = 0; k < motion.size(); ++k) {
+      BodyDefinition body = motion.definition(k, begin_);
+      body.radius = 0.001;
+      world.add(body).value();
+    }
+    const BodyId bullet = world.add({.radius = 0.1, .acceleration_limit = 5, .velocity = {0, 50, 0}}).value();
+    const auto error = refusal([&] { (void)world.advance(begin_ + 20.0, motion.probe()); });
+    ASSERT_TRUE(error);
+    EXPECT_EQ(error->code, ErrorCode::unknown_body);
+    EXPECT_EQ(error->body, bullet);
+    EXPECT_NE(error->message.find("body " + std::to_string(bodies)), std::string::npos) << error->message;
+  });
+}
+
+TEST_P(EveryMotion, ProbeRefusesIndicesThatTheWorldUsesAgain) {
+  for_motions([&](Motion& motion, Random&) {
+    const std::vector<BodyId> ids{{1, 1}};
+    std::vector<State> states(1);
+    EXPECT_EQ(refusal([&] { motion.probe()(ids, 5.0, states); })->code, ErrorCode::unknown_body);
+  });
+}
+
+TEST_P(EveryMotion, TeleportsAndRemovesWhatCanBeChanged) {
+  for_motions([&](Motion& motion, Random&) {
+    const auto before = motion.clone();
+    const State there{{1, 2, 3}, {4, 5, 6}};
+    if (!GetParam().can_be_kicked) {
+      EXPECT_EQ(motion.teleport(1, 5.0, there).error().code, ErrorCode::unsupported);
+      EXPECT_EQ(motion.remove(1).error().code, ErrorCode::unsupported);
+      EXPECT_EQ(motion.state(1, 6.0), before->state(1, 6.0));
+      return;
+    }
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(motion.teleport(1, 5.0, {{nan, 0, 0}, {}}).error().code, ErrorCode::not_finite);
+    EXPECT_EQ(motion.teleport(1, -1.0, there).error().code, ErrorCode::time_backwards);
+    EXPECT_EQ(motion.state(1, 6.0), before->state(1, 6.0));
+
+    motion.teleport(1, 5.0, there).value();
+    EXPECT_EQ(motion.state(1, 5.0), there);
+    EXPECT_EQ(motion.state(2, 6.0), before->state(2, 6.0));
+
+    motion.remove(1).value();
+    EXPECT_FALSE(motion.contains(1));
+    EXPECT_EQ(motion.size(), bodies);
+    EXPECT_EQ(refusal([&] { (void)motion.state(1, 6.0); })->code, ErrorCode::stale_body);
+    EXPECT_EQ(refusal([&] { (void)motion.definition(1, 6.0); })->code, ErrorCode::stale_body);
+    EXPECT_EQ(motion.set_velocity(1, 6.0, {}).error().code, ErrorCode::stale_body);
+    EXPECT_EQ(motion.remove(1).error().code, ErrorCode::stale_body);
+    EXPECT_EQ(motion.state(2, 6.0), before->state(2, 6.0));
   });
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kinesphere/motion/random_forces.hpp"
+#include "kinesphere/world.hpp"
 #include "motion/motion_properties.hpp"
 
 namespace kinesphere {
@@ -51,9 +52,10 @@ TEST(Frames, KickTurnsTheRestOfTheFrame) {
   EXPECT_EQ(frames.state(0, 0.75), (State{{1.5, 0, 1.5}, {-2, 0, 6}}));
   EXPECT_EQ(frames.latest()[0], (Vec3{1, 0, 3}));
   EXPECT_EQ(frames.latest()[1], (Vec3{5, 5, 5}));
-  EXPECT_FALSE(frames.set_velocity(0, 0.25, {})) << "before the last kick";
-  EXPECT_FALSE(frames.set_velocity(0, 1.25, {})) << "after the last frame";
-  EXPECT_FALSE(frames.set_velocity(0, 0.75, {std::numeric_limits<double>::quiet_NaN(), 0, 0}));
+  EXPECT_EQ(frames.set_velocity(0, 0.25, {}).error().code, ErrorCode::time_backwards) << "before the last";
+  EXPECT_EQ(frames.set_velocity(0, 1.25, {}).error().code, ErrorCode::out_of_range) << "after the last frame";
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(frames.set_velocity(0, 0.75, {nan, 0, 0}).error().code, ErrorCode::not_finite);
   EXPECT_TRUE(frames.set_velocity(0, 1.0, {0, 7, 0}));
   EXPECT_EQ(frames.state(0, 1.0), (State{{1, 0, 3}, {0, 7, 0}}));
   frames.push(std::vector<Vec3>{{1, 7, 3}, {5, 5, 5}}).value();
@@ -69,6 +71,49 @@ TEST(Frames, PromiseTheJumpsOfTheChord) {
   EXPECT_EQ(promise.acceleration_limit, 2.0);
   EXPECT_EQ(promise.velocity_error, 1.0 + 0.5);
   EXPECT_EQ(promise.position_error, 0.125);
+}
+
+TEST(Frames, RefuseQuestionsThatTheyCannotAnswer) {
+  Frames frames = Frames::create({.start = {{}, {}}, .acceleration_limits = {8, 8}, .interval = 1.0}).value();
+  frames.push(std::vector<Vec3>{{1, 0, 0}, {}}).value();
+  frames.push(std::vector<Vec3>{{2, 0, 0}, {}}).value();
+  const auto code = [&](std::uint32_t body, double time) {
+    try {
+      (void)frames.state(body, time);
+    } catch (const BadResult& refused) {
+      return refused.error().code;
+    }
+    return ErrorCode::diverged;
+  };
+  EXPECT_EQ(code(0, 1.5), ErrorCode::diverged) << "answered";
+  EXPECT_EQ(code(0, 0.5), ErrorCode::time_backwards);
+  EXPECT_EQ(code(0, std::nextafter(2.0, 3.0)), ErrorCode::out_of_range);
+  EXPECT_EQ(code(2, 1.5), ErrorCode::unknown_body);
+  EXPECT_EQ(code(0, std::numeric_limits<double>::quiet_NaN()), ErrorCode::not_finite);
+  EXPECT_EQ(frames.set_velocity(1'000'000, 1.5, {}).error().code, ErrorCode::unknown_body);
+  EXPECT_THROW((void)frames.definition(2, 1.5), BadResult);
+  EXPECT_THROW((void)frames.trajectory(2, 1.5, 2.0), BadResult);
+  EXPECT_THROW((void)frames.trajectory(0, 1.5, 2.5), BadResult);
+  EXPECT_THROW((void)frames.trajectory(0, 1.75, 1.5), BadResult);
+}
+
+/// A body that the world knows and the frames do not: a bullet.
+TEST(Frames, ProbeTellsOfABodyThatTheyDoNotHave) {
+  Frames frames = Frames::create({.start = {{0, 0, 0}, {3, 0, 0}}, .acceleration_limits = {1, 1}}).value();
+  World world = World::create({}).value();
+  for (std::uint32_t body = 0; body < 2; ++body) world.add(frames.definition(body, 0.0)).value();
+  const BodyId bullet =
+      world.add({.radius = 0.1, .acceleration_limit = 5, .position = {0, 2, 0}, .velocity = {0, 50, 0}})
+          .value();
+  const std::vector<Vec3> position = frames.latest();
+  for (int k = 0; k < 100; ++k) frames.push(position).value();
+  try {
+    (void)world.advance(frames.latest_time(), frames.probe());
+    FAIL() << "a body was made up";
+  } catch (const BadResult& refused) {
+    EXPECT_EQ(refused.error().code, ErrorCode::unknown_body);
+    EXPECT_EQ(refused.error().body, bullet);
+  }
 }
 
 TEST(Frames, TrajectoryAndClone) {

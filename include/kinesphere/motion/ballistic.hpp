@@ -24,6 +24,9 @@ class Ballistic final : public PiecewiseAcceleration {
   /// Errors: not_finite, naming the field and the body.
   static Result<Ballistic> create(const BallisticDefinition& definition);
 
+  /// Adds a body that flies on from `state` at time t, and returns its number. Errors: not_finite.
+  Result<std::uint32_t> add(double t, const State& state) { return add_body("add", t, state); }
+
   BodyDefinition definition(std::uint32_t body, double t) const override;
   std::unique_ptr<Motion> clone() const override;
 

@@ -2,45 +2,76 @@
 //
 // Bodies are named by their number in the motion: 0, 1, 2, ... . In a world to which the bodies were added in
 // the same order, and none removed, that is the index of their id, so `motion.probe()` can be handed to
-// World::advance.
+// World::advance. In any other world a BodyMap (body_map.hpp) tells which body is which.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string_view>
 
 #include "kinesphere/body.hpp"
 #include "kinesphere/motion/trajectory.hpp"
+#include "kinesphere/result.hpp"
 
 namespace kinesphere {
 
+/// Functions that return a Result name what was wrong in it. The others (definition, state, trajectory) throw
+/// BadResult, in every build type, and abort with its message where exceptions are switched off. Their errors
+/// are those of all functions that take a body and a time:
+///   unknown_body    the motion has never had a body of this number
+///   stale_body      it has been removed
+///   not_finite      the time is NaN or infinite
+///   time_backwards  the body is not known at this time any more: it lies before its last change, or (Frames)
+///                   before the last frame but one
+///   out_of_range    the body is not known at this time yet (Frames: after the last frame)
 class Motion {
  public:
   virtual ~Motion() = default;
 
+  /// All bodies have smaller numbers than this.
   virtual std::size_t size() const = 0;
+  /// Whether there is a body of this number: false when it has been removed.
+  virtual bool contains(std::uint32_t body) const { return body < size(); }
   /// The body's promise (limit, plan, errors) and its state at time t; the radius is left at its default.
   virtual BodyDefinition definition(std::uint32_t body, double t) const = 0;
-  /// State at time t, which may not lie before the body's last kick (or its start). The answer does not
+  /// State at time t, which may not lie before the body's last change (or its start). The answer does not
   /// depend on which times were asked for before. It may be cached, so threads need clones of their own.
   virtual State state(std::uint32_t body, double t) const = 0;
-  /// The exact motion during [begin, end], begin not before the last kick, as it will be if nobody kicks.
-  /// The first segment begins at or before `begin`, the last one ends at `end`. Its states are those that
-  /// state() gives, to the last bit.
+  /// The exact motion during [begin, end], begin not before the last change, as it will be if nobody changes
+  /// it. The first segment begins at or before `begin`, the last one ends at `end`. Its states are those that
+  /// state() gives, to the last bit. Also out_of_range: end before begin.
   virtual Trajectory trajectory(std::uint32_t body, double begin, double end) const = 0;
-  /// Gives the body a new velocity at time t. Returns false, and changes nothing, when t lies before its last
-  /// kick, when a number is not finite, and for motions that cannot be changed (recordings).
-  virtual bool set_velocity(std::uint32_t body, double t, const Vec3& velocity) = 0;
-  /// An independent copy, kicks included.
+
+  // Changes. On an error everything stays as it was. Errors of all: as above; unsupported for motions that
+  // cannot be changed in this way, such as recordings.
+
+  /// Gives the body a new velocity at time t. Errors: not_finite.
+  virtual Result<void> set_velocity(std::uint32_t body, double t, const Vec3& velocity) = 0;
+  /// Puts the body into another state at time t. Errors: not_finite.
+  virtual Result<void> teleport(std::uint32_t body, double t, const State& state);
+  /// From now on there is no body of this number. The next body that is added takes the number again.
+  virtual Result<void> remove(std::uint32_t body);
+  /// An independent copy, changes included.
   virtual std::unique_ptr<Motion> clone() const = 0;
 
-  /// A callable for World::advance, for worlds whose id.index is the number in this motion.
+  /// A callable for World::advance, for worlds whose id.index is the number in this motion. It throws
+  /// BadResult, which World::advance lets pass: unknown_body when asked about a body that this motion does
+  /// not have, or that was added to the world after another one had been removed (so that its index has been
+  /// used before and need not be the number here); and as state().
   auto probe() const {
     return [this](std::span<const BodyId> ids, double time, std::span<State> states) {
-      for (std::size_t k = 0; k < ids.size(); ++k) states[k] = state(ids[k].index, time);
+      const std::size_t bodies = size();
+      for (std::size_t k = 0; k < ids.size(); ++k) {
+        require_number(ids[k], bodies);
+        states[k] = state(ids[k].index, time);
+      }
     };
   }
+
+ private:
+  static void require_number(BodyId id, std::size_t size);
 };
 
 }  // namespace kinesphere

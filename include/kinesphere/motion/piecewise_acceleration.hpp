@@ -4,13 +4,15 @@
 //
 //   class Homing : public PiecewiseAcceleration {
 //     Vec3 acceleration(std::uint32_t body, std::int64_t k, const State& state) const override;
-//     ... promise(), clone()
+//     ... definition(), clone()
 //   };
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "kinesphere/motion/motion.hpp"
@@ -20,11 +22,14 @@ namespace kinesphere {
 class PiecewiseAcceleration : public Motion {
  public:
   std::size_t size() const final { return courses_.size(); }
+  bool contains(std::uint32_t body) const final;
   /// Cost: O(1) when t has not gone back since the last call, else one step for every interval since the
-  /// body's last kick.
+  /// body's last change.
   State state(std::uint32_t body, double t) const final;
   Trajectory trajectory(std::uint32_t body, double begin, double end) const final;
-  bool set_velocity(std::uint32_t body, double t, const Vec3& velocity) final;
+  Result<void> set_velocity(std::uint32_t body, double t, const Vec3& velocity) final;
+  Result<void> teleport(std::uint32_t body, double t, const State& state) final;
+  Result<void> remove(std::uint32_t body) final;
 
  protected:
   /// States at start_time by body. Interval k lasts from k * interval to (k + 1) * interval; with an infinite
@@ -33,6 +38,17 @@ class PiecewiseAcceleration : public Motion {
   PiecewiseAcceleration(const std::vector<State>& start, double start_time,
                         double interval = std::numeric_limits<double>::infinity());
 
+  /// A body that moves on from `state` at time t. Returns its number: that of a removed body if there is one,
+  /// else size() as it was. What a derived class keeps by body is to be set then. `call` begins the message
+  /// of an error: not_finite.
+  Result<std::uint32_t> add_body(std::string_view call, double t, const State& state);
+  /// Sets what a derived class keeps of a body that add_body() has returned.
+  template <class Value>
+  static void keep_of(std::vector<Value>& values, std::uint32_t body, Value value) {
+    if (body == values.size()) values.emplace_back();
+    values[body] = std::move(value);
+  }
+
   /// The acceleration during what is left of interval k, for a body in `state` at the beginning of that: at
   /// the beginning of the interval, or later if the body was kicked in it. Must depend on nothing but the
   /// arguments and what changes only together with restart().
@@ -40,17 +56,19 @@ class PiecewiseAcceleration : public Motion {
 
   /// Forgets the past: from t on the body moves on from `state`.
   void restart(std::uint32_t body, double t, const State& state);
-  /// When the body was last kicked or restarted.
+  /// When the body was last changed or restarted. Needs a body that is there.
   double last_change(std::uint32_t body) const { return courses_[body].since; }
   /// A promise with the state at t, and no errors.
   BodyDefinition definition_with(std::uint32_t body, double t, double acceleration_limit,
                                  const Vec3& planned_acceleration = {}) const;
+  /// The same, with limits by body: they are not read before the body is known to be there.
+  BodyDefinition definition_with(std::uint32_t body, double t, const std::vector<double>& limits) const;
 
  private:
   /// All answers are found by walking from piece to piece, from the last kick on, so they are the same
   /// whichever piece is remembered.
   struct Course {
-    double since;  ///< time of the last kick
+    double since;  ///< time of the last change; infinite once the body has been removed
     State state;   ///< then
     Segment piece;
   };
@@ -59,9 +77,14 @@ class PiecewiseAcceleration : public Motion {
   Segment piece_from(std::uint32_t body, double t, const State& state) const;
   Segment piece_after(std::uint32_t body, const Segment& piece) const;
   std::int64_t interval_number(double t) const;
+  const Segment& known_piece_at(std::uint32_t body, double t, std::string_view call,
+                                std::string_view argument) const;
+  /// Whether the body can be changed at time t.
+  Result<void> check_change(std::string_view call, std::uint32_t body, double t) const;
 
   double interval_;
   mutable std::vector<Course> courses_;
+  std::vector<std::uint32_t> free_;  ///< numbers of removed bodies
 };
 
 }  // namespace kinesphere

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "kinesphere/motion/motion.hpp"
@@ -27,12 +28,13 @@ class PiecewiseMotion : public Motion {
   /// Cost: O(log segments).
   State state(std::uint32_t body, double t) const final;
   Trajectory trajectory(std::uint32_t body, double begin, double end) const final;
-  /// Returns false.
-  bool set_velocity(std::uint32_t body, double t, const Vec3& velocity) final;
+  /// Errors: unsupported.
+  Result<void> set_velocity(std::uint32_t body, double t, const Vec3& velocity) final;
   std::unique_ptr<Motion> clone() const override;
 
-  double first_time(std::uint32_t body) const { return trajectories_[body].front().begin; }
-  double last_time(std::uint32_t body) const { return trajectories_[body].back().begin; }
+  /// Throws BadResult as state() does.
+  double first_time(std::uint32_t body) const;
+  double last_time(std::uint32_t body) const;
 
  protected:
   /// Takes trajectories that create() would accept.
@@ -40,6 +42,8 @@ class PiecewiseMotion : public Motion {
 
  private:
   Segment lead_in(std::uint32_t body, double t) const;
+  const Trajectory& known_trajectory(std::uint32_t body, double t, std::string_view call,
+                                     std::string_view argument) const;
 
   std::vector<Trajectory> trajectories_;  ///< each with an endless segment added, for coasting
   std::vector<double> limits_;

@@ -28,6 +28,10 @@ class RandomForces final : public PiecewiseAcceleration {
   /// Errors: not_finite or out_of_range, naming the field and the body.
   static Result<RandomForces> create(RandomForcesDefinition definition);
 
+  /// Adds a body that moves on from `state` at time t, and returns its number: also the one of the forces
+  /// that are drawn for it. Errors: not_finite; out_of_range for a negative limit.
+  Result<std::uint32_t> add(double t, const State& state, double acceleration_limit);
+
   BodyDefinition definition(std::uint32_t body, double t) const override;
   std::unique_ptr<Motion> clone() const override;
 

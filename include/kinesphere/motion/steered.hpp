@@ -29,8 +29,13 @@ class Steered final : public PiecewiseAcceleration {
   /// Errors: not_finite or out_of_range, naming the field and the body.
   static Result<Steered> create(SteeredDefinition definition);
 
-  /// Sets the acceleration of a body from t on. Errors: unknown_body; not_finite; out_of_range when it is
-  /// longer than the body's limit; time_backwards when t lies before the last steer or kick of the body.
+  /// Adds a body that moves on from `state` at time t, at first without acceleration, and returns its number.
+  /// Errors: not_finite; out_of_range for a negative limit.
+  Result<std::uint32_t> add(double t, const State& state, double acceleration_limit);
+
+  /// Sets the acceleration of a body from t on. Errors: unknown_body; stale_body; not_finite; out_of_range
+  /// when it is longer than the body's limit; time_backwards when t lies before the last steer or kick of the
+  /// body.
   Result<void> steer(std::uint32_t body, double t, const Vec3& acceleration);
 
   /// The limit is a relative 1e-12 more than that of the definition, so that an acceleration that was scaled

@@ -48,6 +48,10 @@ class VelocityField final : public PiecewiseAcceleration {
   /// Errors: not_finite or out_of_range, naming the field of the definition and the body.
   static Result<VelocityField> create(VelocityFieldDefinition definition);
 
+  /// Adds a body that moves on from `state` at time t, and returns its number. Errors: not_finite (also where
+  /// the field is not finite there); out_of_range for a negative limit.
+  Result<std::uint32_t> add(double t, const State& state, double acceleration_limit);
+
   BodyDefinition definition(std::uint32_t body, double t) const override;
   std::unique_ptr<Motion> clone() const override;
 

@@ -154,8 +154,8 @@ class StepRecorder {
         scene_.resting_speed > 0.0
             ? settle(event, mass(event.first.index), second_mass, scene_.restitution, scene_.resting_speed)
             : bounce(event, mass(event.first.index), second_mass, scene_.restitution);
-    motion_->set_velocity(event.first.index, event.time, after.first_velocity);
-    if (pair) motion_->set_velocity(event.second.index, event.time, after.second_velocity);
+    require(motion_->set_velocity(event.first.index, event.time, after.first_velocity));
+    if (pair) require(motion_->set_velocity(event.second.index, event.time, after.second_velocity));
   }
 
   double mass(std::uint32_t body) const {

@@ -11,6 +11,10 @@
 namespace kinesphere::program {
 namespace {
 
+Error not_changeable() {
+  return {ErrorCode::unsupported, "body", no_body, "set_velocity: a transcript cannot be changed"};
+}
+
 /// Passes every question on to a motion, and writes the answer down.
 class WrittenMotion final : public Motion {
  public:
@@ -27,7 +31,7 @@ class WrittenMotion final : public Motion {
   Trajectory trajectory(std::uint32_t body, double begin, double end) const override {
     return motion_.trajectory(body, begin, end);
   }
-  bool set_velocity(std::uint32_t, double, const Vec3&) override { return false; }
+  Result<void> set_velocity(std::uint32_t, double, const Vec3&) override { return not_changeable(); }
   std::unique_ptr<Motion> clone() const override { return std::make_unique<WrittenMotion>(*this); }
 
  private:
@@ -56,7 +60,7 @@ class PlayedMotion final : public Motion {
     return answer;
   }
   Trajectory trajectory(std::uint32_t, double, double) const override { return {}; }
-  bool set_velocity(std::uint32_t, double, const Vec3&) override { return false; }
+  Result<void> set_velocity(std::uint32_t, double, const Vec3&) override { return not_changeable(); }
   std::unique_ptr<Motion> clone() const override { return std::make_unique<PlayedMotion>(*this); }
 
  private:

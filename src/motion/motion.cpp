@@ -1,0 +1,32 @@
+// What all motions share: refusing what only some can do, and probes that notice a world of other bodies.
+#include "kinesphere/motion/motion.hpp"
+
+#include <string>
+
+#include "input/input_check.hpp"
+#include "motion/checks.hpp"
+
+namespace kinesphere {
+namespace {
+
+[[noreturn, gnu::cold]] void refuse_probe(BodyId id, std::size_t size) {
+  detail::bad_result({ErrorCode::unknown_body, "ids", id,
+                      "Motion::probe: ids: " + text_of(id) + " of the world is none of the " + text_of(size) +
+                          " bodies that this motion began with: a BodyMap" +
+                          " (kinesphere/body_map.hpp) tells which body is which"});
+}
+
+}  // namespace
+
+Result<void> Motion::teleport(std::uint32_t body, double, const State&) {
+  return cannot_change("teleport", *this, body, "put elsewhere");
+}
+
+Result<void> Motion::remove(std::uint32_t body) { return cannot_change("remove", *this, body, "removed"); }
+
+void Motion::require_number(BodyId id, std::size_t size) {
+  if (id.generation != 0 || id.index >= size) [[unlikely]]
+    refuse_probe(id, size);
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,126 @@
+// Which body of the world is which body of which motion.
+#include "kinesphere/body_map.hpp"
+
+#include <string>
+
+#include "input/input_check.hpp"
+#include "motion/checks.hpp"
+
+namespace kinesphere {
+namespace {
+
+Error unknown(std::string_view call, BodyId body) {
+  return {ErrorCode::unknown_body, "body", body,
+          "BodyMap::" + std::string(call) + ": body: " + text_of(body) +
+              " of the world was not added through this map, or has been removed from it"};
+}
+
+/// What the motion says of its body, all else as in `like`.
+Result<BodyDefinition> definition_of(const Motion& motion, std::uint32_t number, double time,
+                                     BodyDefinition like) {
+  if (const auto error = wrong_body("BodyMap::add", motion, number)) return *error;
+  const BodyDefinition moved = motion.definition(number, time);
+  like = with_motion_limits(like, motion_limits_of(moved));
+  like.position = moved.position;
+  like.velocity = moved.velocity;
+  return like;
+}
+
+}  // namespace
+
+void BodyMap::connect(BodyId body, Motion& motion, std::uint32_t number) {
+  if (body.index >= entries_.size()) entries_.resize(std::size_t{body.index} + 1);
+  entries_[body.index] = {&motion, number, body.generation};
+}
+
+Result<BodyId> BodyMap::add(World& world, Motion& motion, std::uint32_t number, const BodyDefinition& like) {
+  const auto definition = definition_of(motion, number, world.time(), like);
+  if (!definition) return definition.error();
+  auto id = world.add(*definition);
+  if (id) connect(*id, motion, number);
+  return id;
+}
+
+Result<std::vector<BodyId>> BodyMap::add_all(World& world, Motion& motion, const BodyDefinition& like) {
+  return add_all(world, motion, std::vector<double>(motion.size(), like.radius), like);
+}
+
+Result<std::vector<BodyId>> BodyMap::add_all(World& world, Motion& motion, std::span<const double> radii,
+                                             const BodyDefinition& like) {
+  InputCheck check("BodyMap::add_all");
+  check.require(radii.size() == motion.size(), ErrorCode::out_of_range, {"radii"},
+                "must have one entry per body,", motion.size(), radii.size());
+  if (check.error()) return *check.error();
+  std::vector<BodyDefinition> definitions;
+  std::vector<std::uint32_t> numbers;
+  for (std::uint32_t number = 0; number < motion.size(); ++number) {
+    if (!motion.contains(number)) continue;
+    auto definition = definition_of(motion, number, world.time(), like);
+    if (!definition) return definition.error();
+    definition->radius = radii[number];
+    definitions.push_back(*definition);
+    numbers.push_back(number);
+  }
+  auto ids = world.add_all(definitions);
+  if (!ids) return ids;
+  for (std::size_t k = 0; k < numbers.size(); ++k) connect((*ids)[k], motion, numbers[k]);
+  return ids;
+}
+
+Result<void> BodyMap::set_velocity(World& world, BodyId body, const Vec3& velocity) {
+  const Entry* const found = entry(body);
+  if (found == nullptr) return unknown("set_velocity", body);
+  if (auto turned = found->motion->set_velocity(found->number, world.time(), velocity); !turned)
+    return turned;
+  return world.set_velocity(body, velocity);
+}
+
+Result<void> BodyMap::teleport(World& world, BodyId body, const State& state) {
+  const Entry* const found = entry(body);
+  if (found == nullptr) return unknown("teleport", body);
+  if (auto moved = found->motion->teleport(found->number, world.time(), state); !moved) return moved;
+  return world.teleport(body, state);
+}
+
+Result<void> BodyMap::remove(World& world, BodyId body) {
+  const Entry* const found = entry(body);
+  if (found == nullptr) return unknown("remove", body);
+  auto removed = found->motion->remove(found->number);
+  if (!removed && removed.error().code != ErrorCode::unsupported) return removed;
+  entries_[body.index] = {};
+  return world.remove(body);
+}
+
+Result<void> BodyMap::tell_violations(World& world, const Frames& frames) const {
+  InputCheck check("BodyMap::tell_violations");
+  check.require(world.time() == frames.previous_time(), ErrorCode::out_of_range, {"world"},
+                "must have its time at that of the last frame but one,", frames.previous_time(),
+                world.time());
+  if (check.error()) return check.result();
+  if (frames.violations().empty()) return {};
+  std::vector<BodyId> ids(frames.size(), no_body);
+  for (std::uint32_t index = 0; index < entries_.size(); ++index) {
+    const Entry& known = entries_[index];
+    if (known.motion == &frames) ids[known.number] = {index, known.generation};
+  }
+  for (const FrameViolation& turn : frames.violations()) {
+    if (ids[turn.body] == no_body) continue;
+    if (auto told = world.set_velocity(ids[turn.body], turn.velocity); !told) return told;
+  }
+  return {};
+}
+
+std::optional<MovedBody> BodyMap::find(BodyId body) const {
+  const Entry* const found = entry(body);
+  if (found == nullptr) return std::nullopt;
+  return MovedBody{found->motion, found->number};
+}
+
+State BodyMap::state(BodyId body, double time) const {
+  const Entry* const found = entry(body);
+  if (found == nullptr) [[unlikely]]
+    detail::bad_result(unknown("state", body));
+  return found->motion->state(found->number, time);
+}
+
+}  // namespace kinesphere

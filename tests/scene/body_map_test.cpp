@@ -1,0 +1,133 @@
+// Worlds whose bodies belong to several motions.
+#include "kinesphere/body_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "kinesphere/motion/ballistic.hpp"
+#include "kinesphere/motion/recorded_tracks.hpp"
+#include "kinesphere/motion/steered.hpp"
+#include "support/expect_error.hpp"
+
+namespace kinesphere {
+namespace {
+
+Ballistic rows(std::size_t bodies, double y) {
+  BallisticDefinition definition;
+  for (std::size_t k = 0; k < bodies; ++k)
+    definition.start.push_back({{10.0 * static_cast<double>(k), y, 0}, {0, 1, 0}});
+  return Ballistic::create(definition).value();
+}
+
+TEST(BodyMap, AsksEachBodysOwnMotion) {
+  Ballistic balls = rows(3, 0), others = rows(2, 100);
+  World world = World::create({}).value();
+  BodyMap map;
+  const auto first = map.add_all(world, balls, {.radius = 0.5, .user_data = 7}).value();
+  const auto second = map.add_all(world, others, std::vector{1.0, 2.0}).value();
+  ASSERT_EQ(first.size(), 3u);
+  ASSERT_EQ(second.size(), 2u);
+  EXPECT_EQ(world.body(first[1])->definition.radius, 0.5);
+  EXPECT_EQ(world.user_data(first[2]).value(), 7u);
+  EXPECT_EQ(world.body(second[1])->definition.radius, 2.0);
+  EXPECT_EQ(map.find(second[1])->motion, &others);
+  EXPECT_EQ(map.find(second[1])->number, 1u);
+  EXPECT_FALSE(map.find({5, 0}));
+  EXPECT_FALSE(map.find({1, 1}));
+  EXPECT_EQ(map.state(second[1], 2.0), others.state(1, 2.0));
+  EXPECT_FALSE(world.advance(50.0, map.probe()).value());
+}
+
+TEST(BodyMap, FollowsBulletsThatComeAndGo) {
+  Ballistic targets = rows(4, 0);
+  Ballistic bullets = Ballistic::create({}).value();
+  World world = World::create({.contact_tolerance = 1e-3}).value();
+  BodyMap map;
+  const auto ids = map.add_all(world, targets).value();
+  // A body that no motion moves any more: indices and numbers part ways.
+  map.remove(world, ids[0]).value();
+  EXPECT_FALSE(targets.contains(0));
+  int hits = 0;
+  for (int shot = 0; shot < 20; ++shot) {
+    const double now = world.time();
+    const double x = 10.0 * (1 + shot % 3);
+    const std::uint32_t number = bullets.add(now, {{x, now, 50}, {0, 1, -100}}).value();
+    EXPECT_EQ(number, 0u) << "numbers are used again";
+    const BodyId bullet = map.add(world, bullets, number, {.radius = 0.01}).value();
+    while (const auto event = world.advance(now + 1.0, map.probe()).value()) {
+      if (event->kind != EventKind::contact_begin) continue;
+      EXPECT_EQ(event->second == bullet ? event->first : event->second, ids[1 + shot % 3]);
+      EXPECT_NEAR(event->time, now + 0.49, 0.0002);
+      ++hits;
+      map.remove(world, bullet).value();
+      EXPECT_FALSE(map.find(bullet));
+    }
+  }
+  EXPECT_EQ(hits, 20);
+}
+
+TEST(BodyMap, ChangesTheMotionAndTheWorld) {
+  Steered ships = Steered::create({.start = {{}, {{20, 0, 0}, {}}}, .acceleration_limits = {1, 1}}).value();
+  World world = World::create({}).value();
+  BodyMap map;
+  const auto ids = map.add_all(world, ships).value();
+  EXPECT_FALSE(world.advance(1.0, map.probe()).value());
+  map.set_velocity(world, ids[0], {3, 0, 0}).value();
+  EXPECT_EQ(ships.state(0, 1.0).velocity, (Vec3{3, 0, 0}));
+  map.teleport(world, ids[1], {{10, 0, 0}, {}}).value();
+  EXPECT_EQ(ships.state(1, 1.0), (State{{10, 0, 0}, {}}));
+  const auto event = world.advance(10.0, map.probe()).value();
+  ASSERT_TRUE(event);
+  EXPECT_EQ(event->kind, EventKind::contact_begin);
+  EXPECT_NEAR(event->time, 1.0 + 8.0 / 3.0, 1e-5);
+}
+
+TEST(BodyMap, SaysWhatIsWrong) {
+  Ballistic balls = rows(2, 0);
+  RecordedTracks tracks =
+      RecordedTracks::create({{{0, {0, 50, 0}}, {1, {0, 51, 0}}, {2, {0, 52, 0}}}}).value();
+  World world = World::create({}).value();
+  BodyMap map;
+  const BodyId stranger = world.add({.acceleration_limit = 1, .position = {0, 0, 30}}).value();
+  const BodyId recorded = map.add(world, tracks, 0).value();
+  expect_error(map.set_velocity(world, stranger, {}), ErrorCode::unknown_body, "body",
+               "BodyMap::set_velocity: ", stranger);
+  expect_error(map.teleport(world, stranger, {}), ErrorCode::unknown_body, "body",
+               "BodyMap::teleport: ", stranger);
+  expect_error(map.remove(world, stranger), ErrorCode::unknown_body, "body", "BodyMap::remove: ", stranger);
+  expect_error(map.set_velocity(world, recorded, {}), ErrorCode::unsupported, "body",
+               "set_velocity: ", BodyId{0, 0});
+  expect_error(map.add(world, balls, 2), ErrorCode::unknown_body, "body", "BodyMap::add: ", BodyId{2, 0});
+  expect_error(map.add_all(world, balls, std::vector{1.0}), ErrorCode::out_of_range, "radii",
+               "BodyMap::add_all: ");
+  expect_error(map.add(world, balls, 0, {.radius = -1}), ErrorCode::out_of_range, "radius", "add: ");
+  EXPECT_EQ(world.size(), 2u);
+  EXPECT_THROW((void)map.state(stranger, 0.0), BadResult);
+  EXPECT_THROW((void)world.advance(1000.0, map.probe()), BadResult);
+  map.remove(world, recorded).value();
+  EXPECT_TRUE(tracks.contains(0)) << "a recording keeps it";
+  EXPECT_FALSE(world.contains(recorded));
+}
+
+TEST(BodyMap, TellsViolationsAtTheirFrameOnly) {
+  Frames frames = Frames::create({.start = {{}}, .acceleration_limits = {1.0}, .interval = 1.0}).value();
+  World world = World::create({}).value();
+  BodyMap map;
+  map.add_all(world, frames).value();
+  frames.push(std::vector<Vec3>{{5, 0, 0}}).value();
+  ASSERT_EQ(frames.violations().size(), 1u);
+  map.tell_violations(world, frames).value();
+  EXPECT_FALSE(world.advance(frames.latest_time(), map.probe()).value()) << "no violation";
+  frames.push(std::vector<Vec3>{{10, 0, 0}}).value();
+  map.tell_violations(world, frames).value();
+  EXPECT_FALSE(world.advance(frames.latest_time(), map.probe()).value());
+  frames.push(std::vector<Vec3>{{10, 0, 0}}).value();
+  EXPECT_FALSE(world.advance(2.5, map.probe()).value());
+  expect_error(map.tell_violations(world, frames), ErrorCode::out_of_range, "world",
+               "BodyMap::tell_violations: ");
+}
+
+}  // namespace
+}  // namespace kinesphere
