@@ -40,9 +40,8 @@ struct Companion {
 };
 
 /// How long a companion stays on one side of an end that is `room` away; 0 where it had better stand still,
-/// because it is as good as there. Lengths are relative to `size`.
-double stay(double room, double speed, double acceleration, double size) {
-  const double near = 0x1p-40 * size;
+/// because it is as good as there: not much farther than `near`, which covers rounding.
+double stay(double room, double speed, double acceleration, double near) {
   return room > 2.0 * near ? rounding::first_crossing(room - near, speed, acceleration) : 0.0;
 }
 
@@ -56,8 +55,9 @@ Companion companion(const Box& box, const Bound& bound, double now) {
     // A number that is none spoils the path, and with it the certificate.
     at.path.position[axis] =
         std::isnan(size) ? size : std::clamp(centre[axis], box.lower[axis], box.upper[axis]);
-    const double stays = std::min(stay(centre[axis] - box.lower[axis], velocity[axis], plan[axis], size),
-                                  stay(box.upper[axis] - centre[axis], -velocity[axis], -plan[axis], size));
+    const double near = 0x1p-40 * size;
+    const double stays = std::min(stay(centre[axis] - box.lower[axis], velocity[axis], plan[axis], near),
+                                  stay(box.upper[axis] - centre[axis], -velocity[axis], -plan[axis], near));
     // At an end of the box it stands still on this axis.
     if (stays == 0.0) continue;
     at.path.velocity[axis] = velocity[axis];
@@ -67,45 +67,46 @@ Companion companion(const Box& box, const Bound& bound, double now) {
   return at;
 }
 
-std::optional<Companion> companion_on_face(const Triangle& triangle, const Bound& bound, double now) {
-  const TriangleFrame frame(triangle);
-  const SideCoordinates at = frame.coordinates(bound.centre_at(now) - frame.origin);
-  if (!lies_inside(at)) return std::nullopt;
-  const SideCoordinates velocity = frame.coordinates(bound.velocity_at(now));
-  const SideCoordinates plan = frame.coordinates(bound.planned_acceleration);
-  const auto sum = [](const SideCoordinates& c) { return c.along_b + c.along_c; };
-  const auto error = [](const SideCoordinates& c) {
-    return margin * (std::abs(c.along_b) + std::abs(c.along_c));
-  };
-  const double stays =
-      std::min({stay(at.along_b, velocity.along_b, plan.along_b, 1.0),
-                stay(at.along_c, velocity.along_c, plan.along_c, 1.0),
-                stay(1.0 - sum(at), -sum(velocity) - error(velocity), -sum(plan) - error(plan), 1.0)});
+/// Of the length of what a companion goes along: more than rounding does to where it is on the way.
+constexpr double near_an_end = 0x1p-45;
+
+std::optional<Companion> companion_on_face(const TriangleFrame& frame, const Bound& bound, double now) {
+  const PlaneVector place = frame.in_plane(bound.centre_at(now) - frame.origin());
+  if (!frame.contains(place)) return std::nullopt;
+  const PlaneVector velocity = frame.in_plane(bound.velocity_at(now));
+  const PlaneVector plan = frame.in_plane(bound.planned_acceleration);
+  double stays = infinity;
+  for (const TriangleSide& side : frame.sides())
+    stays = std::min(stays, stay(-side.beyond(place), -side.outward(velocity), -side.outward(plan),
+                                 near_an_end * frame.length()));
   if (stays == 0.0) return std::nullopt;
   return Companion{.path = {.time = now,
-                            .position = frame.origin + frame.vector(at),
+                            .position = frame.origin() + frame.vector(place),
                             .velocity = frame.vector(velocity),
                             .planned_acceleration = frame.vector(plan)},
                    .stays = stays};
 }
 
-Companion companion_on_side(const Triangle& triangle, const Bound& bound, double now) {
-  const SidePoint at = nearest_on_sides(triangle, bound.centre_at(now));
-  Companion found{.path = {.time = now, .position = at.place()}};
-  const double square = norm_squared(at.side);
-  const double speed = dot(bound.velocity_at(now), at.side) / square;
-  const double plan = dot(bound.planned_acceleration, at.side) / square;
-  const double stays = std::min(stay(at.part, speed, plan, 1.0), stay(1.0 - at.part, -speed, -plan, 1.0));
+Companion companion_on_side(const TriangleFrame& frame, const Bound& bound, double now) {
+  const SidePoint at = nearest_on_sides(frame, frame.in_plane(bound.centre_at(now) - frame.origin()));
+  Companion found{.path = {.time = now, .position = at.place(frame)}};
+  const Vec3 side = frame.corner(at.side + 1) - frame.corner(at.side);
+  const double square = norm_squared(side);
+  const double speed = dot(bound.velocity_at(now), side) / square;
+  const double plan = dot(bound.planned_acceleration, side) / square;
+  const double stays =
+      std::min(stay(at.part, speed, plan, near_an_end), stay(1.0 - at.part, -speed, -plan, near_an_end));
   if (stays == 0.0) return found;
-  found.path.velocity = at.side * speed;
-  found.path.planned_acceleration = at.side * plan;
+  found.path.velocity = side * speed;
+  found.path.planned_acceleration = side * plan;
   found.stays = stays;
   return found;
 }
 
 Companion companion(const Triangle& triangle, const Bound& bound, double now) {
-  const auto on_face = companion_on_face(triangle, bound, now);
-  Companion found = on_face ? *on_face : companion_on_side(triangle, bound, now);
+  const TriangleFrame frame(triangle);
+  const auto on_face = companion_on_face(frame, bound, now);
+  Companion found = on_face ? *on_face : companion_on_side(frame, bound, now);
   // As long as it stays, each term of its path is at most about eight sides long.
   found.wrong = 4.0 * margin * size_of(triangle);
   return found;
@@ -155,11 +156,13 @@ double earliest_meeting(const Bound& bound, const Triangle& shape, double from, 
 
 double earliest_separation(const Bound& bound, const Box& shape, double from, double until, double distance) {
   const double depth = -(bound.radius + distance);
-  if (!(depth >= 0.0)) return separation(bound, shape, from, until, distance);
-  // As long as the centre is so deep inside.
+  if (std::isnan(depth)) return from;
+  // As long as the centre, wherever in its bound, is so deep inside. Without this, a bound that has grown by
+  // more than the distance would certify nothing, however deep in the box it is.
   Bound inside = bound;
-  inside.radius = depth + margin * (bound.radius + std::abs(distance));
-  return earliest_exit(inside, shape, from, until);
+  inside.radius = depth > 0.0 ? depth + margin * (bound.radius + std::abs(distance)) : 0.0;
+  const double out = earliest_exit(inside, shape, from, until);
+  return depth < 0.0 && out < infinity ? separation(bound, shape, out, until, distance) : out;
 }
 
 double earliest_separation(const Bound& bound, const Triangle& shape, double from, double until,
@@ -176,16 +179,11 @@ GapLimits gap_limits(const Bound& bound, const Box& shape, double t) {
 
 GapLimits gap_limits(const Bound& bound, const Triangle& shape, double t) {
   const Reported reported(bound, t);
-  const SurfacePoint nearest = nearest_point(shape, reported.centre);
-  // The nearest point is one of the shape, but on a thin one perhaps not quite the nearest; the supporting
-  // plane tells how far it is at least, but not well from very near. Each is certain.
-  const HalfSpace plane = supporting_plane(shape, nearest.normal);
-  const double thin = thickness(shape);
+  const double gap = nearest_point(shape, reported.centre).distance - bound.radius;
   const double wrong = margin * (reported.size + size_of(shape));
-  const double least = std::max({0.0, dot(plane.normal, reported.centre) - plane.offset,
-                                 nearest.distance - 4.0 * wrong / (thin * thin)});
-  return {.lower = least - bound.radius - reported.growth - wrong,
-          .upper = nearest.distance - bound.radius + reported.growth + wrong};
+  // There is no inside.
+  return {.lower = std::max(gap - wrong, -bound.radius) - reported.growth - wrong,
+          .upper = gap + reported.growth + wrong};
 }
 
 }  // namespace kinesphere

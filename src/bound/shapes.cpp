@@ -84,17 +84,15 @@ SurfacePoint nearest_point(const Box& shape, const Vec3& from) {
 
 SurfacePoint nearest_point(const Triangle& shape, const Vec3& from) {
   const TriangleFrame frame(shape);
-  const Vec3 offset = from - frame.origin;
-  const Vec3 plane_normal = frame.across / norm(frame.across);
-  const Vec3 normal = dot(offset, frame.across) < 0.0 ? -plane_normal : plane_normal;
-  if (const SideCoordinates at = frame.coordinates(offset); lies_inside(at)) {
-    const Vec3 point = frame.origin + frame.vector(at);
-    return {point, normal, norm(from - point)};
-  }
-  const Vec3 point = nearest_on_sides(shape, from).place();
-  const Vec3 away = from - point;
+  const Vec3 offset = from - frame.origin();
+  const double height = frame.above_plane(offset);
+  const Vec3 plane_normal = height < 0.0 ? -frame.normal() : frame.normal();
+  const PlaneVector place = frame.in_plane(offset);
+  if (frame.contains(place)) return {from - frame.normal() * height, plane_normal, std::abs(height)};
+  const SidePoint nearest = nearest_on_sides(frame, place);
+  const Vec3 away = frame.vector(nearest.away) + frame.normal() * height;
   const double distance = norm(away);
-  return {point, distance > least_length ? away / distance : normal, distance};
+  return {nearest.place(frame), distance > least_length ? away / distance : plane_normal, distance};
 }
 
 Box bounding_box(const Shape& shape, double limit) {

@@ -24,20 +24,14 @@ double gap_along(const A& a, const B& b, const Vec3& direction) {
 /// of its plane, and both over its inside.
 bool certainly_crosses(const Triangle& triangle, const Vec3& from, const Vec3& to) {
   const TriangleFrame frame(triangle);
-  const double thick = thickness(triangle);
-  const double size = size_of(triangle) + norm_one(from) + norm_one(to);
-  const double wrong = 16.0 * margin * size / (thick * thick);
-  const double wrong_part = wrong / std::sqrt(norm_squared(frame.across) / longest_side_squared(triangle));
+  const double wrong = margin * (size_of(triangle) + norm_one(from) + norm_one(to));
   const auto well_inside = [&](const Vec3& place) {
-    const SideCoordinates at = frame.coordinates(place - frame.origin);
-    return at.along_b > wrong_part && at.along_c > wrong_part && at.along_b + at.along_c < 1.0 - wrong_part;
+    return frame.beyond(frame.in_plane(place - frame.origin())) < -wrong;
   };
-  const auto height = [&](const Vec3& place) {
-    return dot(place - frame.origin, frame.across) / norm(frame.across);
-  };
-  const double above = std::max(height(from), height(to));
-  const double below = std::min(height(from), height(to));
-  return above > wrong && below < -wrong && well_inside(from) && well_inside(to);
+  const double height_from = frame.above_plane(from - frame.origin());
+  const double height_to = frame.above_plane(to - frame.origin());
+  return std::max(height_from, height_to) > wrong && std::min(height_from, height_to) < -wrong &&
+         well_inside(from) && well_inside(to);
 }
 
 template <class Solid>
@@ -84,7 +78,7 @@ GapLimits gap_limits(const Box& region, const Triangle& shape) {
     const double length = norm(direction);
     if (length > 0x1p-500) gap = std::max(gap, gap_along(region, shape, direction / length));
   };
-  look_along(cross(sides[0], sides[1]));
+  look_along(TriangleFrame(shape).normal());
   for (int axis = 0; axis < 3; ++axis) {
     Vec3 unit;
     unit[axis] = 1.0;

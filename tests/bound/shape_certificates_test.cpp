@@ -172,8 +172,7 @@ TEST_P(ShapeCertificates, separation_from_a_triangle_is_never_late) {
 }
 TEST_P(ShapeCertificates, gaps_enclose_the_truth_closely) {
   expect_gaps_enclosed<Box>(GetParam(), 0x1p-43);
-  // Thin triangles lose digits.
-  expect_gaps_enclosed<Triangle>(GetParam(), 0x1p-36);
+  expect_gaps_enclosed<Triangle>(GetParam(), 0x1p-43);
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, ShapeCertificates, testing::ValuesIn(all_families), family_name);

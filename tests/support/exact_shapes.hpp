@@ -64,6 +64,18 @@ inline Wide distance(const Triangle& triangle, const WideVec& from) {
   return over ? abs(dot(from - corner[0], normal)) / sqrt(dot(normal, normal)) : least;
 }
 
+/// The least height relative to the longest side.
+inline Wide thickness(const Triangle& triangle) {
+  const std::array<WideVec, 3> corner{wide(triangle.a), wide(triangle.b), wide(triangle.c)};
+  Wide longest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const WideVec side = corner[(k + 1) % 3] - corner[k];
+    longest = max(longest, dot(side, side));
+  }
+  const WideVec across = cross(corner[1] - corner[0], corner[2] - corner[0]);
+  return sqrt(dot(across, across)) / longest;
+}
+
 inline Wide distance(const HalfSpace& solid, const WideVec& from) {
   return dot(wide(solid.normal), from) - solid.offset;
 }
