@@ -2,6 +2,7 @@
 #include "input_file.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <array>
@@ -31,7 +32,8 @@ std::string read_input(const std::string& path) {
   if (std::filesystem::is_directory(path, ignored)) fail(path, "expected a file, but it is a folder");
   errno = 0;
   // zlib hands a file through unchanged when it is not gzipped.
-  const std::unique_ptr<std::remove_pointer_t<gzFile>, Close> file(gzopen(path.c_str(), "rb"));
+  const std::unique_ptr<std::remove_pointer_t<gzFile>, Close> file(
+      path == "-" ? gzdopen(dup(STDIN_FILENO), "rb") : gzopen(path.c_str(), "rb"));
   if (!file) fail(path, std::strerror(errno != 0 ? errno : ENOMEM));
   std::string text;
   std::array<char, 1 << 16> buffer;

@@ -5,7 +5,8 @@
 
 namespace kinesphere::program {
 
-/// Throws ProgramError naming the file when it cannot be read, is a folder, or is a damaged gzip file.
+/// "-" is standard input. Throws ProgramError naming the file when it cannot be read, is a folder, or is a
+/// damaged gzip file.
 std::string read_input(const std::string& path);
 
 }  // namespace kinesphere::program

@@ -36,6 +36,7 @@ std::string text_of(const Cell& cell, std::string_view empty, std::string (*quot
   }
   if (const auto* count = std::get_if<std::uint64_t>(&cell)) return fmt::format("{}", *count);
   if (const auto* flag = std::get_if<bool>(&cell)) return *flag ? "true" : "false";
+  if (const auto* decimal = std::get_if<DecimalText>(&cell)) return decimal->digits;
   if (const auto* text = std::get_if<std::string>(&cell)) return quoted(*text);
   return std::string(empty);
 }

@@ -11,8 +11,13 @@
 
 namespace kinesphere::program {
 
+/// A decimal number with just these digits.
+struct DecimalText {
+  std::string digits;
+};
+
 /// One value of a row; std::monostate is an empty field (CSV) or null (JSON).
-using Cell = std::variant<std::monostate, double, std::uint64_t, bool, std::string>;
+using Cell = std::variant<std::monostate, double, std::uint64_t, bool, std::string, DecimalText>;
 
 /// Numbers are written with as few digits as bring back the same bits. Throws ProgramError as OutputFile
 /// does, and when the name ends in neither .csv nor .jsonl.

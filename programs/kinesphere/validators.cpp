@@ -6,7 +6,7 @@
 #include <charconv>
 #include <string>
 
-#include "text_table.hpp"
+#include "number_text.hpp"
 
 namespace kinesphere::program {
 namespace {

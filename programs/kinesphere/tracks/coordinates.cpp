@@ -1,0 +1,43 @@
+// From the coordinates of a file to those that are calculated with, and back.
+#include "tracks/coordinates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinesphere::program {
+namespace {
+
+/// A multiple of `step` near the middle; zero when the middle is nearer than half a step.
+double origin_near(double low, double high, double step) {
+  return step * std::round((low / 2 + high / 2) / step);
+}
+
+}  // namespace
+
+Coordinates::Coordinates(const Box& extent, double unit, std::optional<UtmZone> zone)
+    : unit_(unit), zone_(zone) {
+  const Vec3 size = extent.upper - extent.lower;
+  const double largest = std::max({size.x, size.y, size.z});
+  // A power of two, so that nothing is rounded.
+  const double step = largest > 0 ? std::exp2(6 + std::ceil(std::log2(largest))) : 0x1p-20;
+  origin_ = {origin_near(extent.lower.x, extent.upper.x, step),
+             origin_near(extent.lower.y, extent.upper.y, step),
+             origin_near(extent.lower.z, extent.upper.z, step)};
+}
+
+Vec3 Coordinates::local(const Vec3& position) const {
+  return projection_ ? projection_->local(position) : unit_ * (position - origin_);
+}
+
+Vec3 Coordinates::as_in_file(const Vec3& local) const {
+  return projection_ ? projection_->geographic(local) : origin_ + local / unit_;
+}
+
+std::optional<Vec3> Coordinates::geographic(const Vec3& local) const {
+  if (projection_) return projection_->geographic(local);
+  if (!zone_) return std::nullopt;
+  // UTM is in metres, whatever unit the file has.
+  return geographic_from_utm(*zone_, unit_ * as_in_file(local));
+}
+
+}  // namespace kinesphere::program

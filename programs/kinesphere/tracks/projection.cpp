@@ -1,0 +1,170 @@
+// Longitudes and latitudes as lengths.
+#include "tracks/projection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "program_error.hpp"
+
+#ifdef KINESPHERE_WITH_GEOGRAPHICLIB
+#include <GeographicLib/AzimuthalEquidistant.hpp>
+#include <GeographicLib/Geocentric.hpp>
+#include <GeographicLib/LocalCartesian.hpp>
+#include <GeographicLib/UTMUPS.hpp>
+#endif
+
+namespace kinesphere::program {
+
+UtmZone parse_utm_zone(std::string_view text, std::string_view option) {
+  UtmZone zone{0, false};
+  const char* const end = text.data() + text.size();
+  const auto [letter, error] = std::from_chars(text.data(), end, zone.number);
+  const bool valid = error == std::errc() && 1 <= zone.number && zone.number <= 60 && letter + 1 == end &&
+                     std::string_view("NnSs").find(*letter) != std::string_view::npos;
+  if (!valid)
+    throw ProgramError(fmt::format("{}: expected a UTM zone such as 33N or 5S, but got '{}'", option, text));
+  zone.north = *letter == 'N' || *letter == 'n';
+  return zone;
+}
+
+#ifndef KINESPHERE_WITH_GEOGRAPHICLIB
+
+namespace {
+[[noreturn]] void fail() {
+  throw ProgramError(
+      "longitudes and latitudes need GeographicLib, and this program was built without it "
+      "(libgeographiclib-dev)");
+}
+}  // namespace
+
+std::shared_ptr<const Projection> project(std::span<const Vec3>, bool, ProjectionChoice) { fail(); }
+Vec3 geographic_from_utm(const UtmZone&, const Vec3&) { fail(); }
+
+#else
+
+namespace {
+
+using GeographicLib::Geocentric;
+
+constexpr double largest_distortion = 1e-3;
+
+struct LongitudeLatitude {
+  double longitude, latitude;
+};
+
+/// Where the mean of the points in space lies above or below; no point is far from it that is not far from
+/// some other, the date line or not.
+LongitudeLatitude middle_of(std::span<const Vec3> points) {
+  Vec3 sum{};
+  for (const Vec3& point : points) {
+    Vec3 place;
+    Geocentric::WGS84().Forward(point.y, point.x, 0, place.x, place.y, place.z);
+    sum += place / static_cast<double>(points.size());
+  }
+  LongitudeLatitude middle{};
+  double height = 0;
+  Geocentric::WGS84().Reverse(sum.x, sum.y, sum.z, middle.latitude, middle.longitude, height);
+  return middle;
+}
+
+std::string place_text(const LongitudeLatitude& place) {
+  return fmt::format("{:.4f} {}, {:.4f} {}", std::abs(place.latitude), place.latitude < 0 ? 'S' : 'N',
+                     std::abs(place.longitude), place.longitude < 0 ? 'W' : 'E');
+}
+
+class Plane final : public Projection {
+ public:
+  explicit Plane(std::span<const Vec3> points) : middle_(middle_of(points)) {
+    const GeographicLib::AzimuthalEquidistant projection;
+    double smallest = 1.0;
+    for (const Vec3& point : points) {
+      double x = 0, y = 0, azimuth = 0, reciprocal_scale = 0;
+      projection.Forward(middle_.latitude, middle_.longitude, point.y, point.x, x, y, azimuth,
+                         reciprocal_scale);
+      smallest = std::min(smallest, reciprocal_scale);
+    }
+    distortion_ = smallest > 0 ? 1.0 / smallest - 1.0 : std::numeric_limits<double>::infinity();
+  }
+
+  double distortion() const { return distortion_; }
+
+  Vec3 local(const Vec3& geographic) const override {
+    Vec3 result{0, 0, geographic.z};
+    GeographicLib::AzimuthalEquidistant().Forward(middle_.latitude, middle_.longitude, geographic.y,
+                                                  geographic.x, result.x, result.y);
+    return result;
+  }
+  Vec3 geographic(const Vec3& local) const override {
+    Vec3 result{0, 0, local.z};
+    GeographicLib::AzimuthalEquidistant().Reverse(middle_.latitude, middle_.longitude, local.x, local.y,
+                                                  result.y, result.x);
+    return result;
+  }
+  bool is_plane() const override { return true; }
+  std::string description() const override {
+    return fmt::format("plane around {}; lengths are true to {:.2g} %, none is too short",
+                       place_text(middle_), 100 * distortion_);
+  }
+
+ private:
+  LongitudeLatitude middle_;
+  double distortion_ = 0;
+};
+
+class Earth final : public Projection {
+ public:
+  explicit Earth(std::span<const Vec3> points)
+      : middle_(middle_of(points)), frame_(middle_.latitude, middle_.longitude, 0) {}
+
+  Vec3 local(const Vec3& geographic) const override {
+    Vec3 result;
+    frame_.Forward(geographic.y, geographic.x, geographic.z, result.x, result.y, result.z);
+    return result;
+  }
+  Vec3 geographic(const Vec3& local) const override {
+    Vec3 result;
+    frame_.Reverse(local.x, local.y, local.z, result.y, result.x, result.z);
+    return result;
+  }
+  bool is_plane() const override { return false; }
+  std::string description() const override {
+    return fmt::format("space around {}; lengths are true, in a straight line", place_text(middle_));
+  }
+
+ private:
+  LongitudeLatitude middle_;
+  GeographicLib::LocalCartesian frame_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Projection> project(std::span<const Vec3> geographic, bool has_heights,
+                                          ProjectionChoice choice) {
+  if (choice == ProjectionChoice::earth || (choice == ProjectionChoice::automatic && has_heights))
+    return std::make_shared<Earth>(geographic);
+  auto plane = std::make_shared<Plane>(geographic);
+  if (choice == ProjectionChoice::automatic && !(plane->distortion() <= largest_distortion))
+    return std::make_shared<Earth>(geographic);
+  if (!(plane->distortion() <= 0.5)) {
+    throw ProgramError(
+        "--projection plane: expected points on one side of the Earth, but they are all around it: use "
+        "--projection earth");
+  }
+  return plane;
+}
+
+Vec3 geographic_from_utm(const UtmZone& zone, const Vec3& position) {
+  Vec3 result{0, 0, position.z};
+  try {
+    GeographicLib::UTMUPS::Reverse(zone.number, zone.north, position.x, position.y, result.y, result.x);
+  } catch (const GeographicLib::GeographicErr& error) {
+    throw ProgramError(fmt::format("--from utm: {}", error.what()));
+  }
+  return result;
+}
+
+#endif
+
+}  // namespace kinesphere::program

@@ -1,0 +1,75 @@
+// The rows of text files as samples: who was where at which time, in the files' own numbers.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "kinesphere/vec3.hpp"
+#include "tracks/reading_policy.hpp"
+#include "tracks/recording.hpp"
+#include "tracks/time_text.hpp"
+
+namespace kinesphere::program {
+
+/// A row of one of the files.
+struct Place {
+  std::uint32_t file = 0;
+  int line = 0;  ///< from 1
+};
+
+struct RawSample {
+  FileTime time;
+  Vec3 position;
+  Place place;
+};
+
+/// What the files say of one id.
+struct RawTrack {
+  std::string id;
+  std::vector<RawSample> samples;  ///< in the order of the rows
+  std::vector<FileTime> breaks;    ///< times at which the track does not go on (MissingPolicy::split)
+};
+
+class RawRecording {
+ public:
+  /// `options` must outlive it.
+  RawRecording(const TrackOptions& options, bool several_files)
+      : options_(options), several_files_(several_files) {}
+
+  /// Adds a file's rows. Throws ProgramError naming file, line and column of what is wrong.
+  void read(std::string text, const std::string& file);
+  /// To be called when all files have been read: what their times are. Throws ProgramError where the frame
+  /// numbers do not fit the format.
+  TimeScale time_scale() const;
+
+  const TrackColumns& columns() const { return columns_; }
+  const std::vector<RawTrack>& tracks() const { return tracks_; }
+  std::size_t rows() const { return rows_; }
+  const Tally& missing() const { return missing_; }
+  /// "file:line".
+  std::string name(const Place& place) const;
+  /// Counts one more.
+  void count(Tally& tally, const Place& place) const;
+
+ private:
+  class FileReader;
+
+  void agree(const TrackColumns& columns, const std::string& file);
+
+  const TrackOptions& options_;
+  bool several_files_;
+  std::vector<std::string> files_;
+  TrackColumns columns_;
+  /// Kind of the first time, once there is one.
+  std::optional<TimeKind> time_kind_;
+  Place first_time_;
+  std::vector<RawTrack> tracks_;
+  std::unordered_map<std::string, std::size_t> track_of_;
+  std::size_t rows_ = 0;
+  Tally missing_;
+};
+
+}  // namespace kinesphere::program

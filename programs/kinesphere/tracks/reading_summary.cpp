@@ -1,0 +1,104 @@
+// What was read, told to a person.
+#include "tracks/reading_summary.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+namespace kinesphere::program {
+namespace {
+
+/// Above this part of all rows, what was left out is worth a warning.
+constexpr double many = 0.03;
+
+std::string format_text(const Recording& recording) {
+  std::string text = fmt::format("{}, {}", recording.format, recording.is_plane ? "2D" : "3D");
+  if (recording.frame_rate > 0) text += fmt::format(", {} frames/s", recording.frame_rate);
+  if (recording.times.kind() == TimeKind::utc) text += ", dates with a zone";
+  if (recording.times.kind() == TimeKind::date) text += ", dates without a zone";
+  return text;
+}
+
+std::string gap_text(const Recording& recording) {
+  const std::string smallest = number(recording.smallest_max_gap);
+  const std::string largest = number(recording.largest_max_gap);
+  return smallest == largest ? smallest + " s" : fmt::format("{} s to {} s, by id", smallest, largest);
+}
+
+std::string first_places(const Tally& tally) {
+  return fmt::format("{}{}", fmt::join(tally.first_places, ", "),
+                     tally.count > tally.first_places.size() ? ", ..." : "");
+}
+
+void add_tally(Summary& summary, const std::string& label, const Tally& tally) {
+  if (tally.count > 0) summary.row(label, grouped(tally.count), first_places(tally));
+}
+
+bool is_much(std::size_t part, const Recording& recording) {
+  return static_cast<double>(part) > many * static_cast<double>(recording.rows);
+}
+
+std::string part_text(std::size_t part, const Recording& recording) {
+  return fmt::format("{} of {} rows ({})", grouped(part), grouped(recording.rows),
+                     percent(static_cast<double>(part), static_cast<double>(recording.rows)));
+}
+
+}  // namespace
+
+void add_recording(Summary& summary, const std::vector<std::string>& files, const Recording& recording,
+                   const TrackScene& scene) {
+  summary.row(files.size() == 1 ? "file" : "files", fmt::format("{}", fmt::join(files, ", ")));
+  summary.row("format", format_text(recording));
+  if (const std::string projection = recording.coordinates.description(); !projection.empty())
+    summary.row("projection", projection);
+  summary.row("tracks", grouped(recording.tracks.size()),
+              fmt::format("of {} ids, cut at gaps over {}", grouped(recording.ids), gap_text(recording)));
+  summary.row(
+      "samples", grouped(recording.samples),
+      fmt::format("every {} s, of {} rows", number(recording.sample_interval), grouped(recording.rows)));
+  add_tally(summary, "missing values", recording.missing);
+  add_tally(summary, "duplicates", recording.duplicates);
+  add_tally(summary, "too fast", recording.too_fast);
+  if (recording.left_out > 0) {
+    summary.row(
+        "alone", grouped(recording.left_out),
+        fmt::format("samples between two gaps, left out: {} of the rows",
+                    percent(static_cast<double>(recording.left_out), static_cast<double>(recording.rows))));
+  }
+  const Scene& run = scene.scene;
+  summary.row("span", fmt::format("{} s", number(run.end_time - run.world.start_time)),
+              fmt::format("from {} to {}", recording.times.text(run.world.start_time),
+                          recording.times.text(run.end_time)));
+}
+
+std::vector<std::string> warnings_of(const Recording& recording, const TrackScene& scene) {
+  std::vector<std::string> warnings;
+  if (is_much(recording.left_out, recording)) {
+    warnings.push_back(fmt::format("{} were left out, alone between two gaps: a longer --max-gap keeps them",
+                                   part_text(recording.left_out, recording)));
+  }
+  if (is_much(recording.missing.count, recording)) {
+    warnings.push_back(
+        fmt::format("{} have no time or no position", part_text(recording.missing.count, recording)));
+  }
+  if (is_much(recording.duplicates.count, recording)) {
+    warnings.push_back(
+        fmt::format("{} repeat a time of their id", part_text(recording.duplicates.count, recording)));
+  }
+  if (is_much(recording.too_fast.count, recording)) {
+    warnings.push_back(
+        fmt::format("{} were left out by --max-speed", part_text(recording.too_fast.count, recording)));
+  }
+  const Overshoots& overshoots = scene.overshoots;
+  if (overshoots.tracks > 0) {
+    warnings.push_back(fmt::format(
+        "the splines of {} tracks swing out far beyond their samples, by up to {} (id '{}' after {}): see "
+        "--max-speed and --interpolate linear",
+        grouped(overshoots.tracks), number(overshoots.size), overshoots.id,
+        recording.times.text(overshoots.time)));
+  }
+  return warnings;
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,47 @@
+// A recording of real motion, as it was read.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinesphere/motion/recorded_tracks.hpp"
+#include "tracks/coordinates.hpp"
+#include "tracks/time_scale.hpp"
+
+namespace kinesphere::program {
+
+struct RecordedTrack {
+  std::string id;                    ///< as in the file; 3.0 and 3.000000e+00 are 3
+  std::vector<TrackSample> samples;  ///< at least 2, by time
+};
+
+/// Things that were passed over, and where the first of them stand.
+struct Tally {
+  std::size_t count = 0;
+  std::vector<std::string> first_places;  ///< at most 3: "line 7" or, with several files, "b.csv:7"
+};
+
+/// Times are seconds and positions lengths from origins of their own: `times` and `coordinates` tell them as
+/// the file does.
+struct Recording {
+  std::string format;  ///< what the file was recognised as
+  TimeScale times;
+  double frame_rate = 0.0;  ///< frames per second; 0 where no frames are counted
+  Coordinates coordinates;
+  bool is_plane = false;              ///< nothing leaves the plane z = 0
+  std::vector<RecordedTrack> tracks;  ///< without interruption, by the first sample's place in the file
+  std::size_t ids = 0;
+  std::size_t rows = 0;        ///< in all files
+  std::size_t samples = 0;     ///< in all tracks
+  std::size_t left_out = 0;    ///< samples that were alone between two gaps
+  Tally missing;               ///< rows without a time or a position
+  Tally duplicates;            ///< samples of an id that already has one at that time
+  Tally too_fast;              ///< samples that --max-speed left out
+  double sample_interval = 0;  ///< the median, over all ids
+  /// What cuts a track: a longer time between two samples of its id. Smallest and largest of the ids.
+  double smallest_max_gap = 0, largest_max_gap = 0;
+};
+
+}  // namespace kinesphere::program

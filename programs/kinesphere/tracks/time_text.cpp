@@ -1,0 +1,150 @@
+// Times as files tell them: dates or numbers.
+#include "tracks/time_text.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "number_text.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+constexpr double largest = 0x1p61;
+
+bool is_digit(char c) { return '0' <= c && c <= '9'; }
+
+bool all_digits(std::string_view text) { return std::all_of(text.begin(), text.end(), is_digit); }
+
+/// The number 0.digits.
+double fraction_of(std::string_view digits) { return *parse_number("0." + std::string(digits)); }
+
+std::optional<FileTime> with_sign(bool negative, FileTime time) {
+  if (time.fraction >= 1.0) time = {time.whole + 1, 0.0};
+  if (!negative) return time;
+  if (time.fraction == 0.0) return FileTime{-time.whole, 0.0};
+  return FileTime{-time.whole - 1, 1.0 - time.fraction};
+}
+
+/// Eats a text from its front.
+class Reader {
+ public:
+  explicit Reader(std::string_view text) : rest_(text) {}
+
+  bool at_end() const { return rest_.empty(); }
+  bool take(char c) {
+    if (!rest_.starts_with(c)) return false;
+    rest_.remove_prefix(1);
+    return true;
+  }
+  /// A whole number of just so many digits, at most `most`.
+  std::optional<int> digits(std::size_t count, int most) {
+    if (rest_.size() < count || !all_digits(rest_.substr(0, count))) return std::nullopt;
+    int number = 0;
+    for (char c : rest_.substr(0, count)) number = 10 * number + (c - '0');
+    rest_.remove_prefix(count);
+    return number <= most ? std::optional(number) : std::nullopt;
+  }
+  std::string_view all_digits_ahead() {
+    const auto end = std::find_if_not(rest_.begin(), rest_.end(), is_digit);
+    const std::string_view digits = rest_.substr(0, static_cast<std::size_t>(end - rest_.begin()));
+    rest_.remove_prefix(digits.size());
+    return digits;
+  }
+
+ private:
+  std::string_view rest_;
+};
+
+/// Days since 1970-01-01. `extended`: with - between the parts.
+std::optional<std::int64_t> read_date(Reader& reader, bool& extended) {
+  const auto year = reader.digits(4, 9999);
+  extended = reader.take('-');
+  const auto month = reader.digits(2, 12);
+  if (extended && !reader.take('-')) return std::nullopt;
+  const auto day = reader.digits(2, 31);
+  if (!year || !month || !day) return std::nullopt;
+  const std::chrono::year_month_day date{std::chrono::year(*year),
+                                         std::chrono::month(static_cast<unsigned>(*month)),
+                                         std::chrono::day(static_cast<unsigned>(*day))};
+  if (!date.ok()) return std::nullopt;
+  return std::chrono::sys_days(date).time_since_epoch().count();
+}
+
+/// Since midnight.
+std::optional<FileTime> read_clock(Reader& reader, bool extended) {
+  const auto hour = reader.digits(2, 24);
+  if (extended && !reader.take(':')) return std::nullopt;
+  const auto minute = reader.digits(2, 59);
+  if (!hour || !minute) return std::nullopt;
+  FileTime time{std::int64_t{3600} * *hour + std::int64_t{60} * *minute, 0.0};
+  const bool has_seconds = extended ? reader.take(':') : !reader.at_end();
+  if (has_seconds) {
+    const auto second = reader.digits(2, 60);
+    if (!second) return std::nullopt;
+    time.whole += *second;
+    if (reader.take('.') || reader.take(',')) {
+      const std::string_view digits = reader.all_digits_ahead();
+      if (digits.empty()) return std::nullopt;
+      time.fraction = fraction_of(digits);
+    }
+  }
+  if (*hour == 24 && (time.whole > 24 * 3600 || time.fraction > 0)) return std::nullopt;
+  return with_sign(false, time);
+}
+
+/// Seconds east of Greenwich.
+std::optional<int> read_offset(Reader& reader) {
+  if (reader.take('Z') || reader.take('z')) return 0;
+  const int sign = reader.take('+') ? 1 : -1;
+  if (sign < 0 && !reader.take('-')) return std::nullopt;
+  const auto hours = reader.digits(2, 23);
+  if (!hours) return std::nullopt;
+  if (reader.at_end()) return sign * *hours * 3600;
+  reader.take(':');
+  const auto minutes = reader.digits(2, 59);
+  if (!minutes) return std::nullopt;
+  return sign * (*hours * 3600 + *minutes * 60);
+}
+
+}  // namespace
+
+std::optional<FileTime> parse_decimal_time(std::string_view text) {
+  const auto number = parse_number(text);
+  if (!number || std::abs(*number) >= largest) return std::nullopt;
+  const bool negative = text.starts_with('-');
+  if (negative || text.starts_with('+')) text.remove_prefix(1);
+  const std::size_t point = std::min(text.find('.'), text.size());
+  const std::string_view before = text.substr(0, point);
+  const std::string_view after = text.substr(std::min(point + 1, text.size()));
+  if (before.empty() || !all_digits(before) || !all_digits(after)) {
+    const double whole = std::floor(*number);
+    return FileTime{static_cast<std::int64_t>(whole), *number - whole};
+  }
+  FileTime time;
+  std::from_chars(before.data(), before.data() + before.size(), time.whole);
+  if (!after.empty()) time.fraction = fraction_of(after);
+  return with_sign(negative, time);
+}
+
+std::optional<DateTime> parse_date_time(std::string_view text) {
+  Reader reader(text);
+  bool extended = false;
+  const auto days = read_date(reader, extended);
+  if (days && extended && reader.at_end()) return DateTime{{*days * 86400, 0.0}, false};
+  if (!days || !(reader.take('T') || reader.take('t') || reader.take(' '))) return std::nullopt;
+  const auto clock = read_clock(reader, extended);
+  if (!clock) return std::nullopt;
+  DateTime result{{*days * 86400 + clock->whole, clock->fraction}, false};
+  if (reader.at_end()) return result;
+  reader.take(' ');
+  const auto offset = read_offset(reader);
+  if (!offset || !reader.at_end()) return std::nullopt;
+  result.time.whole -= *offset;
+  result.has_offset = true;
+  return result;
+}
+
+}  // namespace kinesphere::program

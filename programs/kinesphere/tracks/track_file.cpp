@@ -1,0 +1,178 @@
+// Recorded motion from text files: who was where at which times.
+#include "tracks/track_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "input_file.hpp"
+#include "program_error.hpp"
+#include "tracks/cleaning.hpp"
+#include "tracks/raw_samples.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+template <class Visitor>
+void for_each_sample(const RawRecording& raw, Visitor visit) {
+  for (const RawTrack& track : raw.tracks())
+    for (const RawSample& sample : track.samples) visit(sample);
+}
+
+bool earlier(const FileTime& a, const FileTime& b) {
+  return a.whole != b.whole ? a.whole < b.whole : a.fraction < b.fraction;
+}
+
+TimeScale time_scale_of(const RawRecording& raw) {
+  TimeScale scale = raw.time_scale();
+  std::optional<FileTime> first, last;
+  for_each_sample(raw, [&](const RawSample& sample) {
+    if (!first || earlier(sample.time, *first)) first = sample.time;
+    if (!last || earlier(*last, sample.time)) last = sample.time;
+  });
+  if (first) scale.set_origin(*first, *last);
+  return scale;
+}
+
+Coordinates coordinates_of(const RawRecording& raw, ProjectionChoice choice) {
+  const TrackColumns& columns = raw.columns();
+  if (columns.geographic) {
+    std::vector<Vec3> points;
+    for_each_sample(raw, [&](const RawSample& sample) { points.push_back(sample.position); });
+    if (points.empty()) return {};
+    return Coordinates(project(points, columns.z.has_value(), choice));
+  }
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Box extent{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+  for_each_sample(raw, [&](const RawSample& sample) {
+    for (int axis = 0; axis < 3; ++axis) {
+      extent.lower[axis] = std::min(extent.lower[axis], sample.position[axis]);
+      extent.upper[axis] = std::max(extent.upper[axis], sample.position[axis]);
+    }
+  });
+  if (!(extent.lower.x <= extent.upper.x)) return {};
+  return Coordinates(extent, columns.length_unit.value_or(1.0), columns.zone);
+}
+
+/// The pieces of one id, before its gaps are looked at.
+struct Body {
+  std::string id;
+  std::vector<Piece> pieces;
+  std::vector<double> breaks;
+};
+
+class Reading {
+ public:
+  Reading(const RawRecording& raw, const TrackOptions& options) : raw_(raw), options_(options) {
+    recording_.times = time_scale_of(raw);
+    recording_.coordinates = coordinates_of(raw, options.projection);
+    recording_.format = raw.columns().format;
+    recording_.is_plane = !raw.columns().z && recording_.coordinates.are_plane();
+    if (recording_.times.kind() == TimeKind::frames) recording_.frame_rate = recording_.times.rate();
+    recording_.ids = raw.tracks().size();
+    recording_.rows = raw.rows();
+    recording_.missing = raw.missing();
+    recording_.smallest_max_gap = std::numeric_limits<double>::infinity();
+  }
+
+  Recording run() {
+    for (const RawTrack& track : raw_.tracks()) bodies_.push_back(cleaned(track));
+    std::vector<double> intervals;
+    for (const Body& body : bodies_)
+      for (const Piece& piece : body.pieces) add_intervals(piece, intervals);
+    recording_.sample_interval = median_interval(std::move(intervals));
+    for (const Body& body : bodies_) add_tracks(body);
+    return std::move(recording_);
+  }
+
+ private:
+  Body cleaned(const RawTrack& track) {
+    Body body{track.id, {}, {}};
+    Piece samples;
+    samples.reserve(track.samples.size());
+    for (const RawSample& sample : track.samples) {
+      samples.push_back(
+          {{recording_.times.seconds(sample.time), recording_.coordinates.local(sample.position)},
+           sample.place});
+    }
+    leave_one_at_each_time(samples, track.id, options_.duplicates, raw_, recording_.duplicates);
+    if (options_.max_speed) {
+      body.pieces = split_by_speed(samples, *options_.max_speed, raw_, recording_.too_fast);
+    } else {
+      body.pieces.push_back(std::move(samples));
+    }
+    for (const FileTime& time : track.breaks) body.breaks.push_back(recording_.times.seconds(time));
+    std::sort(body.breaks.begin(), body.breaks.end());
+    return body;
+  }
+
+  /// Fewer than 3 intervals show no rhythm of their own.
+  double max_gap_of(const Body& body) const {
+    if (options_.max_gap) return *options_.max_gap;
+    std::vector<double> intervals;
+    for (const Piece& piece : body.pieces) add_intervals(piece, intervals);
+    return 2.5 * (intervals.size() < 3 ? recording_.sample_interval : median_interval(std::move(intervals)));
+  }
+
+  void add_tracks(const Body& body) {
+    const double max_gap = max_gap_of(body);
+    recording_.smallest_max_gap = std::min(recording_.smallest_max_gap, max_gap);
+    recording_.largest_max_gap = std::max(recording_.largest_max_gap, max_gap);
+    for (const Piece& whole : body.pieces) {
+      for (const Piece& piece : split_at_gaps(whole, max_gap, body.breaks)) {
+        if (piece.size() == 1) {
+          ++recording_.left_out;
+          continue;
+        }
+        recording_.samples += piece.size();
+        RecordedTrack& track = recording_.tracks.emplace_back();
+        track.id = body.id;
+        for (const PlacedSample& sample : piece) track.samples.push_back(sample.sample);
+      }
+    }
+  }
+
+  const RawRecording& raw_;
+  const TrackOptions& options_;
+  Recording recording_;
+  std::vector<Body> bodies_;
+};
+
+void check(const TrackOptions& options) {
+  if (options.max_gap && !(*options.max_gap >= 0))
+    throw ProgramError(fmt::format("--max-gap: expected a number >= 0, but got {}", *options.max_gap));
+  if (options.max_speed && !(*options.max_speed > 0))
+    throw ProgramError(fmt::format("--max-speed: expected a number > 0, but got {}", *options.max_speed));
+}
+
+}  // namespace
+
+Recording parse_tracks(std::vector<NamedText> texts, const TrackOptions& options) {
+  check(options);
+  RawRecording raw(options, texts.size() > 1);
+  std::vector<std::string> files;
+  for (NamedText& text : texts) {
+    files.push_back(text.file);
+    raw.read(std::move(text.text), text.file);
+  }
+  Recording recording = Reading(raw, options).run();
+  if (recording.tracks.empty()) {
+    throw ProgramError(
+        fmt::format("{}: expected an id with two samples at most {} s apart, but there is none",
+                    fmt::join(files, ", "), recording.largest_max_gap));
+  }
+  return recording;
+}
+
+Recording read_tracks(const std::vector<std::string>& files, const TrackOptions& options) {
+  std::vector<NamedText> texts;
+  texts.reserve(files.size());
+  for (const std::string& file : files)
+    texts.push_back({file == "-" ? "standard input" : file, read_input(file)});
+  return parse_tracks(std::move(texts), options);
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,133 @@
+// A recording as a scene, in which a contact is an approach.
+#include "tracks/track_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "program_error.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+/// The world's coordinates reach to 2^41 tolerances; half of that is left to curves that swing out.
+constexpr double tolerances_in_extent = 0x1p40;
+
+struct Furthest {
+  double coordinate = 0.0;
+  std::string id;
+};
+
+Furthest furthest_of(const Recording& recording) {
+  Furthest furthest;
+  for (const RecordedTrack& track : recording.tracks) {
+    for (const TrackSample& sample : track.samples) {
+      const Vec3& position = sample.position;
+      const double size = std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
+      if (size > furthest.coordinate) furthest = {size, track.id};
+    }
+  }
+  return furthest;
+}
+
+double tolerance_of(const Recording& recording, const ApproachQuestion& question) {
+  const Furthest furthest = furthest_of(recording);
+  const double finest = furthest.coordinate / tolerances_in_extent;
+  const double tolerance = question.tolerance.value_or(std::max(1e-6 * question.distance, finest));
+  if (tolerance < finest) {
+    throw ProgramError(
+        fmt::format("--tolerance: expected {:.3g} or more, as id '{}' is {:.6g} from the recording's middle, "
+                    "but got {}",
+                    finest, furthest.id, furthest.coordinate, tolerance));
+  }
+  if (tolerance >= question.distance) {
+    throw ProgramError(fmt::format("--tolerance: expected less than the distance {}, but got {}",
+                                   question.distance, tolerance));
+  }
+  return tolerance;
+}
+
+double distance_to_line(const Vec3& point, const Vec3& from, const Vec3& to) {
+  const Vec3 way = to - from;
+  const double length_squared = norm_squared(way);
+  const double part =
+      length_squared > 0 ? std::clamp(dot(point - from, way) / length_squared, 0.0, 1.0) : 0.0;
+  return norm(point - from - part * way);
+}
+
+/// How far the curve goes from the straight line between two samples, at 7 times between them.
+double swing(const Segment& segment, const Vec3& from, const Vec3& to) {
+  double largest = 0.0;
+  for (int k = 1; k < 8; ++k) {
+    const double time = segment.begin + (segment.end - segment.begin) * k / 8.0;
+    largest = std::max(largest, distance_to_line(segment.state_at(time).position, from, to));
+  }
+  return largest;
+}
+
+Overshoots overshoots_of(const Recording& recording, const Motion& motion, double distance) {
+  Overshoots overshoots;
+  for (std::uint32_t number = 0; number < recording.tracks.size(); ++number) {
+    const RecordedTrack& track = recording.tracks[number];
+    const auto& samples = track.samples;
+    const Trajectory curve = motion.trajectory(number, samples.front().time, samples.back().time);
+    bool swings_out = false;
+    for (std::size_t k = 0; k + 1 < samples.size(); ++k) {
+      const Vec3& from = samples[k].position;
+      const Vec3& to = samples[k + 1].position;
+      const double size = swing(curve[k], from, to);
+      if (size <= distance || size <= norm(to - from)) continue;
+      swings_out = true;
+      if (size > overshoots.size) {
+        overshoots.size = size;
+        overshoots.id = track.id;
+        overshoots.time = samples[k].time;
+      }
+    }
+    if (swings_out) ++overshoots.tracks;
+  }
+  return overshoots;
+}
+
+template <class Curves>
+std::unique_ptr<const Motion> motion_along(const Recording& recording) {
+  std::vector<Track> tracks;
+  tracks.reserve(recording.tracks.size());
+  for (const RecordedTrack& track : recording.tracks) tracks.push_back(track.samples);
+  Result<Curves> motion = Curves::create(tracks);
+  if (!motion) {
+    const Error& error = motion.error();
+    const std::string id =
+        error.body.index < recording.tracks.size() ? recording.tracks[error.body.index].id : "";
+    throw ProgramError(fmt::format("id '{}': {}", id, error.message));
+  }
+  return std::make_unique<Curves>(std::move(motion).value());
+}
+
+}  // namespace
+
+TrackScene scene_of(const Recording& recording, const ApproachQuestion& question) {
+  TrackScene result;
+  Scene& scene = result.scene;
+  scene.name = "tracks";
+  scene.world.contact_tolerance = tolerance_of(recording, question);
+  scene.world.dimensions = recording.is_plane ? 2 : 3;
+  scene.world.start_time = recording.tracks.front().samples.front().time;
+  scene.end_time = scene.world.start_time;
+  for (const RecordedTrack& track : recording.tracks) {
+    const double begin = track.samples.front().time;
+    const double end = track.samples.back().time;
+    scene.bodies.push_back({.radius = question.distance / 2, .appears = begin, .vanishes = end});
+    scene.world.start_time = std::min(scene.world.start_time, begin);
+    scene.end_time = std::max(scene.end_time, end);
+  }
+  scene.motion = motion_along<RecordedTracks>(recording);
+  result.overshoots = overshoots_of(recording, *scene.motion, question.distance);
+  return result;
+}
+
+}  // namespace kinesphere::program

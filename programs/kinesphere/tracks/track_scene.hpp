@@ -1,0 +1,40 @@
+// A recording as a scene, in which a contact is an approach.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "kinesphere/scene.hpp"
+#include "tracks/reading_policy.hpp"
+#include "tracks/recording.hpp"
+
+namespace kinesphere::program {
+
+struct ApproachQuestion {
+  double distance = 0.0;  ///< how close counts as an approach; > 0
+  std::optional<double>
+      tolerance;  ///< of that distance; when empty a millionth of it, or 2^-40 of the extent
+  Interpolation interpolation = Interpolation::spline;
+};
+
+/// Where a spline swings out far beyond its samples: by more than the distance of an approach and more than
+/// the two samples it goes between are apart.
+struct Overshoots {
+  std::size_t tracks = 0;  ///< how many have one
+  std::string id;          ///< of the largest
+  double size = 0.0;       ///< how far from the straight line between the two samples
+  double time = 0.0;       ///< of the first of the two samples
+};
+
+struct TrackScene {
+  Scene scene;
+  Overshoots overshoots;
+};
+
+/// Each track is a body of half the distance as radius, which is there from its first sample to its last.
+/// Throws ProgramError naming the option or the id: for a tolerance that does not fit the distance or is too
+/// fine for the recording's extent, and for a curve that overflows.
+TrackScene scene_of(const Recording& recording, const ApproachQuestion& question);
+
+}  // namespace kinesphere::program
