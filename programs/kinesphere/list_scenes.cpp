@@ -7,6 +7,7 @@
 
 #include "program_error.hpp"
 #include "scene_file.hpp"
+#include "standard_output.hpp"
 #include "summary.hpp"
 
 namespace kinesphere::program {
@@ -24,11 +25,11 @@ CLI::App* add_scenes_command(CLI::App& program) {
 
 int list_scenes() {
   constexpr auto row = "{:<20} {:>9}  {:<14}  {:<12}  {:<13}  {:<13}  {:<13} {:>7}\n";
-  fmt::print(row, "name", "bodies", "motion", "response", "radius", "speed", "limit", "seconds");
+  print(row, "name", "bodies", "motion", "response", "radius", "speed", "limit", "seconds");
   for (const SceneParameters& scene : built_in_scenes()) {
-    fmt::print(row, scene.name, grouped(scene.bodies), name_of(scene.motion), name_of(scene.response),
-               range(scene.radius_min, scene.radius_max), range(scene.speed_min, scene.speed_max),
-               range(scene.limit_min, scene.limit_max), number(scene.seconds));
+    print(row, scene.name, grouped(scene.bodies), name_of(scene.motion), name_of(scene.response),
+          range(scene.radius_min, scene.radius_max), range(scene.speed_min, scene.speed_max),
+          range(scene.limit_min, scene.limit_max), number(scene.seconds));
   }
   return exit_fine;
 }

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
+#include <sstream>
 #include <string>
 
 #include "bench/bench.hpp"
@@ -12,6 +13,7 @@
 #include "program_error.hpp"
 #include "replay.hpp"
 #include "run.hpp"
+#include "standard_output.hpp"
 #include "tracks.hpp"
 #include "verify.hpp"
 
@@ -42,16 +44,24 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
-    return app.exit(help);
+    std::ostringstream text;
+    const int exit_code = app.exit(help, text, text);
+    write_output(text.str());
+    finish_output();
+    return exit_code;
   } catch (const CLI::ParseError& error) {
     return complain(fmt::format("{} (see --help)", error.what()));
   }
-  if (*run_command) return run(run_options);
-  if (*replay_command) return replay(replay_options);
-  if (*tracks_command) return tracks(tracks_options);
-  if (*verify_command) return verify(verify_options);
-  if (*scenes_command) return list_scenes();
-  if (*bench_command) return bench(*bench_command, bench_commands);
+  const auto finished = [](int exit_code) {
+    finish_output();
+    return exit_code;
+  };
+  if (*run_command) return finished(run(run_options));
+  if (*replay_command) return finished(replay(replay_options));
+  if (*tracks_command) return finished(tracks(tracks_options));
+  if (*verify_command) return finished(verify(verify_options));
+  if (*scenes_command) return finished(list_scenes());
+  if (*bench_command) return finished(bench(*bench_command, bench_commands));
   throw ProgramError("expected a command: run, replay, tracks, verify, scenes or bench (see --help)");
 }
 

@@ -33,6 +33,7 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
       fs::is_symlink(fs::symlink_status(path_, ignored)) ? fs::canonical(path_, ignored) : fs::path(path_);
   if (!target.empty()) path_ = target.string();
   temporary_path_ = fmt::format("{}.part-{}", path_, ::getpid());
+  unfinished_.emplace(temporary_path_.c_str());
   file_.reset(std::fopen(temporary_path_.c_str(), "wbx"));
   if (!file_) fail(path_, errno);
 }
@@ -43,12 +44,17 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::write(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) fail(path_, errno);
+  if (write_error_ != 0) return;
+  errno = 0;
+  if (std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size()) return;
+  write_error_ = errno != 0 ? errno : EIO;
 }
 
 void OutputFile::commit() {
-  if (std::fclose(file_.release()) != 0) fail(path_, errno);
-  if (std::rename(temporary_path_.c_str(), path_.c_str()) != 0) fail(path_, errno);
+  const bool closed = std::fclose(file_.release()) == 0;
+  if (write_error_ != 0) fail(path_, write_error_);
+  if (!closed || std::rename(temporary_path_.c_str(), path_.c_str()) != 0) fail(path_, errno);
+  unfinished_.reset();
   temporary_path_.clear();
 }
 

@@ -11,6 +11,7 @@
 #include "input_file.hpp"
 #include "kinesphere/scene.hpp"
 #include "program_error.hpp"
+#include "standard_output.hpp"
 #include "summary.hpp"
 
 namespace kinesphere::program {
@@ -34,7 +35,7 @@ int replay(const ReplayOptions& options) {
   }
   if (!result) throw ProgramError(fmt::format("{}: {}", options.file, result.error().message));
   if (options.hash_only) {
-    fmt::print("{:016x}\n", result->contact_hash);
+    print("{:016x}\n", result->contact_hash);
     return exit_fine;
   }
   Summary summary;
@@ -50,7 +51,7 @@ int replay(const ReplayOptions& options) {
   summary.row("verdict", "the same to the last bit");
   summary.row("hash", fmt::format("{:016x}", result->contact_hash));
   add_speed(summary, result->simulated_time, real_time.count());
-  fmt::print("{}", summary.text());
+  print("{}", summary.text());
   return exit_fine;
 }
 

@@ -11,8 +11,10 @@
 #include "contact_log.hpp"
 #include "frames_xyz.hpp"
 #include "output_file.hpp"
+#include "output_paths.hpp"
 #include "program_error.hpp"
 #include "progress.hpp"
+#include "standard_output.hpp"
 #include "summary.hpp"
 #include "validators.hpp"
 
@@ -38,10 +40,6 @@ struct Attachments {
 
 Attachments attach(const RunOptions& options, const Scene& scene) {
   Attachments attached;
-  if (!options.contacts.empty() && options.contacts == options.frames)
-    throw ProgramError("--frames: expected another file than that of --contacts, but got " + options.frames);
-  if (!options.record.empty() && (options.record == options.contacts || options.record == options.frames))
-    throw ProgramError("--record: expected a file of its own, but got " + options.record);
   if (!options.record.empty() && options.detector.name != "world")
     throw ProgramError("--record: expected only with --detector world");
   if (!options.contacts.empty()) attached.contacts = std::make_unique<ContactLog>(options.contacts);
@@ -175,6 +173,9 @@ int run(const RunOptions& options) {
   const SceneSource source = options.scene.source();
   const DetectorMaker make_detector = options.detector.maker();
   const Scene scene = make_scene(source);
+  const OutputPath outputs[] = {
+      {"--contacts", options.contacts}, {"--frames", options.frames}, {"--record", options.record}};
+  check_outputs(outputs, {&source.file, 1});
   Attachments attached = attach(options, scene);
   const SimulationObserver observer = observer_of(options, scene, attached);
 
@@ -183,14 +184,24 @@ int run(const RunOptions& options) {
   const std::chrono::duration<double> real_time = std::chrono::steady_clock::now() - started;
 
   attached.progress.reset();
-  if (attached.contacts) attached.contacts->commit();
-  if (attached.frames) attached.frames->commit();
-  if (attached.recording) attached.recording->commit();
+  // What a full disk does to a file must not take the summary with it.
+  std::optional<ProgramError> failure;
+  const auto commit = [&failure](auto& file) {
+    try {
+      if (file) file->commit();
+    } catch (const ProgramError& error) {
+      if (!failure) failure = error;
+    }
+  };
+  commit(attached.contacts);
+  commit(attached.frames);
+  commit(attached.recording);
   if (options.hash_only) {
-    fmt::print("{:016x}\n", result.contact_hash);
+    print("{:016x}\n", result.contact_hash);
   } else if (!options.quiet) {
-    fmt::print("{}", summary_of(source.parameters, options, scene, result, real_time.count()));
+    print("{}", summary_of(source.parameters, options, scene, result, real_time.count()));
   }
+  if (failure) throw ProgramError(*failure);
   if (!attached.finding) return exit_fine;
   fmt::print(stderr, "kinesphere: audit at time {}: {}: {}\n", attached.finding_time, attached.finding->where,
              attached.finding->what);

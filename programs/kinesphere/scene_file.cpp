@@ -110,6 +110,9 @@ constexpr FieldKind field_kinds[] = {
                 const Field& f) { p.seed = f.whole_number(std::numeric_limits<std::uint64_t>::max()); }},
 };
 
+/// Of brackets: more than any field of a scene needs.
+constexpr int deepest_nesting = 16;
+
 /// Reads characters for the JSON parser, which tells nobody where a value stands, and counts lines.
 struct CountingIterator {
   using iterator_category = std::input_iterator_tag;
@@ -149,6 +152,10 @@ Json parse_json(std::string_view text, SceneSource& source) {
   int line = 1;
   int field_line = 1;
   const auto note_field = [&](int depth, Json::parse_event_t event, Json& parsed) {
+    // Whoever walks through values within values, as their destructor does, does so by recursion.
+    if (depth > deepest_nesting)
+      throw ProgramError(fmt::format("{}:{}: expected at most {} brackets within each other", source.file,
+                                     line, deepest_nesting));
     if (depth == 1 && event == Json::parse_event_t::key) {
       field_line = line;
       const auto [place, is_new] = source.lines.emplace(parsed.get<std::string>(), line);

@@ -11,8 +11,10 @@
 
 #include "approaches.hpp"
 #include "kinesphere/comparison.hpp"
+#include "output_paths.hpp"
 #include "program_error.hpp"
 #include "progress.hpp"
+#include "standard_output.hpp"
 #include "summary.hpp"
 #include "table_file.hpp"
 #include "tracks/reading_options.hpp"
@@ -36,9 +38,7 @@ Cell time_cell(const TimeScale& times, double time) {
   return text;
 }
 
-void write_approaches(const std::string& path, const std::vector<Approach>& approaches,
-                      const Recording& recording) {
-  TableFile table(path, {"begin", "end", "first", "second", "begins_with_track", "ends_with_track"});
+void write_approaches(TableFile& table, const std::vector<Approach>& approaches, const Recording& recording) {
   for (const Approach& approach : approaches) {
     const Cell cells[] = {time_cell(recording.times, approach.begin),
                           time_cell(recording.times, approach.end),
@@ -48,7 +48,6 @@ void write_approaches(const std::string& path, const std::vector<Approach>& appr
                           approach.ends_with_track};
     table.write(cells);
   }
-  table.commit();
 }
 
 void add_approaches(Summary& summary, double distance, const std::vector<Approach>& approaches) {
@@ -102,6 +101,13 @@ CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
 
 int tracks(const TracksOptions& options) {
   const double distance = positive("--distance", options.distance);
+  const OutputPath outputs[] = {{"--contacts", options.contacts}};
+  check_outputs(outputs, options.files);
+  std::optional<TableFile> table;
+  if (!options.contacts.empty()) {
+    table.emplace(options.contacts, std::vector<std::string>{"begin", "end", "first", "second",
+                                                             "begins_with_track", "ends_with_track"});
+  }
   const Recording recording = read_tracks(options.files, options.reading);
   const TrackScene scene_and_notes = scene_of(
       recording,
@@ -124,7 +130,7 @@ int tracks(const TracksOptions& options) {
   progress.reset();
 
   const std::vector<Approach> approaches = approaches_in(scene, events);
-  if (!options.contacts.empty()) write_approaches(options.contacts, approaches, recording);
+  if (table) write_approaches(*table, approaches, recording);
   Summary summary;
   add_recording(summary, options.files, recording, scene_and_notes);
   summary.space();
@@ -144,10 +150,11 @@ int tracks(const TracksOptions& options) {
   summary.row("hash", fmt::format("{:016x}", result.contact_hash));
   add_speed(summary, result.simulated_time, real_time.count());
   if (!options.quiet) {
-    fmt::print("{}", summary.text());
-    if (options.contacts.empty() && !approaches.empty())
-      fmt::print("{}", first_approaches(approaches, recording));
+    print("{}", summary.text());
+    if (options.contacts.empty() && !approaches.empty()) print("{}", first_approaches(approaches, recording));
   }
+  // Last: what a full disk does to the file must not take the summary with it.
+  if (table) table->commit();
   return exit_code;
 }
 

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "program_error.hpp"
+#include "standard_output.hpp"
 
 namespace kinesphere::program {
 
@@ -29,7 +30,7 @@ int verify(const VerifyOptions& options) {
   summary.row("seconds", number(source.parameters.seconds));
   summary.space();
   add_comparison(summary, comparison);
-  fmt::print("{}", summary.text());
+  print("{}", summary.text());
   return comparison.agrees() ? exit_fine : exit_disagreement;
 }
 

@@ -7,6 +7,7 @@
 
 #include "bench/machine.hpp"
 #include "program_error.hpp"
+#include "standard_output.hpp"
 
 namespace kinesphere::program {
 
@@ -46,7 +47,7 @@ bool is_chosen(const BenchOptions& options, std::string_view name) {
 void describe_machine(const Report& report) {
   const std::string machine = machine_description();
   report.file("machine.txt", machine);
-  fmt::print("{}\n", machine);
+  print("{}\n", machine);
   if (!report.draws()) {
     report.note(
         "gnuplot is not installed: curves are left as scripts (*.gp). On Debian, install gnuplot-nox and run "

@@ -9,6 +9,7 @@
 #include "bench/report.hpp"
 #include "bench/sections.hpp"
 #include "program_error.hpp"
+#include "standard_output.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -45,7 +46,7 @@ int bench_paper(const BenchOptions& options) {
     section.run(report, settings);
   }
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-  fmt::print("Done in {:.0f} s.\n", spent.count());
+  print("Done in {:.0f} s.\n", spent.count());
   return exit_fine;
 }
 

@@ -11,6 +11,7 @@
 
 #include "output_file.hpp"
 #include "program_error.hpp"
+#include "standard_output.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -37,19 +38,19 @@ Report::Report(std::string folder) : folder_(std::move(folder)), draws_(has_gnup
 }
 
 void Report::heading(std::string_view title) const {
-  fmt::print("{}\n{:=<{}}\n", title, "", title.size());
-  std::fflush(stdout);
+  print("{}\n{:=<{}}\n", title, "", title.size());
+  finish_output();
 }
 
 void Report::note(std::string_view text) const {
-  fmt::print("{}\n\n", wrapped(text));
-  std::fflush(stdout);
+  print("{}\n\n", wrapped(text));
+  finish_output();
 }
 
 void Report::table(const std::string& name, const ResultTable& table) const {
   save(name, table);
-  fmt::print("{}\n", table.text());
-  std::fflush(stdout);
+  print("{}\n", table.text());
+  finish_output();
 }
 
 void Report::save(const std::string& name, const ResultTable& table) const {

@@ -13,6 +13,7 @@
 #include "bench/speed/tree_kernels.hpp"
 #include "bench/speed/verdicts.hpp"
 #include "program_error.hpp"
+#include "standard_output.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -94,7 +95,7 @@ int bench_speed(const BenchOptions& options) {
       add_row(table, scene, row, rows.front());
       add_row(all, scene, row, rows.front());
     }
-    fmt::print("{}\n", table.text());
+    print("{}\n", table.text());
     report.save("speed", all);  // as far as it is known: the rest may take long
   }
   save_verdicts(report, scenes, results);
