@@ -88,16 +88,17 @@ bool ContactBook::take_effect(Event& event, const Sphere& first, const Sphere& s
   } else {
     describe(event, first, second, space_);
   }
-  if (begins_now && !still_begins(event)) return false;
+  if (begins_now && !still_begins(event, first, second)) return false;
   if (begins_now && !is_of_sensor(event.kind)) note_contact(event);
   set_touching(event, begins_now);
   changed_.emplace_back(first.id.index, second.id.index);
   return true;
 }
 
-bool ContactBook::still_begins(const Event& now) const {
+bool ContactBook::still_begins(const Event& now, const Sphere& first, const Sphere& second) const {
   const ContactRule& rule = is_of_sensor(now.kind) ? sensor_rule_ : rule_;
-  return rule.decide(false, now.gap - now.distance, now.approach_speed) == ContactRule::Change::begin;
+  return rule.decide(false, now.gap - now.distance, now.approach_speed, approach_error(now, first, second)) ==
+         ContactRule::Change::begin;
 }
 
 /// True when the body touched something less than its Zeno interval ago.

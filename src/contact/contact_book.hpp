@@ -202,7 +202,7 @@ class ContactBook {
   void set_touching(const Event& contact, bool touching);
   void end(const Event& contact);
   bool take_effect(Event& event, const Sphere& first, const Sphere& second, const std::optional<Box>& box);
-  bool still_begins(const Event& now) const;
+  bool still_begins(const Event& now, const Sphere& first, const Sphere& second) const;
   bool contacts_are_sound(const std::optional<Box>& box) const;
   bool is_repeated(const Event& begin, std::uint32_t body) const;
   std::uint32_t contacts_now(const Event& contact) const;

@@ -1,5 +1,6 @@
 #include "contact/contact_event.hpp"
 
+#include <cmath>
 #include <tuple>
 
 #include "number/infinity.hpp"
@@ -88,6 +89,25 @@ void describe(Event& event, const Sphere& sphere, const Box& box) {
   event.gap = distance - sphere.radius;
   event.approach_speed = dot(event.normal, sphere.state.velocity);
   event.point = sphere.state.position + event.normal * distance;
+}
+
+double approach_error(const Event& event, double arm) {
+  constexpr double part_lost = 0x1p-49;
+  const auto& [position_a, velocity_a] = event.first_state;
+  const auto& [position_b, velocity_b] = event.second_state;
+  const double turned = part_lost * (norm_one(position_a) + norm_one(position_b)) / std::abs(arm);
+  // Points have no arm within the tolerance, and a normal of little meaning; a fast approach is one.
+  constexpr double most_turned = 0x1p-20;
+  return part_lost * (norm_one(velocity_a) + norm_one(velocity_b)) +
+         (turned < most_turned ? turned : most_turned) * norm(velocity_a - velocity_b);
+}
+
+double approach_error(const Event& event, const Sphere& first, const Sphere& second) {
+  if (event.wall != Wall::none) return approach_error(event, infinity);
+  const Shape* shape = first.shape ? first.shape : second.shape;
+  if (shape == nullptr) return approach_error(event, event.gap + first.radius + second.radius);
+  if (std::holds_alternative<HalfSpace>(*shape)) return approach_error(event, infinity);
+  return approach_error(event, event.gap + (first.shape ? second : first).radius);
 }
 
 Event violation_event(double time, BodyId body, const State& report, const BrokenPromise& broken) {

@@ -25,6 +25,12 @@ Event wall_event(EventKind kind, double time, const Sphere& sphere, const Box& b
 /// Brings what an event of a contact or a wall says up to date with the spheres as they are now.
 void describe(Event& event, const Sphere& first, const Sphere& second, const Space& space);
 void describe(Event& event, const Sphere& sphere, const Box& box);
+/// How much rounding may have done to the approach speed of an event that one of these has described. `arm`
+/// is the length of the vector along the normal, from centre to centre or from a centre to the nearest point
+/// of a shape; +infinity where the normal is that of a wall or a half-space. Covers what the caller's own
+/// roundings do to positions and velocities: a few units in the last place each.
+double approach_error(const Event& event, double arm);
+double approach_error(const Event& event, const Sphere& first, const Sphere& second);
 /// A bound_violation.
 Event violation_event(double time, BodyId body, const State& report, const BrokenPromise& broken);
 

@@ -12,13 +12,15 @@ ContactRule::ContactRule(const WorldDefinition& definition)
       zeno_interval_(definition.zeno_interval),
       impacts_only_(definition.contacts == ContactMode::impacts) {}
 
-ContactRule::Change ContactRule::decide(bool touching, double gap, double approach_speed) const {
+ContactRule::Change ContactRule::decide(bool touching, double gap, double approach_speed,
+                                        double approach_error) const {
   if (!touching) {
     if (gap > tolerance_) return Change::none;
-    return impacts_only_ && approach_speed <= 0.0 ? Change::none : Change::begin;
+    return impacts_only_ && !approach(gap, approach_speed, approach_error) ? Change::none : Change::begin;
   }
   if (impacts_only_) {
-    return approach_speed <= 0.0 || gap >= separation_distance_ ? Change::release : Change::none;
+    const bool parts = gap >= separation_distance_ || !approach(gap, approach_speed, approach_error);
+    return parts ? Change::release : Change::none;
   }
   return gap >= separation_distance_ ? Change::end : Change::none;
 }

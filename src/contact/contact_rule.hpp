@@ -13,7 +13,10 @@ class ContactRule {
 
   /// `release` is an end that nobody is told of: bouncing bodies that have been turned apart.
   enum class Change { none, begin, end, release };
-  Change decide(bool touching, double gap, double approach_speed) const;
+  /// `approach_error` is how much rounding may have done to the approach speed (approach_error() in
+  /// contact_event.hpp): bouncing bodies whose approach may be made by rounding alone do not approach, unless
+  /// they are as deep as step_breaks_tolerance().
+  Change decide(bool touching, double gap, double approach_speed, double approach_error = 0.0) const;
 
   /// The contact tolerance.
   double tolerance() const { return tolerance_; }
@@ -44,8 +47,8 @@ class ContactRule {
   double surface_gap() const { return -0.5 * tolerance_; }
 
   /// The Zeno guard: the least time between two looks at a pair within the tolerance that does not approach,
-  /// with these sums of velocity errors and largest accelerations. In it the gap shrinks by at most 1/8 of
-  /// the tolerance.
+  /// with these sums of velocity errors (and of what rounding may hide of an approach) and largest
+  /// accelerations. In it the gap shrinks by at most 1/8 of the tolerance.
   double least_step(double gap, double speed_error, double acceleration) const;
 
   /// True when a least step from this gap may leave the tolerance, so that the caller must be told.
@@ -58,6 +61,10 @@ class ContactRule {
   double zeno_interval(double acceleration) const;
 
  private:
+  bool approach(double gap, double approach_speed, double approach_error) const {
+    return approach_speed > (step_breaks_tolerance(gap) ? 0.0 : approach_error);
+  }
+
   double tolerance_;
   double separation_distance_;
   double zeno_interval_;

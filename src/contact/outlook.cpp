@@ -4,8 +4,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 #include "bound/sides_in_reach.hpp"
+#include "contact/contact_event.hpp"
 #include "number/infinity.hpp"
 
 namespace kinesphere {
@@ -38,7 +40,8 @@ template <class Partner>
 Verdict Outlook<Partner>::judge(const Event& current, const Promise& promise) const {
   Verdict verdict;
   const double beyond = current.gap - threshold_.distance;
-  verdict.change = rule_.decide(threshold_.within, beyond, current.approach_speed);
+  const double error = approach_error(current, arm(current.gap));
+  verdict.change = rule_.decide(threshold_.within, beyond, current.approach_speed, error);
   if (verdict.is_news()) return verdict;
   if (threshold_.within && verdict.change != ContactRule::Change::release) {
     verdict.next_look = std::max(separation(rule_.release_gap()), just_after(now_));
@@ -47,7 +50,9 @@ Verdict Outlook<Partner>::judge(const Event& current, const Promise& promise) co
   // A certificate cannot guard a gap that lies within its own rounding of the present one.
   const double gap = beyond - resolution();
   double time = meeting(rule_.guarded_gap(gap));
-  const double least = now_ + rule_.least_step(beyond, promise.speed_error, promise.acceleration);
+  const double hidden_approach = std::max(current.approach_speed + error, 0.0);
+  const double least =
+      now_ + rule_.least_step(beyond, promise.speed_error + hidden_approach, promise.acceleration);
   if (time < least) {
     // The Zeno guard: time has to move on between two looks at a contact that does not approach.
     time = least;
@@ -71,6 +76,15 @@ Verdict Outlook<Partner>::put_off(const Event& current, const Promise& promise) 
   return {.next_look = std::max(next_look, just_after(now_)),
           .zeno_step = true,
           .breaks_tolerance = rule_.step_breaks_tolerance(beyond)};
+}
+
+/// Of approach_error().
+template <class Partner>
+double Outlook<Partner>::arm(double gap) const {
+  if constexpr (std::is_same_v<Partner, Bound>)
+    return gap + bound_.radius + partner_.radius;
+  else
+    return std::is_same_v<Partner, HalfSpace> ? infinity : gap + bound_.radius;
 }
 
 /// More than what rounding can hide of the present gap.

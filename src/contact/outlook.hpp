@@ -81,6 +81,7 @@ class Outlook {
   double separation(double gap) const {
     return earliest_separation(bound_, partner_, now_, horizons_.separation, gap + threshold_.distance);
   }
+  double arm(double gap) const;
   double resolution() const;
 
   const ContactRule& rule_;

@@ -7,6 +7,7 @@
 #include "detector/checked_detector.hpp"
 #include "input/input_check.hpp"
 #include "kinesphere/detector.hpp"
+#include "number/infinity.hpp"
 #include "space/hash_grid.hpp"
 #include "world/validation.hpp"
 
@@ -154,16 +155,19 @@ class FixedStep final : public Detector {
 
   void look_at_pair(std::uint32_t a, std::uint32_t b, bool touching) {
     ++counters_.certificates;
-    judge(contact_event(EventKind::contact_begin, time_, sphere(a), sphere(b)), touching);
+    const Sphere first = sphere(a);
+    const Sphere second = sphere(b);
+    const Event event = contact_event(EventKind::contact_begin, time_, first, second);
+    judge(event, touching, approach_error(event, first, second));
   }
 
   void look_at_wall(std::uint32_t number, Wall wall) {
-    judge(wall_event(EventKind::wall_begin, time_, sphere(number), *definition_.box, wall),
-          book_.touches_wall(number, wall));
+    const Event event = wall_event(EventKind::wall_begin, time_, sphere(number), *definition_.box, wall);
+    judge(event, book_.touches_wall(number, wall), approach_error(event, infinity));
   }
 
-  void judge(Event event, bool touching) {
-    const auto change = book_.rule().decide(touching, event.gap, event.approach_speed);
+  void judge(Event event, bool touching, double error) {
+    const auto change = book_.rule().decide(touching, event.gap, event.approach_speed, error);
     if (change == ContactRule::Change::none) return;
     if (change == ContactRule::Change::release) return book_.release(event);
     event.kind = kind_of(change, false, event.wall);

@@ -38,6 +38,21 @@ TEST(ContactRule, ImpactsNeedAnApproachAndAreReleasedWithoutAWord) {
   EXPECT_EQ(rule.decide(true, 4 * eps, 1.0), Change::release);
 }
 
+TEST(ContactRule, AnApproachThatRoundingMayHaveMadeIsNoneUnlessItIsDeep) {
+  const ContactRule rule(WorldDefinition{.contact_tolerance = eps, .contacts = ContactMode::impacts});
+  EXPECT_EQ(rule.decide(false, 0.0, 1e-15, 2e-15), Change::none);
+  EXPECT_EQ(rule.decide(false, 0.0, 3e-15, 2e-15), Change::begin);
+  EXPECT_EQ(rule.decide(true, 0.0, 1e-15, 2e-15), Change::release);
+  EXPECT_EQ(rule.decide(true, 0.0, 3e-15, 2e-15), Change::none);
+  EXPECT_EQ(rule.decide(false, -0.87 * eps, 1e-15, 2e-15), Change::none);
+  EXPECT_EQ(rule.decide(false, -0.88 * eps, 1e-15, 2e-15), Change::begin);
+  EXPECT_EQ(rule.decide(false, -0.88 * eps, 0.0, 2e-15), Change::none);
+  // Whoever reports each begin and end does so whatever the speed is.
+  const ContactRule both(WorldDefinition{.contact_tolerance = eps});
+  EXPECT_EQ(both.decide(false, 0.0, 1e-15, 2e-15), Change::begin);
+  EXPECT_EQ(both.decide(true, 0.0, 1e-15, 2e-15), Change::none);
+}
+
 TEST(ContactRule, GivenSeparationDistanceCounts) {
   const ContactRule rule(WorldDefinition{.contact_tolerance = eps, .separation_distance = 0.5});
   EXPECT_EQ(rule.decide(true, 0.4999, -1.0), Change::none);
