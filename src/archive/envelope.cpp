@@ -15,7 +15,7 @@ std::vector<std::byte> Envelope::seal(std::span<const std::byte> content) const 
   ByteWriter writer;
   writer(mark, format_version, content.size());
   writer.append(content);
-  writer(Checksum().add(writer.bytes()).value());
+  writer(checksum(writer.bytes()));
   return writer.take();
 }
 
@@ -40,7 +40,7 @@ Result<std::span<const std::byte>> Envelope::open(std::span<const std::byte> byt
   const auto summed = bytes.first(bytes.size() - checksum_size);
   std::uint64_t expected = 0;
   ByteReader(bytes.last(checksum_size))(expected);
-  if (Checksum().add(summed).value() != expected)
+  if (checksum(summed) != expected)
     return refusal("must be undamaged, but its checksum is wrong");
   return summed.subspan(header_size);
 }

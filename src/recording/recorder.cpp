@@ -10,7 +10,7 @@ Recorder::Recorder(const World& world, bool has_pair_filter) {
 }
 
 std::vector<std::byte> Recorder::finish(const World& world) {
-  note(step::End{world.time(), step::End::checksum_of(world.save().value())});
+  note(step::End{world.time(), checksum(world.save().value())});
   return recording_envelope.seal(std::exchange(content_, {}).bytes());
 }
 

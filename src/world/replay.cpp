@@ -152,7 +152,7 @@ class Replay::Player {
       return diverge("expected the end to come at time " + text_of(end.time) + ", but found it at " +
                      text_of(world_.time()));
     }
-    const std::uint64_t found = step::End::checksum_of(world_.save().value());
+    const std::uint64_t found = checksum(world_.save().value());
     if (found != end.checksum) {
       diverge("expected to end as the world with the checksum " + hex(end.checksum) + ", but found " +
               hex(found));

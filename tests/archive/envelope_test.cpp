@@ -44,5 +44,21 @@ TEST(Envelope, RefusesAllElse) {
   }
 }
 
+TEST(Envelope, RefusesAnyTwoFlippedBits) {
+  Bytes bytes = envelope.seal(Bytes(40, std::byte{7}));
+  const auto flip = [&](std::size_t bit) { bytes[bit / 8] ^= static_cast<std::byte>(1u << bit % 8); };
+  int opened = 0;
+  for (std::size_t first = 0; first < 8 * bytes.size(); ++first) {
+    flip(first);
+    for (std::size_t second = first + 1; second < 8 * bytes.size(); ++second) {
+      flip(second);
+      opened += static_cast<bool>(envelope.open(bytes));
+      flip(second);
+    }
+    flip(first);
+  }
+  EXPECT_EQ(opened, 0);
+}
+
 }  // namespace
 }  // namespace kinesphere

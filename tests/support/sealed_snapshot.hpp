@@ -7,24 +7,11 @@
 #include <stdexcept>
 #include <vector>
 
+#include "archive/checksum.hpp"
 #include "kinesphere/random.hpp"
 #include "kinesphere/world.hpp"
 
 namespace kinesphere {
-
-/// As snapshot.cpp has it.
-inline std::uint64_t snapshot_checksum(std::span<const std::byte> bytes) {
-  std::uint64_t sum = 0xcbf29ce484222325u;
-  for (std::size_t k = 0; k < bytes.size();) {
-    const std::size_t size = k + 8 <= bytes.size() ? 8 : 1;
-    std::uint64_t word = 0;
-    for (std::size_t digit = 0; digit < size; ++digit)
-      word |= std::to_integer<std::uint64_t>(bytes[k + digit]) << (8 * digit);
-    sum = (sum ^ word) * 0x100000001b3u;
-    k += size;
-  }
-  return sum;
-}
 
 inline void write_number(std::vector<std::byte>& bytes, std::size_t at, std::uint64_t number) {
   for (std::size_t k = 0; k < 8; ++k) bytes[at + k] = static_cast<std::byte>(number >> (8 * k));
@@ -36,7 +23,7 @@ inline constexpr std::size_t snapshot_frame_size = 28;   ///< and the checksum
 /// Makes length and checksum of a snapshot right again.
 inline std::vector<std::byte> sealed(std::vector<std::byte> bytes) {
   write_number(bytes, 12, bytes.size() - snapshot_frame_size);
-  write_number(bytes, bytes.size() - 8, snapshot_checksum(std::span(bytes).first(bytes.size() - 8)));
+  write_number(bytes, bytes.size() - 8, checksum(std::span(bytes).first(bytes.size() - 8)));
   return bytes;
 }
 

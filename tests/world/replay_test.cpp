@@ -139,7 +139,7 @@ Bytes sealed(Bytes bytes) {
     for (std::size_t k = 0; k < 8; ++k) bytes[at + k] = static_cast<std::byte>(number >> (8 * k));
   };
   write(12, bytes.size() - 28);
-  write(bytes.size() - 8, Checksum().add(std::span(bytes).first(bytes.size() - 8)).value());
+  write(bytes.size() - 8, checksum(std::span(bytes).first(bytes.size() - 8)));
   return bytes;
 }
 
@@ -215,7 +215,8 @@ TEST(Divergence, ShowsInAChangeThatCannotBeMade) {
   });
   const std::string message = divergence(bytes);
   EXPECT_NE(
-      message.find("expected a change that can be made, but found: kick: body 9 was never in this world"),
+      message.find(
+          "expected a change that can be made, but found: set_velocity: body 9 was never in this world"),
       std::string::npos)
       << message;
 }
@@ -273,7 +274,7 @@ TEST(BadRecording, SaysWhatIsWrong) {
   EXPECT_EQ(World::restore(bytes).error().code, ErrorCode::bad_snapshot);
   Bytes newer = bytes;
   newer[8] = std::byte{200};
-  EXPECT_TRUE(is_refused(newer, "format version 3, but is of version 200"));
+  EXPECT_TRUE(is_refused(newer, "format version 4, but is of version 200"));
   Bytes more = bytes;
   more.push_back(std::byte{0});
   EXPECT_TRUE(is_refused(more, "whole"));
