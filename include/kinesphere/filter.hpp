@@ -26,7 +26,8 @@ constexpr bool passes(const Filter& a, const Filter& b) {
   return (a.category & b.mask) != 0 && (b.category & a.mask) != 0;
 }
 
-/// Whether two bodies, whose filters let them, may touch: World::set_pair_filter.
+/// Whether two bodies, whose filters let them, may touch: World::set_pair_filter, which says what it may ask
+/// the world.
 using PairFilter = std::function<bool(BodyId, BodyId)>;
 
 }  // namespace kinesphere

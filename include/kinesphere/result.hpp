@@ -18,23 +18,24 @@
 namespace kinesphere {
 
 enum class ErrorCode {
-  not_finite,         ///< a number is NaN or infinite
-  out_of_range,       ///< a number is finite but outside the range that its description gives
-  time_backwards,     ///< a time lies before the world's current time
-  unknown_body,       ///< an id that this world never gave out
-  stale_body,         ///< an id of a body that has been removed
-  disabled_body,      ///< the call needs a body that is enabled
-  enabled_body,       ///< the call needs a body that is disabled
-  fixed_body,         ///< the call needs a body that can move
-  outside_domain,     ///< a body does not lie inside the box of its world
-  overlapping,        ///< two bodies overlap where the world does not allow it
-  probe_in_progress,  ///< the world was called from inside its own probe
-  unsupported,        ///< this detector cannot do what the scene asks for
-  bad_snapshot,       ///< bytes that no world can be restored from
-  recording,          ///< the world is being recorded already
-  not_recording,      ///< the world is not being recorded
-  bad_recording,      ///< bytes that are no recording
-  diverged,           ///< a replay went another way than its recording
+  not_finite,          ///< a number is NaN or infinite
+  out_of_range,        ///< a number is finite but outside the range that its description gives
+  time_backwards,      ///< a time lies before the world's current time
+  unknown_body,        ///< an id that this world never gave out
+  stale_body,          ///< an id of a body that has been removed
+  disabled_body,       ///< the call needs a body that is enabled
+  enabled_body,        ///< the call needs a body that is disabled
+  fixed_body,          ///< the call needs a body that can move
+  outside_domain,      ///< a body does not lie inside the box of its world
+  overlapping,         ///< two bodies overlap where the world does not allow it
+  probe_in_progress,   ///< the world was called from inside its own probe
+  filter_in_progress,  ///< the world was called from inside its own pair filter
+  unsupported,         ///< this detector cannot do what the scene asks for
+  bad_snapshot,        ///< bytes that no world can be restored from
+  recording,           ///< the world is being recorded already
+  not_recording,       ///< the world is not being recorded
+  bad_recording,       ///< bytes that are no recording
+  diverged,            ///< a replay went another way than its recording
 };
 
 struct Error {

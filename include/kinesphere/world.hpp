@@ -71,8 +71,10 @@ struct BodyView {
 
 /// The first thing that audit() found wrong.
 struct AuditFinding {
-  std::string where;  ///< "registration", "certificate", "contact", "sensor", "wall", "filter" or "queue"
-  std::string what;   ///< which bodies, what is recorded, what it should be
+  /// "registration", "certificate", "contact", "sensor", "wall", "filter" or "queue"; "call" where the audit
+  /// could not be made
+  std::string where;
+  std::string what;  ///< which bodies, what is recorded, what it should be
 };
 
 class Recorder;
@@ -155,9 +157,12 @@ class World {
   /// A predicate of one's own, asked about pairs whose filters let them touch; an empty one lets all touch.
   /// It is asked when a body looks for its neighbours, by audit(), by whatever looks for certain overlaps
   /// (about the id that a new body is going to have), and about the contacts of a body by the two calls
-  /// below; between those its answers are taken to stay as they are. It must not throw, must be symmetric,
-  /// and may not call this world except for reading. Errors: probe_in_progress. Cost: all bodies search again
-  /// at the next advance.
+  /// below; between those its answers are taken to stay as they are. It must not throw and must be symmetric.
+  /// Of this world it may read what is kept of bodies: body(), bodies(), user_data(), shape_of(), contains(),
+  /// touching(), sensed(), sensor(), time(), size(), definition() and counters(). All other calls, which
+  /// would change the world or ask the filter again, fail inside it with filter_in_progress, and audit()
+  /// finds that it was called there. Errors: probe_in_progress, filter_in_progress. Cost: all bodies search
+  /// again at the next advance.
   Result<void> set_pair_filter(PairFilter filter);
   /// Tells the world that the pair filter's answers about this body have changed.
   Result<void> refilter(BodyId body);
@@ -219,7 +224,8 @@ class World {
   Timings timings() const;
 
   /// Rebuilds from scratch what should be true now (every registration, certificate and scheduled time)
-  /// and returns the first difference. Meant for tests: O(n^2).
+  /// and returns the first difference. Meant for tests: O(n^2). From inside a probe or a pair filter of this
+  /// world it does no more than say so.
   std::optional<AuditFinding> audit() const;
 
   // Certificates as answers (answers.hpp). All of them fail with probe_in_progress inside a probe. With a

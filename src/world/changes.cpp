@@ -133,6 +133,12 @@ void World::Engine::keep_filter(std::uint32_t number, const Filter& filter) {
   if (number < filters_.size()) filters_[number] = filter;
 }
 
+/// What the caller's predicate says.
+bool World::Engine::lets_meet(BodyId a, BodyId b) const {
+  const FilterQuestion question(this);
+  return pair_filter_(a, b);
+}
+
 /// Nothing is known any more of who may touch or sense the body.
 void World::Engine::refilter(BodyId id) {
   const std::uint32_t number = id.index;

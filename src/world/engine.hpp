@@ -44,6 +44,7 @@
 #include "memory/prefetch.hpp"
 #include "schedule/schedule.hpp"
 #include "space/space.hpp"
+#include "world/activity.hpp"
 #include "world/body.hpp"
 #include "world/extent.hpp"
 #include "world/neighbours.hpp"
@@ -85,7 +86,10 @@ class World::Engine {
            bodies_[id.index].generation == id.generation;
   }
   BodyId id_of(std::uint32_t number) const { return {number, bodies_[number].generation}; }
-  bool probing() const { return probing_; }
+  Activity activity() const {
+    if (probing_) return Activity::probing;
+    return pair_filter_ && FilterQuestion::is_asked_by(this) ? Activity::filtering : Activity::idle;
+  }
   /// The ids that the next bodies added will have, in their order.
   BodyId next_id(std::size_t additions_before = 0) const;
   BodyView view(std::uint32_t number) const;
@@ -143,7 +147,7 @@ class World::Engine {
                                         const BodyDefinition& definition) const;
   /// Whether the filters, and the predicate, let two bodies touch or sense each other.
   bool may_meet(BodyId a, const Filter& filter_a, BodyId b, const Filter& filter_b) const {
-    return passes(filter_a, filter_b) && (!pair_filter_ || pair_filter_(a, b));
+    return passes(filter_a, filter_b) && (!pair_filter_ || lets_meet(a, b));
   }
   bool may_touch(BodyId a, const BodyDefinition& body_a, BodyId b, const BodyDefinition& body_b) const {
     return body_a.solid && body_b.solid && may_meet(a, body_a.filter, b, body_b.filter);
@@ -210,6 +214,7 @@ class World::Engine {
     return bodies_[a].solid && bodies_[b].solid && may_meet(a, b);
   }
   bool may_hold(const Event& event) const;
+  bool lets_meet(BodyId a, BodyId b) const;
 
   /// The limits of the gap of the two now, in the image in which they are nearest.
   GapLimits gap_now(const Extent& a, const Extent& b) const;

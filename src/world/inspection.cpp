@@ -68,7 +68,7 @@ std::vector<CellView> World::cells() const {
 std::vector<Certificate> World::certificates() const { return engine_->certificates(); }
 
 Result<void> World::set_timing(bool on) {
-  auto valid = check_idle(engine_->probing(), "set_timing");
+  auto valid = check_idle(engine_->activity(), "set_timing");
   if (!valid) return valid;
   if (on && !timing_) timings_ = {};
   timing_ = on;

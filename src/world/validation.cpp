@@ -257,9 +257,4 @@ Error overlap_error(std::string_view call, BodyId other, const std::string& name
               " must not overlap another body, but the body would overlap " + name_of_other};
 }
 
-Error probing_error(std::string_view call) {
-  return {ErrorCode::probe_in_progress, "probe", no_body,
-          std::string(call) + ": a probe may not call the world that asked it"};
-}
-
 }  // namespace kinesphere

@@ -6,6 +6,7 @@
 
 #include "input/input_check.hpp"
 #include "kinesphere/world.hpp"
+#include "world/activity.hpp"
 
 namespace kinesphere {
 
@@ -29,12 +30,6 @@ Result<void> check_velocity(const Vec3& velocity, BodyId body, const WorldDefini
 Result<void> check_report(const State& state, BodyId body, double time, const WorldDefinition& world,
                           std::string_view call = "advance");
 Result<void> check_time(double until, double now);
-/// A probe may not call the world that asked it.
-Error probing_error(std::string_view call);
-inline Result<void> check_idle(bool probing, std::string_view call) {
-  if (!probing) return {};
-  return probing_error(call);
-}
 
 /// Lengths reach this many contact tolerances: then the rounding of a certificate stays well within one.
 double coordinate_limit(const WorldDefinition& world);

@@ -38,7 +38,7 @@ Result<void> World::check_alive(BodyId body, std::string_view call) const {
 }
 
 Result<void> World::check_call(BodyId body, std::string_view call) const {
-  if (auto idle = check_idle(engine_->probing(), call); !idle) return idle;
+  if (auto idle = check_idle(engine_->activity(), call); !idle) return idle;
   return check_alive(body, call);
 }
 
@@ -95,7 +95,7 @@ Result<void> World::check_reach(const BodyDefinition& changed, BodyId id, std::s
 }
 
 Result<void> World::check_new(const BodyDefinition& body, BodyId id, std::string_view call) const {
-  auto valid = first_error(check_idle(engine_->probing(), call), check_body(body, definition(), call),
+  auto valid = first_error(check_idle(engine_->activity(), call), check_body(body, definition(), call),
                            check_reach(body, no_body, "sensor_class", call));
   return valid ? check_room(body, id, call) : valid;
 }
@@ -108,7 +108,7 @@ Result<BodyId> World::add(const BodyDefinition& body) {
 Result<void> World::reserve(std::size_t bodies) {
   const std::size_t most = no_body.index;
   auto valid = first_error(
-      check_idle(engine_->probing(), "reserve"),
+      check_idle(engine_->activity(), "reserve"),
       InputCheck("reserve")
           .require(bodies <= most, ErrorCode::out_of_range, {"bodies"}, "must be at most", most, bodies)
           .result());
@@ -117,7 +117,7 @@ Result<void> World::reserve(std::size_t bodies) {
 }
 
 Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodies) {
-  if (auto idle = check_idle(engine_->probing(), "add_all"); !idle) return idle.error();
+  if (auto idle = check_idle(engine_->activity(), "add_all"); !idle) return idle.error();
   HashGrid earlier;
   for (std::uint32_t number = 0; number < bodies.size(); ++number) {
     const std::string call = "add_all: bodies[" + std::to_string(number) + "]";
@@ -151,7 +151,7 @@ Result<void> World::remove(BodyId body) {
 }
 
 Result<void> World::remove_all(std::span<const BodyId> bodies) {
-  if (auto idle = check_idle(engine_->probing(), "remove_all"); !idle) return idle;
+  if (auto idle = check_idle(engine_->activity(), "remove_all"); !idle) return idle;
   std::set<BodyId> earlier;
   for (std::size_t number = 0; number < bodies.size(); ++number) {
     const std::string call = "remove_all: bodies[" + std::to_string(number) + "]";
@@ -224,7 +224,7 @@ Result<void> World::set_filter(BodyId body, const Filter& filter) {
 }
 
 Result<void> World::set_pair_filter(PairFilter filter) {
-  auto valid = check_idle(engine_->probing(), "set_pair_filter");
+  auto valid = check_idle(engine_->activity(), "set_pair_filter");
   const bool given = static_cast<bool>(filter);
   if (valid) changing(step::SetPairFilter{given}).set_pair_filter(std::move(filter));
   return valid;
@@ -243,7 +243,7 @@ Result<void> World::set_solid(BodyId body, bool solid) {
 }
 
 Result<void> World::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
-  auto valid = first_error(check_idle(engine_->probing(), "set_sensor"), check_sensor(sensor, definition()));
+  auto valid = first_error(check_idle(engine_->activity(), "set_sensor"), check_sensor(sensor, definition()));
   const double reach = reach_of(sensor);
   for (const BodyId id : bodies()) {
     const BodyDefinition body = engine_->definition_of(id.index);
@@ -278,7 +278,7 @@ Result<std::uint64_t> World::user_data(BodyId body) const {
 }
 
 Result<std::optional<Event>> World::advance(double until, Probe probe) {
-  const auto valid = first_error(check_idle(engine_->probing(), "advance"), check_time(until, time()));
+  const auto valid = first_error(check_idle(engine_->activity(), "advance"), check_time(until, time()));
   if (!valid) return valid.error();
   return timing_ ? timed_advance(until, probe) : recorded_advance(until, probe);
 }
@@ -305,10 +305,14 @@ std::size_t World::size() const { return engine_->size(); }
 const WorldDefinition& World::definition() const { return engine_->definition(); }
 bool World::contains(BodyId body) const { return static_cast<bool>(check_alive(body, "contains")); }
 const Counters& World::counters() const { return engine_->counters(); }
-std::optional<AuditFinding> World::audit() const { return engine_->audit(); }
+std::optional<AuditFinding> World::audit() const {
+  if (const auto idle = check_idle(engine_->activity(), "audit"); !idle)
+    return AuditFinding{"call", idle.error().message};
+  return engine_->audit();
+}
 
 Result<std::vector<std::byte>> World::save() const {
-  if (auto idle = check_idle(engine_->probing(), "save"); !idle) return idle.error();
+  if (auto idle = check_idle(engine_->activity(), "save"); !idle) return idle.error();
   return engine_->save();
 }
 
@@ -319,12 +323,12 @@ Result<World> World::restore(std::span<const std::byte> snapshot, PairFilter pai
 }
 
 Result<World> World::clone() const {
-  if (auto idle = check_idle(engine_->probing(), "clone"); !idle) return idle.error();
+  if (auto idle = check_idle(engine_->activity(), "clone"); !idle) return idle.error();
   return World(std::make_unique<Engine>(*engine_));
 }
 
 Result<void> World::start_recording() {
-  auto idle = check_idle(engine_->probing(), "start_recording");
+  auto idle = check_idle(engine_->activity(), "start_recording");
   if (!idle) return idle;
   if (recorder_)
     return Error{ErrorCode::recording, "world", no_body,
@@ -334,7 +338,7 @@ Result<void> World::start_recording() {
 }
 
 Result<std::vector<std::byte>> World::stop_recording() {
-  if (auto idle = check_idle(engine_->probing(), "stop_recording"); !idle) return idle.error();
+  if (auto idle = check_idle(engine_->activity(), "stop_recording"); !idle) return idle.error();
   if (!recorder_)
     return Error{ErrorCode::not_recording, "world", no_body,
                  "stop_recording: the world is not being recorded"};

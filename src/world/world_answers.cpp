@@ -78,12 +78,12 @@ Result<SafeTime> World::safe_until(BodyId body, Probe probe) {
 }
 
 Result<SafeTime> World::safe_until() const {
-  return safe_time(Engine::Answers::answer(*engine_, check_idle(engine_->probing(), "safe_until"),
+  return safe_time(Engine::Answers::answer(*engine_, check_idle(engine_->activity(), "safe_until"),
                                            without_probe, max_rounds_of_world, about_world));
 }
 
 Result<SafeTime> World::safe_until(Probe probe) {
-  return safe_time(Engine::Answers::answer(*engine_, check_idle(engine_->probing(), "safe_until"),
+  return safe_time(Engine::Answers::answer(*engine_, check_idle(engine_->activity(), "safe_until"),
                                            Refresher(*this, probe, "safe_until"), max_rounds_of_world,
                                            about_world));
 }

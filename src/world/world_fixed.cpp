@@ -40,14 +40,14 @@ Result<FixedDefinition> World::check_new_fixed(const FixedDefinition& fixed, Bod
 }
 
 Result<BodyId> World::add_fixed(const FixedDefinition& body) {
-  if (auto idle = check_idle(engine_->probing(), "add_fixed"); !idle) return idle.error();
+  if (auto idle = check_idle(engine_->activity(), "add_fixed"); !idle) return idle.error();
   const auto kept = check_new_fixed(body, engine_->next_id(), "add_fixed");
   if (!kept) return kept.error();
   return changing(step::AddFixed{*kept}).add_fixed(*kept);
 }
 
 Result<std::vector<BodyId>> World::add_fixed_all(std::span<const FixedDefinition> bodies) {
-  if (auto idle = check_idle(engine_->probing(), "add_fixed_all"); !idle) return idle.error();
+  if (auto idle = check_idle(engine_->activity(), "add_fixed_all"); !idle) return idle.error();
   std::vector<FixedDefinition> kept;
   kept.reserve(bodies.size());
   for (std::size_t number = 0; number < bodies.size(); ++number) {

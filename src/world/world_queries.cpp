@@ -81,7 +81,7 @@ bool leaves_open(const Hit&) { return true; }
 template <class Queries, class Engine, class Refresh, class Ask>
 auto answer(const Engine& engine, const Result<void>& valid, Refresh refresh, std::string_view call, Ask ask)
     -> Result<decltype(ask(Queries(engine)))> {
-  if (const auto callable = first_error(check_idle(engine.probing(), call), valid); !callable)
+  if (const auto callable = first_error(check_idle(engine.activity(), call), valid); !callable)
     return callable.error();
   for (;;) {
     auto found = ask(Queries(engine));

@@ -109,5 +109,109 @@ TEST(Filter, EndsImpactsSilently) {
   EXPECT_TRUE(is_clean(p.world));
 }
 
+/// Whatever asks the filter: a body that is added where overlaps are not allowed, advance(), a question, a
+/// change of filters, an audit.
+void ask_the_filter(Playground& p, BodyId a) {
+  p.world.refilter(a).value();
+  p.run(p.world.time() + 1.0);
+  (void)p.world.add({.radius = 1, .position = {0.5, 0, 0}});
+  (void)p.world.safe_until(a);
+  (void)p.world.audit();
+}
+
+TEST(PairFilter, MayReadBodiesOfTheWorldThatAsksIt) {
+  Playground p({.allow_overlap = false});
+  const BodyId a = p.add({.radius = 1, .velocity = {0.5, 0, 0}, .user_data = 7});
+  p.add({.radius = 1, .position = {3, 0, 0}, .user_data = 7});
+  int asked = 0;
+  p.world
+      .set_pair_filter([&](BodyId first, BodyId second) {
+        ++asked;
+        for (const BodyId id : {first, second}) {
+          if (!p.world.contains(id)) continue;  // it is about to be added
+          EXPECT_TRUE(p.world.body(id));
+          EXPECT_TRUE(p.world.shape_of(id));
+          EXPECT_TRUE(p.world.touching(id));
+          EXPECT_TRUE(p.world.sensed(id));
+          EXPECT_EQ(p.world.user_data(id).value(), 7u);
+        }
+        EXPECT_EQ(p.world.bodies().size(), p.world.size());
+        EXPECT_GE(p.world.time(), p.world.definition().start_time);
+        EXPECT_LE(p.world.counters().wakes, 1000u);
+        return p.world.sensor(0).distances.empty();
+      })
+      .value();
+  ask_the_filter(p, a);
+  EXPECT_GE(asked, 5);
+}
+
+TEST(PairFilter, CannotMakeOtherCallsToTheWorldThatAsksIt) {
+  Playground p({.allow_overlap = false});
+  const BodyId a = p.add({.radius = 1, .velocity = {0.5, 0, 0}});
+  p.add({.radius = 1, .position = {3, 0, 0}});
+  int asked = 0;
+  const auto refuses = [](const auto& result) {
+    if (result) return false;
+    return result.error().code == ErrorCode::filter_in_progress && result.error().argument == "pair_filter" &&
+           result.error().message.ends_with(
+               ": a pair filter may not make this call to the world that asked it");
+  };
+  p.world
+      .set_pair_filter([&](BodyId first, BodyId second) {
+        ++asked;
+        World& w = p.world;
+        EXPECT_TRUE(refuses(w.safe_until(first, second)));
+        EXPECT_TRUE(refuses(w.safe_until(first)));
+        EXPECT_TRUE(refuses(w.safe_until()));
+        EXPECT_TRUE(refuses(w.safe_until(first, second, p.probe())));
+        EXPECT_TRUE(refuses(w.earliest_contact(first)));
+        EXPECT_TRUE(refuses(w.distance_limits(first, second, w.time())));
+        EXPECT_TRUE(refuses(w.overlapping({}, 1)));
+        EXPECT_TRUE(refuses(w.nearest({}, 1)));
+        EXPECT_TRUE(refuses(w.advance(w.time() + 1, p.probe())));
+        EXPECT_TRUE(refuses(w.add({})));
+        EXPECT_TRUE(refuses(w.add_all({})));
+        EXPECT_TRUE(refuses(w.add_fixed({.shape = Ball{{}, 1}})));
+        EXPECT_TRUE(refuses(w.remove(first)));
+        EXPECT_TRUE(refuses(w.set_velocity(first, {})));
+        EXPECT_TRUE(refuses(w.teleport(first, {})));
+        EXPECT_TRUE(refuses(w.set_radius(first, 1)));
+        EXPECT_TRUE(refuses(w.disable(first)));
+        EXPECT_TRUE(refuses(w.set_filter(first, {})));
+        EXPECT_TRUE(refuses(w.refilter(first)));
+        EXPECT_TRUE(refuses(w.set_pair_filter({})));
+        EXPECT_TRUE(refuses(w.set_user_data(first, 1)));
+        EXPECT_TRUE(refuses(w.save()));
+        EXPECT_TRUE(refuses(w.clone()));
+        EXPECT_TRUE(refuses(w.start_recording()));
+        const auto finding = w.audit();
+        EXPECT_TRUE(finding && finding->where == "call") << finding->what;
+        return true;
+      })
+      .value();
+  ask_the_filter(p, a);
+  EXPECT_GE(asked, 5);
+  EXPECT_TRUE(is_clean(p.world));
+}
+
+/// The filter of a world may ask another world anything, also one whose own filter asks back.
+TEST(PairFilter, OfOneWorldMayAskAnother) {
+  Playground p;
+  const BodyId a = p.add({.radius = 1, .velocity = {0.5, 0, 0}});
+  const BodyId b = p.add({.radius = 1, .position = {3, 0, 0}});
+  p.run(0.0);
+  World other = p.world.clone().value();
+  int refused = 0;
+  other
+      .set_pair_filter([&](BodyId first, BodyId second) {
+        refused += !p.world.safe_until(first, second);
+        return true;
+      })
+      .value();
+  p.world.set_pair_filter([&](BodyId, BodyId) { return static_cast<bool>(other.safe_until(a, b)); }).value();
+  EXPECT_TRUE(p.world.safe_until(a, b));
+  EXPECT_GT(refused, 0);
+}
+
 }  // namespace
 }  // namespace kinesphere
