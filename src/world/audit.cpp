@@ -3,12 +3,11 @@
 #include <cmath>
 #include <string>
 #include <tuple>
-#include <type_traits>
 
-#include "bound/encounter.hpp"
 #include "input/input_check.hpp"
 #include "number/infinity.hpp"
 #include "world/engine.hpp"
+#include "world/plain_gap.hpp"
 
 namespace kinesphere {
 
@@ -160,23 +159,44 @@ class World::Engine::Audit {
 
   void check_threshold(std::uint32_t a, std::uint32_t b, const Threshold& threshold) {
     if (!checkable(a, b, threshold)) return;
-    const double change = earliest_change(a, b, threshold);
+    const Extent first = engine_.extent(a);
+    const Extent second = engine_.extent(b);
+    const PlainGap gap(first, second, engine_.space_.period());
+    check_state(a, b, threshold, gap);
     const auto place = engine_.neighbours_.find(a, b);
     const double watched = place ? engine_.neighbours_.watched_until(a, *place) : infinity;
     if (watched < infinity) {
       // Else the two may meet in another image.
       if (engine_.space_.repeats() && watched > std::min(body(a).box_end, body(b).box_end))
         find("certificate", pair(a, b) + " are watched beyond the end of a box");
-      if (too_late(watched, change, now_))
-        find("certificate", pair(a, b) + " may change unseen" + times(watched, change));
+      if (const auto change = certain_change(a, b, threshold, gap, watched))
+        find("certificate", pair(a, b) + " may change unseen" + times(watched, *change));
       return;
     }
     const bool for_ever = threshold.within && !engine_.facts_end_with_boxes();
     const double until = for_ever ? infinity : engine_.unwatched_until(a, b);
     if (!threshold.within && !boxes_overlap(a, b)) return;
-    if (too_late(until, change, now_))
-      find("certificate", pair(a, b) + " are not watched" + times(until, change));
+    if (const auto change = certain_change(a, b, threshold, gap, until))
+      find("certificate", pair(a, b) + " are not watched" + times(until, *change));
   }
+
+  /// What the events have told of the two is what their bounds tell now, wherever in them the bodies are.
+  void check_state(std::uint32_t a, std::uint32_t b, const Threshold& threshold, const PlainGap& gap) {
+    const ContactRule& rule = engine_.book_.rule_of(threshold);
+    const PlainGap::Limits limits = gap.of_bodies(now_);
+    const double room = slack_of_gaps() + gap.uncertainty(now_);
+    const std::string distance = threshold.sensed ? " of " + std::to_string(threshold.distance) : "";
+    const std::string where = threshold.sensed ? "sensor" : "contact";
+    if (threshold.within && limits.lower > threshold.distance + rule.release_gap() + room)
+      find(where, pair(a, b) + " are apart, and no end" + distance +
+                      " has been told: their gap is at least " + text_of(limits.lower));
+    if (!threshold.within && limits.upper < threshold.distance - rule.tolerance() - room)
+      find(where, pair(a, b) + " are too near, and no begin" + distance +
+                      " has been told: their gap is at most " + text_of(limits.upper));
+  }
+
+  /// Far below what the contact rule can tell, and four times what a faithful report may be wrong by.
+  double slack_of_gaps() const { return 0.25 * engine_.definition_.contact_tolerance; }
 
   bool boxes_overlap(std::uint32_t a, std::uint32_t b) const {
     const Vec3 shift = engine_.shift_to_meet(a, b);
@@ -184,20 +204,38 @@ class World::Engine::Audit {
     return FloatBox(engine_.box(a)).overlaps(FloatBox(other));
   }
 
-  double earliest_change(std::uint32_t a, std::uint32_t b, const Threshold& threshold) const {
+  /// A time before the end of a recorded fact at which it certainly does not hold. A certificate that was
+  /// made earlier, or by another way of advancing, may rightly be later than one that is made now: so it is
+  /// only wrong if there is such a time. Steps are as long as the gap surely needs, but some are tried even
+  /// so.
+  std::optional<double> certain_change(std::uint32_t a, std::uint32_t b, const Threshold& threshold,
+                                       const PlainGap& gap, double recorded) const {
     const ContactRule& rule = engine_.book_.rule_of(threshold);
-    const double inside = rule.impacts_only() ? rule.tolerance() : 0.0;
-    return engine_.visit_pair(a, b, [&]<class Partner>(const Bound& bound, const Partner& partner) {
-      if (threshold.within)
-        return earliest_separation(bound, partner, now_, infinity, rule.release_gap() + threshold.distance);
-      const double distance = threshold.distance - inside;
-      double meeting = earliest_meeting(bound, partner, now_, infinity, distance);
-      if constexpr (std::is_same_v<Partner, Bound>) {
-        // Far out, the engine has the better eye for those that nearly touch.
-        const Encounter encounter(MovedBound(bound, now_), MovedBound(partner, now_));
-        meeting = std::max(meeting, now_ + encounter.meeting(infinity, distance + engine_.rounding_room()));
-      }
-      return meeting;
+    const double level = threshold.distance + (threshold.within      ? rule.release_gap()
+                                               : rule.impacts_only() ? -rule.tolerance()
+                                                                     : 0.0);
+    const double computed = earliest_change(a, b, threshold, level);
+    const bool doubtful = recorded > computed;
+    double end = recorded;
+    if (end == infinity && doubtful) end = now_ + 8.0 * (computed - now_);
+    if (end == infinity) end = std::min(body(a).box_end, body(b).box_end);
+    const double least_step = (end - now_) / (doubtful ? 512.0 : 16.0);
+    const double last = end - 0x1p-20 * (end - now_);
+    for (double time = now_; time < end;) {
+      const double room =
+          threshold.within ? level - gap.at_farthest(time).lower : gap.of_bounds(time).upper - level;
+      if (room < -(slack_of_gaps() + gap.uncertainty(time))) return time;
+      if (time >= last) break;
+      const double speed = gap.largest_speed(time, end);
+      time = std::min(last, time + std::max(least_step, room > 0.0 ? room / speed : 0.0));
+    }
+    return std::nullopt;
+  }
+
+  double earliest_change(std::uint32_t a, std::uint32_t b, const Threshold& threshold, double level) const {
+    return engine_.visit_pair(a, b, [&](const Bound& bound, const auto& partner) {
+      return threshold.within ? earliest_separation(bound, partner, now_, infinity, level)
+                              : earliest_meeting(bound, partner, now_, infinity, level);
     });
   }
 

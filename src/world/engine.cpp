@@ -83,7 +83,7 @@ BodyId World::Engine::next_id(std::size_t additions_before) const {
 void World::Engine::appear(std::uint32_t number, const Bound& bound) {
   Body& body = bodies_[number];
   body.bound = bound;
-  body.box_end = time_;
+  body.box_end = body.wall_time = body.look_time = time_;
   set_box(number, bring_home(number, box_now(bound)));
   mark_dirty(number);
 }

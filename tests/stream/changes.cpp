@@ -359,11 +359,13 @@ void Player::haunt(const Operation& operation) {
   });
 }
 
-void Player::give_pair_filter(World& world) const {
-  PairFilter filter;
-  if (truth_.has_pair_filter) filter = [this](BodyId a, BodyId b) { return truth_.pair_filter(a, b); };
-  accepted(world.set_pair_filter(std::move(filter)));
+/// Empty when there is none.
+PairFilter Player::pair_filter() const {
+  if (!truth_.has_pair_filter) return {};
+  return [this](BodyId a, BodyId b) { return truth_.pair_filter(a, b); };
 }
+
+void Player::give_pair_filter(World& world) const { accepted(world.set_pair_filter(pair_filter())); }
 
 void Player::set_pair_filter(const Operation& operation) {
   refilter(truth_.ids(), [&] {

@@ -38,6 +38,13 @@ const std::array<Player::Kind, 26> Player::kinds{{
     {"call wrongly", 6, &Player::call_wrongly},
 }};
 
+namespace {
+
+/// What a probe throws that has none.
+struct NoAnswer {};
+
+}  // namespace
+
 /// The weights sum up to 256.
 const Player::Kind& Player::kind_of(std::uint8_t code) {
   int rest = code;
@@ -209,21 +216,41 @@ void Player::answer(const Event& event, const Operation& operation) {
 
 void Player::advance_with_bad_probe(const Operation& operation) {
   const double until = world_.time() + 0.02 * operation.fraction(0);
-  const auto result = on_world([&](World& world) {
+  const auto result = on_world([&](World& world) -> Result<std::optional<Event>> {
     int left = operation.byte(1) % 8;
-    const double nan = std::numeric_limits<double>::quiet_NaN();
     const auto bad = [&](std::span<const BodyId> ids, double time, std::span<State> states) {
       probe()(ids, time, states);
-      if (left-- == 0) states.back().position.y = nan;
+      if (left-- != 0) return;
+      if (operation.byte(2) % 3 == 0) throw NoAnswer();
+      const double wrong = operation.byte(2) % 3 == 1 ? std::numeric_limits<double>::quiet_NaN() : 1e300;
+      states[operation.byte(3) % states.size()].position.y = wrong;
     };
-    return world.advance(until, bad);
+    try {
+      return world.advance(until, bad);
+    } catch (const NoAnswer&) {
+      return Error{ErrorCode::not_finite, "probe", no_body, "the probe threw"};
+    }
   });
   asked_at_ = world_.time();
   told_.move_on_to(world_.time());
-  if (!result)
-    require(result.error().code == ErrorCode::not_finite, "a bad answer is refused for a wrong reason");
-  else if (*result)
+  if (!result) {
+    const ErrorCode code = result.error().code;
+    require(code == ErrorCode::not_finite || code == ErrorCode::out_of_range,
+            "a bad answer is refused for a wrong reason");
+    check_snapshot();
+  } else if (*result) {
     hear(**result);
+  }
+}
+
+/// The world can be saved as it is, and what is restored is the same and clean.
+void Player::check_snapshot() const {
+  const std::vector<std::byte> bytes = world_.save().value();
+  const auto restored = World::restore(bytes, pair_filter());
+  if (!restored) throw Disagreement("restore: " + restored.error().message);
+  require(restored->save().value() == bytes, "a restored world saves other bytes");
+  if (const auto finding = restored->audit())
+    throw Disagreement("audit of a restored world: " + finding->where + ": " + finding->what);
 }
 
 }  // namespace kinesphere::stream

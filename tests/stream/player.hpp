@@ -95,6 +95,8 @@ class Player {
   void set_velocity(BodyId id, const Vec3& velocity);
   void teleport(BodyId id, const State& state);
   void send_back();
+  void check_snapshot() const;
+  PairFilter pair_filter() const;
   void give_pair_filter(World& world) const;
   void changed() { rounds_ = 3; }
 

@@ -248,6 +248,8 @@ void ToldContacts::begin(const Event& event, const Contact& contact) {
   const double gap = truth_.gap(contact);
   const double told_gap = event.gap - event.distance;
   if (std::abs(gap - told_gap) > slack_) fail("a begin with a wrong gap", contact, event.gap);
+  if (std::abs(truth_.exact_gap(contact) - told_gap) > slack_)
+    fail("a begin with another gap than the exact one", contact, event.gap);
   if (told_gap > rule_.tolerance()) fail("a begin before the bodies are near", contact, gap);
   const bool pair = contact.wall == Wall::none;
   if (!same_state(event.first_state, contact.first) ||
@@ -274,6 +276,8 @@ void ToldContacts::end(const Event& event, const Contact& contact) {
   const double gap = truth_.gap(contact);
   const double told_gap = event.gap - event.distance;
   if (std::abs(gap - told_gap) > slack_) fail("an end with a wrong gap", contact, event.gap);
+  if (std::abs(truth_.exact_gap(contact) - told_gap) > slack_)
+    fail("an end with another gap than the exact one", contact, event.gap);
   if (told_gap < rule_.separation_distance()) fail("an end before the bodies are apart", contact, gap);
   told(contact).touching = false;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "number/infinity.hpp"
+#include "support/exact_shapes.hpp"
 
 namespace kinesphere::stream {
 namespace {
@@ -168,6 +169,31 @@ double Truth::gap_at(const Contact& contact, double time) const {
 }
 
 double Truth::gap(const Contact& contact) const { return gap_at(contact, time_); }
+
+double Truth::exact_gap(const Contact& contact) const {
+  using exact::Wide;
+  using exact::WideVec;
+  const auto place = [this](const TrueBody& body) {
+    const Segment& path = body.path.front();
+    const Wide s = Wide(time_) - Wide(path.begin);
+    return exact::moved(exact::moved(exact::wide(path.position), exact::wide(path.velocity), s),
+                        exact::wide(path.acceleration), s * s / 2);
+  };
+  const WideVec centre = place(mover(contact));
+  const Wide extent = Wide(mover(contact).definition.radius) + Wide(contact.sensed.value_or(0.0));
+  if (const auto half = inside(contact)) return double(exact::distance(*half, centre) - extent);
+  if (const Shape* solid = shape(contact)) {
+    if (const auto* box = std::get_if<Box>(solid)) return double(exact::distance(*box, centre) - extent);
+    return double(exact::distance(std::get<Triangle>(*solid), centre) - extent);
+  }
+  WideVec way = exact::operator-(place(at(contact.second)), centre);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Wide period = definition_.periodic[static_cast<int>(axis)] ? Wide(world_size) : Wide(0);
+    while (period > 0 && way[axis] > period / 2) way[axis] -= period;
+    while (period > 0 && way[axis] < -period / 2) way[axis] += period;
+  }
+  return double(exact::sqrt(exact::dot(way, way)) - extent - Wide(at(contact.second).definition.radius));
+}
 
 double Truth::distance(BodyId id, const Vec3& point) const {
   const TrueBody& body = at(id);

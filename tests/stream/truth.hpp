@@ -97,6 +97,8 @@ class Truth {
 
   /// At the present time; beyond the distance, for a sensor.
   double gap(const Contact& contact) const;
+  /// The same in quadruple precision, from other formulas than the library's.
+  double exact_gap(const Contact& contact) const;
   /// Of a point from the surface of the body.
   double distance(BodyId id, const Vec3& point) const;
   /// The first time in [from, until] at which the gap is at most, or at least, `level`.

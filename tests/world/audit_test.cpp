@@ -1,0 +1,124 @@
+// The audit finds what is wrong, and nothing else: also among boxes and triangles, where certificates that
+// are computed anew may be shorter than those that there are.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <string>
+
+#include "support/playground.hpp"
+#include "support/sealed_snapshot.hpp"
+
+namespace kinesphere {
+namespace {
+
+TEST(Audit, TakesACertificateForWhatItIsThoughALaterOneIsShorter) {
+  Playground p;
+  p.world
+      .add_fixed({.shape = Box{{-0.54111865268976456, -0.44610567298297532, -0.39046900397027673},
+                               {-0.043652641637204836, -0.39482634089842472, -0.14837892360241645}}})
+      .value();
+  p.add({.radius = 0.65720095724683136,
+         .planned_acceleration = {-0.032051213459653068, -0.053203662742914076, 0.025021271082702402},
+         .position = {-0.5854408533312605, -0.45346483428223328, 0.38749354887213222},
+         .velocity = {0.16675295969623391, 0.17554504298875764, -0.18001524245045639}});
+  p.run(0.27463598588696508);
+  EXPECT_TRUE(is_clean(p.world));
+}
+
+TEST(Audit, IsCleanAmongBoxesAndTriangles) {
+  for (std::uint64_t seed = 0; seed < 6000; ++seed) {
+    Random random(seed);
+    Playground p({.contacts = seed % 3 == 0 ? ContactMode::impacts : ContactMode::begin_and_end});
+    const Vec3 at = random.point_in_ball();
+    const Vec3 size{random.uniform(), random.uniform(), random.uniform()};
+    Shape shape = Box{at, at + size};
+    if (seed % 2 == 0) shape = Triangle{at, at + random.point_in_ball(), at + random.point_in_ball()};
+    if (!p.world.add_fixed({.shape = shape})) continue;
+    const double limit = seed % 5 == 0 ? 0.3 * random.uniform() : 0.0;
+    p.add({.radius = random.uniform(),
+           .acceleration_limit = limit,
+           .planned_acceleration = 0.1 * random.point_in_ball(),
+           .position = 2.0 * random.point_in_ball(),
+           .velocity = 0.5 * random.point_in_ball()});
+    for (int step = 1; step <= 6; ++step) {
+      p.run(0.25 * step);
+      ASSERT_TRUE(is_clean(p.world)) << "seed " << seed;
+    }
+  }
+}
+
+/// The snapshot with one number in place of another, wherever that stands.
+World with_number(const World& world, double old_number, double new_number) {
+  std::vector<std::byte> bytes = world.save().value();
+  const auto pattern = std::bit_cast<std::array<std::byte, 8>>(old_number);
+  int places = 0;
+  for (auto at = bytes.begin();; ++places) {
+    at = std::search(at, bytes.end(), pattern.begin(), pattern.end());
+    if (at == bytes.end()) break;
+    write_number(bytes, static_cast<std::size_t>(at - bytes.begin()),
+                 std::bit_cast<std::uint64_t>(new_number));
+  }
+  EXPECT_GE(places, 1);
+  return World::restore(sealed(std::move(bytes))).value();
+}
+
+struct Approaching : Playground {
+  Approaching() {
+    a = add({.radius = 1, .acceleration_limit = 0.01, .velocity = {1, 0, 0}});
+    b = add({.radius = 1, .acceleration_limit = 0.01, .position = {2.5, 0.25, 0}});
+    run(0.1);
+  }
+  BodyId a, b;
+};
+
+TEST(Audit, FindsACertificateThatIsTooLate) {
+  Approaching p;
+  const auto certificates = p.world.certificates();
+  ASSERT_EQ(certificates.size(), 1u);
+  const double until = certificates[0].until;
+  const auto finding = with_number(p.world, until, until + 0.05).audit();
+  ASSERT_TRUE(finding);
+  EXPECT_EQ(finding->where, "certificate") << finding->what;
+}
+
+/// As if the world had missed a contact: all that it has recorded is good for a while yet, but the bodies
+/// overlap now.
+TEST(Audit, FindsAContactThatNoEventHasToldOf) {
+  Playground p;
+  p.add({.radius = 1, .position = {0.015625, 0, 0}});
+  p.add({.radius = 1, .position = {2.03125, 0, 0}});
+  p.run(1.0);
+  ASSERT_TRUE(is_clean(p.world));
+  const auto finding = with_number(p.world, 2.03125, 1.984375).audit();
+  ASSERT_TRUE(finding);
+  EXPECT_EQ(finding->where, "contact") << finding->what;
+  EXPECT_NE(finding->what.find("no begin has been told"), std::string::npos) << finding->what;
+}
+
+TEST(Audit, FindsAContactWhoseEndNoEventHasToldOf) {
+  Playground p;
+  p.add({.radius = 1, .position = {0.015625, 0, 0}});
+  p.add({.radius = 1, .position = {1.984375, 0, 0}});
+  EXPECT_EQ(p.run(1.0).size(), 1u);
+  ASSERT_TRUE(is_clean(p.world));
+  const auto finding = with_number(p.world, 1.984375, 2.03125).audit();
+  ASSERT_TRUE(finding);
+  EXPECT_EQ(finding->where, "contact") << finding->what;
+  EXPECT_NE(finding->what.find("no end has been told"), std::string::npos) << finding->what;
+}
+
+TEST(Audit, FindsASensorDistanceThatNoEventHasToldOf) {
+  Playground p;
+  p.world.set_sensor(0, {.distances = {0.5}}).value();
+  p.add({.radius = 1, .position = {0.015625, 0, 0}});
+  p.add({.radius = 1, .position = {2.75, 0, 0}});
+  p.run(1.0);
+  ASSERT_TRUE(is_clean(p.world));
+  const auto finding = with_number(p.world, 2.75, 2.25).audit();
+  ASSERT_TRUE(finding);
+  EXPECT_EQ(finding->where, "sensor") << finding->what;
+}
+
+}  // namespace
+}  // namespace kinesphere
