@@ -77,7 +77,7 @@ TEST(Audit, FindsACertificateThatIsTooLate) {
   const auto certificates = p.world.certificates();
   ASSERT_EQ(certificates.size(), 1u);
   const double until = certificates[0].until;
-  const auto finding = with_number(p.world, until, until + 0.05).audit();
+  const auto finding = with_number(p.world, until, until + 0.02).audit();
   ASSERT_TRUE(finding);
   EXPECT_EQ(finding->where, "certificate") << finding->what;
 }
