@@ -29,11 +29,20 @@ struct SceneBody {
   double vanishes = std::numeric_limits<double>::infinity();  ///< when it is removed
 };
 
+/// A velocity that a body is given at some time, whatever happens: the motion's set_velocity() is called with
+/// it, and the detector told.
+struct SceneTurn {
+  double time = 0.0;
+  std::uint32_t body = 0;
+  Vec3 velocity;
+};
+
 struct Scene {
   std::string name;
   WorldDefinition world;
   std::vector<SceneBody> bodies;  ///< by their number in the motion
   std::unique_ptr<const Motion> motion;
+  std::vector<SceneTurn> turns;  ///< in any order; those of bodies that are not there then are passed over
   Response response = Response::pass_through;
   double restitution = 1.0;
   double resting_speed = 0.0;  ///< positive: bodies settle() with it instead of just bounce()
@@ -64,7 +73,7 @@ struct SimulationResult {
 
 /// Runs a scene under a detector that `make` creates: adds and removes bodies when their time comes, answers
 /// contacts as the scene's response says. Errors: not_finite, time_backwards or out_of_range for times that
-/// cannot be and for more bodies than the motion has; unsupported where bodies are to bounce whose motion
+/// cannot be, for more bodies than the motion has and for turns of none; unsupported where bodies are to bounce whose motion
 /// cannot be kicked; those of the detector.
 Result<SimulationResult> simulate(const Scene& scene, const DetectorMaker& make,
                                   const SimulationObserver& observer = {});

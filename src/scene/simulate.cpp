@@ -20,10 +20,17 @@ class Simulation {
     for (std::uint32_t number = 0; number < scene.bodies.size(); ++number) {
       const SceneBody& body = scene.bodies[number];
       if (body.appears > scene.end_time || body.vanishes <= scene.world.start_time) continue;
-      changes_.push_back({std::max(body.appears, scene.world.start_time), Change::appears, number});
-      if (body.vanishes <= scene.end_time) changes_.push_back({body.vanishes, Change::vanishes, number});
+      changes_.push_back({std::max(body.appears, scene.world.start_time), Change::appears, number, nullptr});
+      if (body.vanishes <= scene.end_time)
+        changes_.push_back({body.vanishes, Change::vanishes, number, nullptr});
       result_.body_time +=
           std::min(body.vanishes, scene.end_time) - std::max(body.appears, scene.world.start_time);
+    }
+    for (const SceneTurn& turn : scene.turns) {
+      const SceneBody& body = scene.bodies[turn.body];
+      if (std::max(body.appears, scene.world.start_time) < turn.time && turn.time < body.vanishes &&
+          turn.time < scene.end_time)
+        changes_.push_back({turn.time, Change::turns, turn.body, &turn});
     }
     // Those that leave make room before others come.
     std::sort(changes_.begin(), changes_.end(), [](const Change& a, const Change& b) {
@@ -66,10 +73,11 @@ class Simulation {
 
  private:
   struct Change {
-    enum Kind { appears, vanishes };
+    enum Kind { appears, vanishes, turns };
     double time;
     Kind kind;
     std::uint32_t body;
+    const SceneTurn* turn;  ///< where it turns
   };
 
   Result<void> advance_to(double time) {
@@ -91,6 +99,11 @@ class Simulation {
 
   Result<void> apply(const Change& change) {
     if (change.kind == Change::vanishes) return detector_.remove(change.body);
+    if (change.kind == Change::turns) {
+      if (auto turned = motion_.set_velocity(change.body, change.time, change.turn->velocity); !turned)
+        return turned;
+      return detector_.set_velocity(change.body, change.turn->velocity);
+    }
     BodyDefinition definition = motion_.definition(change.body, change.time);
     definition.radius = scene_.bodies[change.body].radius;
     return detector_.add(change.body, definition);
@@ -154,6 +167,14 @@ Result<void> check(const Scene& scene, const SimulationObserver& observer) {
                  "must be a time", scene.bodies[number].appears)
         .require(!std::isnan(scene.bodies[number].vanishes), ErrorCode::not_finite, {"vanishes", id},
                  "must be a time", scene.bodies[number].vanishes);
+  }
+  for (std::size_t k = 0; k < scene.turns.size(); ++k) {
+    const SceneTurn& turn = scene.turns[k];
+    const Subject subject{"turns", {turn.body, 0}, "turn", k};
+    check.finite(subject, turn.time)
+        .finite(subject, turn.velocity)
+        .require(turn.body < scene.bodies.size(), ErrorCode::out_of_range, subject, "must be of one of",
+                 scene.bodies.size(), std::size_t{turn.body});
   }
   return check.result();
 }

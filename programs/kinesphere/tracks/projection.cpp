@@ -104,8 +104,8 @@ class Plane final : public Projection {
   }
   bool is_plane() const override { return true; }
   std::string description() const override {
-    return fmt::format("plane around {}; lengths are true to {:.2g} %, none is too short",
-                       place_text(middle_), 100 * distortion_);
+    return fmt::format("plane around {}; lengths are at most {:.2g} % too long", place_text(middle_),
+                       100 * distortion_);
   }
 
  private:

@@ -71,6 +71,10 @@ void TextTable::read_header() {
   const auto is_number = [](std::string_view field) { return parse_number(field).has_value(); };
   if (std::none_of(first_.fields.begin(), first_.fields.end(), is_number)) {
     header_.assign(first_.fields.begin(), first_.fields.end());
+    // Names are told in errors, which are one line.
+    for (std::string& name : header_)
+      std::replace_if(
+          name.begin(), name.end(), [](char c) { return c == '\r' || c == '\n'; }, ' ');
     first_.fields.clear();
     if (skip_to_row()) read_row(first_);
     return;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "program_error.hpp"
+#include "tracks/linear_tracks.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -94,18 +95,16 @@ Overshoots overshoots_of(const Recording& recording, const Motion& motion, doubl
 }
 
 template <class Curves>
-std::unique_ptr<const Motion> motion_along(const Recording& recording) {
+Curves curves_through(const Recording& recording) {
   std::vector<Track> tracks;
   tracks.reserve(recording.tracks.size());
   for (const RecordedTrack& track : recording.tracks) tracks.push_back(track.samples);
-  Result<Curves> motion = Curves::create(tracks);
-  if (!motion) {
-    const Error& error = motion.error();
-    const std::string id =
-        error.body.index < recording.tracks.size() ? recording.tracks[error.body.index].id : "";
-    throw ProgramError(fmt::format("id '{}': {}", id, error.message));
-  }
-  return std::make_unique<Curves>(std::move(motion).value());
+  Result<Curves> curves = Curves::create(tracks);
+  if (curves) return std::move(curves).value();
+  const Error& error = curves.error();
+  const bool is_known = error.body.index < recording.tracks.size();
+  throw ProgramError(
+      fmt::format("id '{}': {}", is_known ? recording.tracks[error.body.index].id : "", error.message));
 }
 
 }  // namespace
@@ -125,7 +124,13 @@ TrackScene scene_of(const Recording& recording, const ApproachQuestion& question
     scene.world.start_time = std::min(scene.world.start_time, begin);
     scene.end_time = std::max(scene.end_time, end);
   }
-  scene.motion = motion_along<RecordedTracks>(recording);
+  if (question.interpolation == Interpolation::linear) {
+    auto lines = std::make_unique<LinearTracks>(curves_through<LinearTracks>(recording));
+    scene.turns = lines->turns();
+    scene.motion = std::move(lines);
+    return result;
+  }
+  scene.motion = std::make_unique<RecordedTracks>(curves_through<RecordedTracks>(recording));
   result.overshoots = overshoots_of(recording, *scene.motion, question.distance);
   return result;
 }

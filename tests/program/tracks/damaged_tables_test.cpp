@@ -1,0 +1,78 @@
+// Damaged files: an answer or an error that names the file, never anything else.
+#include <gtest/gtest.h>
+
+#include "kinesphere/random.hpp"
+#include "program/support.hpp"
+#include "tracks/track_file.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+constexpr std::string_view healthy[] = {
+    "id,time,x,y\na,0,0,0\na,1,1,0\nb,0,5,5\nb,1,4,5\n",
+    "\xEF\xBB\xBF\"MMSI\";\"Base Date "
+    "Time\";\"LAT\";\"LON\"\r\n\"1\";\"2024-01-31T12:30:00Z\";54.1;\"11,2\"\r\n"
+    "1;2024-01-31 "
+    "12:30:10+00:00;54.2;11.3\r\n2;20240131T123000Z;54.2;11.3\r\n2;20240131T123010Z;54.2;11.3\r\n",
+    "# framerate: 25 fps\n# id frame x/m y/m z/m\n1\t0\t2\t3\t1.76\n1\t5\t4\t6\t1.76\n",
+    "0 7 1 0 2 0 0 0\n6 7 1 0 2 0 0 0\n12 7 1 0 2 0 0 0\n"};
+
+/// Bytes that mean something to a table are drawn often.
+std::string damaged(std::string_view text, Random& random) {
+  constexpr std::string_view bytes = "\"\"\"\r\n,;\t #-+.:0123456789eETZnaN/()[]_\0\xFF";
+  const auto below = [&](std::size_t count) {
+    return static_cast<std::size_t>(random.uniform() * static_cast<double>(count));
+  };
+  std::string result(text);
+  for (std::size_t k = 1 + below(4); k > 0 && !result.empty(); --k) {
+    const std::size_t at = below(result.size());
+    switch (below(4)) {
+      case 0:
+        result[at] = bytes[below(bytes.size())];
+        break;
+      case 1:
+        result.insert(at, 1, bytes[below(bytes.size())]);
+        break;
+      case 2:
+        result.erase(at, 1 + below(5));
+        break;
+      default:
+        result.insert(at, result.substr(below(result.size()), below(30)));
+    }
+  }
+  return result;
+}
+
+TEST(DamagedTables, AreReadOrRefusedByName) {
+  constexpr std::uint64_t seed = 2005;
+  Random random(seed);
+  int read = 0, refused = 0;
+  for (int trial = 0; trial < 40000; ++trial) {
+    TrackOptions options;
+    options.missing = static_cast<MissingPolicy>(trial % 3);
+    options.duplicates = static_cast<DuplicatePolicy>(trial / 3 % 3);
+    if (trial % 5 == 0) options.max_speed = 2.0;
+    if (trial % 4 == 3) options.hints.format = trial % 8 == 3 ? "ucy" : "eth";
+    const std::string text = damaged(healthy[static_cast<std::size_t>(trial) % 4], random);
+    try {
+      const Recording recording = parse_tracks({{"t.csv", text}}, options);
+      ++read;
+      for (const RecordedTrack& track : recording.tracks) {
+        ASSERT_GE(track.samples.size(), 2u) << "seed " << seed << ", trial " << trial;
+        for (std::size_t k = 1; k < track.samples.size(); ++k)
+          ASSERT_LT(track.samples[k - 1].time, track.samples[k].time)
+              << "seed " << seed << ", trial " << trial;
+      }
+    } catch (const ProgramError& error) {
+      ++refused;
+      const std::string message = error.what();
+      ASSERT_TRUE(message.starts_with("t.csv:")) << message << "\nseed " << seed << ", trial " << trial;
+      ASSERT_EQ(message.find('\n'), std::string::npos) << message;
+    }
+  }
+  EXPECT_GT(read, 5000);
+  EXPECT_GT(refused, 5000);
+}
+
+}  // namespace
+}  // namespace kinesphere::program

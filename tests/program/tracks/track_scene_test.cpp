@@ -1,0 +1,122 @@
+// Recordings as scenes: straight lines, splines that swing out, tolerances, planes.
+#include "tracks/track_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include "kinesphere/comparison.hpp"
+#include "kinesphere/random.hpp"
+#include "program/support.hpp"
+#include "tracks/linear_tracks.hpp"
+#include "tracks/reading_summary.hpp"
+#include "tracks/track_file.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+Recording parse(const std::string& text, const TrackOptions& options = {}) {
+  return parse_tracks({{"t.csv", text}}, options);
+}
+
+std::vector<Event> events_of(const Scene& scene) {
+  std::vector<Event> events;
+  SimulationObserver observer;
+  observer.on_event = [&](const Event& event) { events.push_back(event); };
+  require(simulate(scene, make_world_detector, observer));
+  return events;
+}
+
+constexpr const char* square = "id,t,x,y\na,0,0,0\na,1,1,0\na,2,1,1\na,3,0,1\nb,0,-0.5,0.5\nb,3,-0.5,0.5\n";
+
+TEST(TrackScene, LinesGoStraightFromSampleToSample) {
+  const Recording recording = parse(square);
+  const auto motion = require(LinearTracks::create({recording.tracks[0].samples}));
+  EXPECT_EQ(motion.state(0, 1.5).position, (Vec3{1, 0.5, 0}));
+  EXPECT_EQ(motion.definition(0, 1.5).acceleration_limit, 0.0);
+  ASSERT_EQ(motion.turns().size(), 2u);
+  EXPECT_EQ(motion.turns()[0].velocity, (Vec3{0, 1, 0}));
+  // A turn is none before it has been told, at its very time.
+  LinearTracks told = motion;
+  EXPECT_EQ(told.state(0, 1.0).velocity, (Vec3{1, 0, 0}));
+  EXPECT_TRUE(told.set_velocity(0, 1.0, {0, 1, 0}));
+  EXPECT_EQ(told.state(0, 1.0).velocity, (Vec3{0, 1, 0}));
+  EXPECT_EQ(told.state(0, 2.0).velocity, (Vec3{0, 1, 0}));
+  EXPECT_EQ(told.set_velocity(0, 1.5, {0, 1, 0}).error().code, ErrorCode::unsupported);
+  EXPECT_EQ(told.set_velocity(0, 2.0, {0, 1, 0}).error().code, ErrorCode::unsupported);
+  EXPECT_EQ(told.set_velocity(7, 2.0, {0, 1, 0}).error().code, ErrorCode::unknown_body);
+  EXPECT_THROW(told.state(1, 0.0), BadResult);
+  EXPECT_THROW(told.trajectory(0, 2.0, 1.0), BadResult);
+  const Trajectory lines = motion.trajectory(0, -1.0, 5.0);
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines.front().state_at(-1.0).position, (Vec3{-1, 0, 0}));
+  EXPECT_EQ(lines.back().state_at(5.0).position, (Vec3{-2, 1, 0}));
+  EXPECT_EQ(motion.trajectory(0, 1.0, 1.5).front().velocity, (Vec3{0, 1, 0}));
+}
+
+TEST(TrackScene, LinesAndCurvesAgreeWithTheOracle) {
+  // Walks of sudden turns in a small room.
+  constexpr std::uint64_t seed = 2005;
+  Random random(seed);
+  std::string text = "id,t,x,y\n";
+  for (int id = 0; id < 20; ++id) {
+    for (int k = 0; k < 50; ++k)
+      text += std::to_string(id) + "," + std::to_string(0.5 * k + 0.01 * id) + "," +
+              std::to_string(random.uniform(0, 20)) + "," + std::to_string(random.uniform(0, 20)) + "\n";
+  }
+  const Recording recording = parse(text);
+  std::size_t found[2];
+  for (const Interpolation interpolation : {Interpolation::spline, Interpolation::linear}) {
+    const Scene scene = scene_of(recording, {.distance = 1.0, .interpolation = interpolation}).scene;
+    EXPECT_EQ(scene.world.dimensions, 2);
+    const std::vector<Event> events = events_of(scene);
+    const ContactComparison comparison = require(compare_with_oracle(scene, events));
+    EXPECT_TRUE(comparison.agrees()) << *comparison.first_difference << ", seed " << seed;
+    for (const Event& event : events) EXPECT_NE(event.kind, EventKind::bound_violation) << event.time;
+    found[interpolation == Interpolation::linear] = events.size();
+  }
+  EXPECT_GT(found[0], 1000u);
+  EXPECT_GT(found[1], 1000u);
+}
+
+TEST(TrackScene, WarnsOfSplinesThatSwingOutFar) {
+  // Two ships under one id, and one that only turns sharply.
+  const Recording recording = parse(
+      "id,t,x,y\na,0,0,0\na,100,0,10\na,101,9000,0\na,201,9000,10\na,202,0,30\na,302,0,40\n"
+      "b,0,0,0\nb,100,100,0\nb,200,100,100\nb,300,0,100\n",
+      [] {
+        TrackOptions options;
+        options.max_gap = 1000;
+        return options;
+      }());
+  const TrackScene curves = scene_of(recording, {.distance = 5.0});
+  EXPECT_EQ(curves.overshoots.tracks, 1u);
+  EXPECT_EQ(curves.overshoots.id, "a");
+  EXPECT_GT(curves.overshoots.size, 1e5);
+  const auto warnings = warnings_of(recording, curves);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("id 'a' after 101"), std::string::npos) << warnings[0];
+  EXPECT_EQ(scene_of(recording, {.distance = 5.0, .interpolation = Interpolation::linear}).overshoots.tracks,
+            0u);
+}
+
+TEST(TrackScene, ToleratesWhatTheExtentAllows) {
+  const Recording recording = parse("id,t,x,y\na,0,-4e9,0\na,1,4e9,0\nb,0,0,0\nb,1,1,0\n");
+  EXPECT_GT(scene_of(recording, {.distance = 1.0}).scene.world.contact_tolerance, 1e-3);
+  EXPECT_EQ(error_of([&] { scene_of(recording, {.distance = 1.0, .tolerance = 1e-6}); }),
+            "--tolerance: expected 0.00364 or more, as id 'a' is 4e+09 from the recording's middle, but got "
+            "1e-06");
+  EXPECT_EQ(error_of([&] { scene_of(recording, {.distance = 1.0, .tolerance = 2.0}); }),
+            "--tolerance: expected less than the distance 1, but got 2");
+}
+
+TEST(TrackScene, WarnsOfWhatWasLeftOut) {
+  std::string text = "id,t,x,y\n";
+  for (int k = 0; k < 50; ++k) text += "a," + std::to_string(k < 45 ? k : 100 * k) + ",0,0\n";
+  const Recording recording = parse(text);
+  const auto warnings = warnings_of(recording, scene_of(recording, {.distance = 1.0}));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0],
+            "5 of 50 rows (10 %) were left out, alone between two gaps: a longer --max-gap keeps them");
+}
+
+}  // namespace
+}  // namespace kinesphere::program
