@@ -205,7 +205,7 @@ class World {
 
   /// Whom the body touches, in the order in which the contacts began.
   Result<std::vector<BodyId>> touching(BodyId body) const;
-  /// Which sensor distances it is within, in the order in which they were crossed.
+  /// Which sensor distances it is within: by partner, of each from the outermost inward.
   Result<std::vector<Sensed>> sensed(BodyId body) const;
 
   // Seeing inside (inspection.hpp).

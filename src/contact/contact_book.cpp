@@ -19,18 +19,6 @@ bool ContactBook::touch(std::uint32_t a, std::uint32_t b) const {
   return std::find(partners.begin(), partners.end(), b) != partners.end();
 }
 
-bool ContactBook::is_within(std::uint32_t a, std::uint32_t b, double distance) const {
-  const auto crossings = crossings_of(a);
-  return std::find(crossings.begin(), crossings.end(), Crossing{b, distance}) != crossings.end();
-}
-
-std::optional<double> ContactBook::innermost(std::uint32_t a, std::uint32_t b) const {
-  std::optional<double> least;
-  for (const Crossing& crossing : crossings_of(a))
-    if (crossing.partner == b && (!least || crossing.distance < *least)) least = crossing.distance;
-  return least;
-}
-
 /// Of the bodies, or of the body and the wall, that the event names: their contact or a sensor distance.
 void ContactBook::set_touching(const Event& contact, bool touching) {
   const std::uint32_t a = contact.first.index;

@@ -14,24 +14,12 @@
 #include "contact/chains.hpp"
 #include "contact/contact_event.hpp"
 #include "contact/contact_rule.hpp"
+#include "contact/crossings.hpp"
 #include "contact/event_set.hpp"
 #include "contact/outlook.hpp"
 #include "memory/prefetch.hpp"
 
 namespace kinesphere {
-
-/// A sensor distance within which a partner is.
-struct Crossing {
-  std::uint32_t partner;
-  double distance;
-
-  template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
-    auto& [whom, how_far] = self;
-    archive(whom, how_far);
-  }
-  friend bool operator==(const Crossing&, const Crossing&) = default;
-};
 
 class ContactBook {
  public:
@@ -67,11 +55,13 @@ class ContactBook {
   Chains<std::uint32_t>::List partners_of(std::uint32_t body) const { return partners_.of(body); }
   /// A set of wall_bit().
   std::uint8_t walls_of(std::uint32_t body) const { return entries_[body].walls; }
-  /// In the order in which they were crossed; good until the next one.
-  Chains<Crossing>::List crossings_of(std::uint32_t body) const { return crossings_.of(body); }
-  bool is_within(std::uint32_t a, std::uint32_t b, double distance) const;
-  /// The least sensor distance that the two are within.
-  std::optional<double> innermost(std::uint32_t a, std::uint32_t b) const;
+  /// By partner, of each from the outermost inward; good until the next one.
+  Crossings::List crossings_of(std::uint32_t body) const { return crossings_.of(body); }
+  /// Those of the two, from the outermost inward. Cost: O(log of the body's), as of is_within().
+  Crossings::List crossings_of(std::uint32_t a, std::uint32_t b) const { return crossings_.of(a, b); }
+  bool is_within(std::uint32_t a, std::uint32_t b, double distance) const {
+    return crossings_.contains(a, {b, distance});
+  }
   // They do not touch any more, and nobody is told.
   void release(const Event& contact) { set_touching(contact, false); }
   void release_all(std::uint32_t body);
@@ -218,7 +208,7 @@ class ContactBook {
   Space space_;
   std::vector<Entry> entries_;
   Chains<std::uint32_t> partners_;
-  Chains<Crossing> crossings_;
+  Crossings crossings_;
   EventSet pending_;
   std::set<Event, DeliveredBefore> ended_;  ///< by the caller's changes
   std::set<Event, DeliveredBefore> guards_told_;

@@ -1,12 +1,14 @@
 #include "contact/sensor_table.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace kinesphere {
 
 void SensorTable::set(SensorClass sensor_class, const Sensor& sensor) {
   if (sensor_class >= sensors_.size()) sensors_.resize(sensor_class + std::size_t{1});
   sensors_[sensor_class] = sensor;
+  sort();
   largest_reach_ = std::max(largest_reach_, reach_of(sensor));
   any_ = any_ || !sensor.distances.empty();
 }
@@ -14,6 +16,46 @@ void SensorTable::set(SensorClass sensor_class, const Sensor& sensor) {
 const Sensor& SensorTable::of(SensorClass sensor_class) const {
   static const Sensor nothing;
   return sensor_class < sensors_.size() ? sensors_[sensor_class] : nothing;
+}
+
+std::optional<double> SensorTable::next_inward(const Sensing& a, const Sensing& b,
+                                               Crossings::List crossed) const {
+  Distances first = distances_at(a, b);
+  Distances second = distances_at(b, a);
+  if (first.empty()) std::swap(first, second);
+  if (first.data() == second.data()) second = {};
+  const std::size_t count = crossed.size();
+  // As many have been crossed as lie no nearer than the last one crossed.
+  if (second.empty() && count <= first.size() && (count == 0 || first[count - 1] == crossed.back().distance))
+    return count < first.size() ? std::optional(first[count]) : std::nullopt;
+  std::optional<double> largest;
+  for (const Distances all : {first, second}) {
+    std::size_t next = 0;
+    for (const double distance : all) {
+      if (largest && distance <= *largest) break;
+      while (next < count && crossed[next].distance > distance) ++next;
+      if (next < count && crossed[next].distance == distance) continue;
+      largest = distance;
+      break;
+    }
+  }
+  return largest;
+}
+
+bool SensorTable::senses(const Sensing& a, const Sensing& b, double distance) const {
+  const auto among = [distance](Distances all) {
+    return std::binary_search(all.begin(), all.end(), distance, is_farther);
+  };
+  return among(distances_at(a, b)) || among(distances_at(b, a));
+}
+
+void SensorTable::sort() {
+  sorted_.resize(sensors_.size());
+  for (std::size_t k = 0; k < sensors_.size(); ++k) {
+    sorted_[k] = sensors_[k].distances;
+    std::sort(sorted_[k].begin(), sorted_[k].end(), is_farther);
+    sorted_[k].erase(std::unique(sorted_[k].begin(), sorted_[k].end()), sorted_[k].end());
+  }
 }
 
 double reach_of(const Sensor& sensor) {

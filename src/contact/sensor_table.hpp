@@ -1,11 +1,14 @@
 // Which distances two bodies sense each other at, by their classes and categories.
 #pragma once
 
-#include <algorithm>
+#include <concepts>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <type_traits>
 #include <vector>
 
+#include "contact/crossings.hpp"
 #include "kinesphere/sensor.hpp"
 
 namespace kinesphere {
@@ -27,37 +30,46 @@ class SensorTable {
   /// False in a world that never had sensors: facts made while there were some go by rules of their own
   /// (World::Engine::facts_end_with_boxes), and outlive them.
   bool any() const { return any_; }
-  double reach(SensorClass sensor_class) const { return reach_of(of(sensor_class)); }
+  double reach(SensorClass sensor_class) const {
+    const Distances all = distances_of(sensor_class);
+    return all.empty() ? 0.0 : all.front();
+  }
   /// No class senses farther, nor did one before.
   double largest_reach() const { return largest_reach_; }
 
-  /// The largest distance at which either of the two senses the other and that is not `known`(distance).
-  template <class Known>
-  std::optional<double> largest(const Sensing& a, const Sensing& b, Known known) const {
-    std::optional<double> found;
-    const auto consider = [&](const Sensing& watcher, const Sensing& watched) {
-      const Sensor& sensor = of(watcher.sensor_class);
-      if ((sensor.mask & watched.category) == 0) return;
-      for (const double distance : sensor.distances)
-        if ((!found || distance > *found) && !known(distance)) found = distance;
-    };
-    consider(a, b);
-    consider(b, a);
-    return found;
-  }
-  /// Whether one of the two senses the other at this distance.
-  bool senses(const Sensing& a, const Sensing& b, double distance) const {
-    return largest(a, b, [=](double other) { return other != distance; }).has_value();
-  }
+  /// The largest distance at which either of the two senses the other and that they have not `crossed`, a
+  /// list from the outermost inward of some at which one of them does. Cost: O(1) where only one of two
+  /// sensors senses, or both are the same, and the outermost distances are crossed, which they are unless a
+  /// sensor has just been changed; otherwise O(number of distances).
+  std::optional<double> next_inward(const Sensing& a, const Sensing& b, Crossings::List crossed) const;
+  /// Whether one of the two senses the other at this distance. Cost: O(log of the number of distances).
+  bool senses(const Sensing& a, const Sensing& b, double distance) const;
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [sensors, any, farthest] = self;
+    auto& [sensors, sorted, any, farthest] = self;
     archive(sensors, any, farthest);
+    if constexpr (std::same_as<Archive, HeapCounter>)
+      archive(sorted);
+    else if constexpr (!std::is_const_v<Self>)
+      self.sort();
   }
 
  private:
-  std::vector<Sensor> sensors_;  ///< by class
+  using Distances = std::span<const double>;
+
+  Distances distances_of(SensorClass sensor_class) const {
+    return sensor_class < sorted_.size() ? Distances(sorted_[sensor_class]) : Distances();
+  }
+  /// At which one body senses another.
+  Distances distances_at(const Sensing& watcher, const Sensing& watched) const {
+    const bool sees = (of(watcher.sensor_class).mask & watched.category) != 0;
+    return sees ? distances_of(watcher.sensor_class) : Distances();
+  }
+  void sort();
+
+  std::vector<Sensor> sensors_;              ///< by class
+  std::vector<std::vector<double>> sorted_;  ///< their distances from the largest on, each once
   bool any_ = false;
   double largest_reach_ = 0.0;
 };

@@ -146,8 +146,7 @@ class World::Engine::Audit {
   }
 
   void check_crossings(std::uint32_t a, std::uint32_t b) {
-    for (const Crossing& crossing : engine_.book_.crossings_of(a)) {
-      if (crossing.partner != b) continue;
+    for (const Crossing& crossing : engine_.book_.crossings_of(a, b)) {
       const bool senses =
           engine_.may_meet(a, b) &&
           engine_.sensors_.senses(engine_.sensing_of(a), engine_.sensing_of(b), crossing.distance);

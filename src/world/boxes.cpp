@@ -231,7 +231,9 @@ void World::Engine::find_neighbours(std::uint32_t number) {
   std::size_t larger = 0;
   const auto touched = book_.partners_of(number);
   partners_.assign(touched.begin(), touched.end());
-  for (const Crossing& crossing : book_.crossings_of(number)) partners_.push_back(crossing.partner);
+  const auto crossed = book_.crossings_of(number);
+  for (std::size_t k = 0; k < crossed.size(); ++k)
+    if (k == 0 || crossed[k].partner != crossed[k - 1].partner) partners_.push_back(crossed[k].partner);
   const std::size_t known = partners_.size();
   space_.for_each_overlap(grid_, box, [&](std::uint32_t other, double extent_of_other) {
     if (other == number) return;

@@ -365,10 +365,10 @@ template <class Visit>
 void World::Engine::for_each_threshold(std::uint32_t a, std::uint32_t b, Visit visit) const {
   if (bodies_[a].solid && bodies_[b].solid) visit(Threshold{.within = book_.touch(a, b)});
   if (!sensors_.any()) return;
-  const auto crossed = [&](double distance) { return book_.is_within(a, b, distance); };
-  if (const auto next = sensors_.largest(sensing_of(a), sensing_of(b), crossed))
+  const Crossings::List crossed = book_.crossings_of(a, b);
+  if (const auto next = sensors_.next_inward(sensing_of(a), sensing_of(b), crossed))
     visit(Threshold{false, *next, true});
-  if (const auto innermost = book_.innermost(a, b)) visit(Threshold{true, *innermost, true});
+  if (!crossed.empty()) visit(Threshold{true, crossed.back().distance, true});
 }
 
 }  // namespace kinesphere

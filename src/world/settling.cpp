@@ -232,7 +232,7 @@ bool World::Engine::lookout_tells_all(std::uint32_t number, std::uint32_t partne
   if (!sensors_.any()) return true;
   const Body& a = bodies_[number];
   const Body& b = bodies_[partner];
-  const auto sensed = sensors_.largest(sensing_of(number), sensing_of(partner), [](double) { return false; });
+  const auto sensed = sensors_.next_inward(sensing_of(number), sensing_of(partner), {});
   return sensed == reach_of_pair(a, b);
 }
 
