@@ -28,8 +28,12 @@ enum class EventKind : std::uint8_t {
   sensor_enter,
   /// The gap of two bodies that were within a sensor distance has grown to the separation distance beyond it.
   sensor_leave,
+  /// A body that rested (World::rest) is awake again, where it was: it is probed from now on. These come
+  /// before
+  /// the other events that are still to come of their instant.
+  woken,
 };
-inline constexpr int event_kind_count = 8;
+inline constexpr int event_kind_count = 9;
 
 /// Whether an event of this kind is about a sensor distance (Event::distance).
 constexpr bool is_of_sensor(EventKind kind) {
@@ -50,7 +54,7 @@ struct Event {
   double time = 0.0;
   /// The body, or the one of the two with the smaller id.
   BodyId first = no_body;
-  /// The other body; no_body for wall events and bound violations.
+  /// The other body; no_body for wall events, bound violations and bodies that are woken.
   BodyId second = no_body;
   /// The wall of a wall event, else Wall::none.
   Wall wall = Wall::none;

@@ -67,6 +67,8 @@ struct BodyView {
   /// It never moves: shape_of() tells its shape. Its state is that of one point of it, and box_end is
   /// infinite.
   bool fixed;
+  /// It rests (World::rest): it is not probed, and its bound stands still.
+  bool resting;
 };
 
 /// The first thing that audit() found wrong.
@@ -150,6 +152,23 @@ class World {
   /// It is back, in this state at the current time; a fixed body is back where it was, and its state is not
   /// looked at. Errors: enabled_body.
   Result<void> enable(BodyId body, const State& state);
+
+  /// The body stays exactly where it is from now on, until it is woken: while it rests it is not probed, its
+  /// bound stands still, and its contacts with fixed and other resting bodies last without being looked at.
+  /// The next advance probes it once if its last report is older than this call, and the velocity has to be
+  /// zero then. An event `woken` tells that a body is awake again, with the limits that it had. What wakes
+  /// it:
+  ///   - an event contact_begin or contact_end that it is part of;
+  ///   - set_velocity, teleport, set_radius and set_motion_limits of the body itself, and wake();
+  ///   - the waking, removal, disabling, teleport or change of radius of a body in touch with it, one whose
+  ///   gap
+  ///     to it is at most the separation distance and the tolerance: so a whole island wakes together.
+  /// ContactMode::impacts has no contact_end: a body that rests upon one that is awake is not told when that
+  /// one leaves. A body that rests already goes on resting. Errors: disabled_body, fixed_body.
+  Result<void> rest(BodyId body);
+  /// Wakes the body and its island. One that is awake stays so, and nothing happens. Errors: disabled_body,
+  /// fixed_body.
+  Result<void> wake(BodyId body);
 
   /// Contacts that the filter does not let pass end; overlaps that it newly lets pass begin at once, also
   /// where overlaps are not allowed.

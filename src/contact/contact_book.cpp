@@ -160,6 +160,7 @@ bool ContactBook::is_sound(std::size_t bodies, double time, const std::optional<
     if (event.time != time || !is_known(event.first)) return false;
     switch (event.kind) {
       case EventKind::bound_violation:
+      case EventKind::woken:
         return event.second == no_body && event.wall == Wall::none;
       case EventKind::contact_begin:
       case EventKind::contact_end:

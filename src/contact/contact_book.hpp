@@ -99,6 +99,8 @@ class ContactBook {
   void start_instant() { guards_told_.clear(); }
   /// Queues an event; the same event is not queued twice.
   void announce(const Event& event);
+  /// Queues one that has happened: it comes before all that are announced, with the states that it has.
+  void tell(const Event& event) { ended_.insert(event); }
   const EventSet& pending() const { return pending_; }
   /// What is pending about `body` and another, and does not hold any more, is dropped.
   template <class Holds>
@@ -210,7 +212,7 @@ class ContactBook {
   Chains<std::uint32_t> partners_;
   Crossings crossings_;
   EventSet pending_;
-  std::set<Event, DeliveredBefore> ended_;  ///< by the caller's changes
+  std::set<Event, DeliveredBefore> ended_;  ///< by the caller's changes; and bodies that have woken
   std::set<Event, DeliveredBefore> guards_told_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> changed_;
 };

@@ -58,6 +58,8 @@ struct Plain {
 using Remove = Plain<&World::remove>;
 using Disable = Plain<&World::disable>;
 using Refilter = Plain<&World::refilter>;
+using RestBody = Plain<&World::rest>;
+using Wake = Plain<&World::wake>;
 
 /// A change of one body, or of a sensor class, that takes one argument. `Parameter` is as the call declares
 /// it.
@@ -137,10 +139,11 @@ struct End {
 }  // namespace step
 
 /// Their order is part of the format.
-using Step = std::variant<step::Asking, step::Add, step::AddFixed, step::Remove, step::SetVelocity,
-                          step::Teleport, step::SetRadius, step::SetMotionLimits, step::Disable, step::Enable,
-                          step::SetFilter, step::SetPairFilter, step::Refilter, step::SetSolid,
-                          step::SetSensor, step::SetSensorClass, step::SetUserData, step::End>;
+using Step =
+    std::variant<step::Asking, step::Add, step::AddFixed, step::Remove, step::SetVelocity, step::Teleport,
+                 step::SetRadius, step::SetMotionLimits, step::Disable, step::Enable, step::SetFilter,
+                 step::SetPairFilter, step::Refilter, step::SetSolid, step::SetSensor, step::SetSensorClass,
+                 step::SetUserData, step::End, step::RestBody, step::Wake>;
 
 /// A hash over the outcomes of all steps so far: events to the last bit, and all work that was done.
 class StepHash {

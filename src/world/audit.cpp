@@ -75,6 +75,8 @@ class World::Engine::Audit {
       find("registration", name(number) + " " + *wrong);
     if (b.is_fixed()) return check_fixed(number);
     if (engine_.marks_[number].dirty) return;
+    if (b.is_resting() && !(b.is_at_rest() && b.bound.velocity == Vec3{} && b.largest_acceleration() == 0.0))
+      find("registration", name(number) + " rests, but its bound does not stand still");
     if (!engine_.space_.is_narrow(engine_.box(number)))
       find("registration", name(number) + " has too wide a box");
     if (!(engine_.sketches_[number] == engine_.sketch_of(b)))

@@ -32,6 +32,7 @@ struct alignas(64) Body {
   std::uint32_t shape_number = none;   ///< in the table of the shapes of fixed bodies
   std::uint32_t change_number = none;  ///< in the table of changes
   std::uint32_t generation = 0;
+  std::uint32_t rest_number = none;  ///< in the table of rests
   double radius = 0.0;
   double position_error = 0.0;
   std::uint64_t user_data = 0;
@@ -39,16 +40,19 @@ struct alignas(64) Body {
 
   bool present() const { return alive && enabled; }
   bool is_fixed() const { return shape_number != none; }
+  bool is_resting() const { return rest_number != none; }
+  /// It rests, and the world has known where since it does. Then its bound stands still.
+  bool is_at_rest() const { return is_resting() && change_number == none; }
   /// The world knows its present state.
-  bool fresh(double time) const { return bound.time == time || is_fixed(); }
+  bool fresh(double time) const { return bound.time == time || is_fixed() || is_at_rest(); }
   double largest_acceleration() const { return bound.growth_acceleration + norm(bound.planned_acceleration); }
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
     auto& [since_report, place_end, walls_until, looks_at, lives, takes_part, turns, touches, senses_as,
-           own_shape, own_change, own_generation, size, error, data, ahead] = self;
+           own_shape, own_change, own_generation, own_rest, size, error, data, ahead] = self;
     archive(since_report, place_end, walls_until, looks_at, lives, takes_part, turns, touches, senses_as,
-            own_shape, own_change, own_generation, size, error, data, ahead);
+            own_shape, own_change, own_generation, own_rest, size, error, data, ahead);
   }
 };
 static_assert(sizeof(Body) == 192);
@@ -64,6 +68,18 @@ struct Change {
   static void transfer(Self& self, Archive& archive) {
     auto& [whose, velocity, promised] = self;
     archive(whose, velocity, promised);
+  }
+};
+
+/// What a body that rests promises once it is awake.
+struct Rest {
+  std::uint32_t body = 0;
+  MotionLimits limits{};
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [whose, awake] = self;
+    archive(whose, awake);
   }
 };
 

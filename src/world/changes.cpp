@@ -39,6 +39,7 @@ void World::Engine::replace(std::uint32_t number, const Bound& bound) {
 }
 
 void World::Engine::teleport(BodyId id, const State& state) {
+  wake_island(id.index);
   if (definition_.contacts == ContactMode::impacts) book_.release_all(id.index);
   if (space_.repeats()) images_[id.index] = {};
   replace(id.index, bound_of(definition_of(id.index), state, time_));
@@ -46,6 +47,7 @@ void World::Engine::teleport(BodyId id, const State& state) {
 }
 
 void World::Engine::set_radius(BodyId id, double radius) {
+  if (bodies_[id.index].enabled) wake_island(id.index);
   BodyDefinition changed = definition_of(id.index);
   changed.radius = radius;
   if (bodies_[id.index].enabled) replace(id.index, bound_with(id, changed));
@@ -54,6 +56,7 @@ void World::Engine::set_radius(BodyId id, double radius) {
 
 void World::Engine::set_motion_limits(BodyId id, const MotionLimits& promise) {
   Body& body = bodies_[id.index];
+  if (body.is_resting()) wake_island(id.index);
   const BodyDefinition changed = with_motion_limits(definition_of(id.index), promise);
   if (body.enabled) replace(id.index, bound_with(id, changed));
   body.position_error = promise.position_error;
@@ -83,6 +86,9 @@ void World::Engine::forget_change(std::uint32_t number) {
 
 void World::Engine::disable(BodyId id) {
   Body& body = bodies_[id.index];
+  // It will come back awake.
+  if (body.is_resting()) resume(id.index);
+  wake_island(id.index);
   withdraw(id.index);
   body.enabled = false;
 }

@@ -27,6 +27,7 @@ std::optional<Event> World::Engine::deliver() {
                     [this](std::uint32_t number) { return sphere(number); }, walls_);
   if (!event) return event;
   ++counters_.events[static_cast<std::size_t>(event->kind)];
+  if (!rests_.empty()) wake_by(*event);
   if (event->repeated) ++counters_.repeated_contacts;
   return event;
 }

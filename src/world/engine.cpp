@@ -101,6 +101,8 @@ void World::Engine::withdraw(std::uint32_t number) {
 void World::Engine::remove(BodyId id) {
   const std::uint32_t number = id.index;
   Body& body = bodies_[number];
+  if (body.is_resting()) resume(number);
+  wake_island(number);
   withdraw(number);
   if (body.is_fixed()) free_shapes_.push_back(body.shape_number);
   forget_change(number);
@@ -149,6 +151,7 @@ BodyDefinition World::Engine::definition_of(std::uint32_t number) const {
     definition = with_motion_limits(definition, change->promise);
     definition.velocity = change->kicked_to.value_or(bound.velocity);
   }
+  if (body.is_resting()) definition = with_motion_limits(definition, rests_[body.rest_number].limits);
   return definition;
 }
 
@@ -156,8 +159,8 @@ BodyDefinition World::Engine::definition_of(std::uint32_t number) const {
 BodyView World::Engine::view(std::uint32_t number) const {
   const Body& body = bodies_[number];
   BodyView view{
-      definition_of(number), body.bound,     box(number), std::min(body.box_end, body.look_time), {},
-      body.enabled,          body.is_fixed()};
+      definition_of(number), body.bound,      box(number),      std::min(body.box_end, body.look_time), {},
+      body.enabled,          body.is_fixed(), body.is_resting()};
   if (!space_.repeats()) return view;
   const auto [position, images] = space_.wrapped(body.bound.position);
   const Vec3 shift = space_.shift_of(images);
@@ -187,6 +190,7 @@ std::optional<BodyId> World::Engine::certain_overlap(BodyId id, const Extent& ex
 
 void World::Engine::set_velocity(BodyId id, const Vec3& velocity) {
   Body& body = bodies_[id.index];
+  if (body.is_resting()) wake_island(id.index);
   body.turned = true;
   if (body.fresh(time_)) {
     body.bound.velocity = velocity;

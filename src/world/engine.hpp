@@ -16,7 +16,8 @@
 // whose box has run out, which renews the first and the third kind of fact. A body that looks around renews
 // the third kind in its old box. Each body is scheduled at the earliest of its box end, its wall time, its
 // next look around and its watches. A fixed body has a shape in a table of its own and
-// a box for ever. It is never probed and watches nobody: its partners, which move, watch it.
+// a box for ever. It is never probed and watches nobody: its partners, which move, watch it. A body that
+// rests has a bound that stands still (rest.cpp), and is otherwise like any other.
 //
 // Where space repeats, the image in which two bodies can meet is the one in which their boxes are nearest
 // (space/space.hpp). It may be another one after either box has ended, so there no watch outlives the boxes.
@@ -74,6 +75,9 @@ class World::Engine {
   void set_solid(BodyId id, bool solid);
   void set_sensor(SensorClass sensor_class, const Sensor& sensor);
   void set_sensor_class(BodyId id, SensorClass sensor_class);
+  // rest.cpp: bodies that rest until something wakes them.
+  void rest(BodyId id);
+  void wake_up(BodyId id) { wake_island(id.index); }
   void set_user_data(BodyId id, std::uint64_t data) { bodies_[id.index].user_data = data; }
 
   double time() const { return time_; }
@@ -214,6 +218,15 @@ class World::Engine {
     return bodies_[a].solid && bodies_[b].solid && may_meet(a, b);
   }
   bool may_hold(const Event& event) const;
+
+  // rest.cpp
+  void stand_still(Body& body) const;
+  void forget_rest(std::uint32_t number);
+  void resume(std::uint32_t number);
+  void rouse(std::uint32_t number);
+  void wake_island(std::uint32_t number);
+  void wake_by(const Event& event);
+  std::vector<std::uint32_t> resting_in_touch(std::uint32_t number) const;
   bool lets_meet(BodyId a, BodyId b) const;
 
   /// The limits of the gap of the two now, in the image in which they are nearest.
@@ -312,6 +325,7 @@ class World::Engine {
   bool neighbours_are_sound() const;
   bool is_sound(std::uint32_t number) const;
   bool changes_are_sound() const;
+  bool rests_are_sound() const;
   bool contacts_of_fixed_are_sound() const;
   bool is_sound_fixed(std::uint32_t number) const;
   bool box_is_sound(std::uint32_t number) const;
@@ -326,6 +340,7 @@ class World::Engine {
   std::size_t size_ = 0;
   std::vector<Body> bodies_;
   std::vector<Change> changes_;
+  std::vector<Rest> rests_;
   std::vector<Filter> filters_;  ///< of all bodies up to the last one that has another than the default
   std::vector<Marks> marks_;
   std::vector<Sketch> sketches_;  ///< of their bounds, until their boxes end; of no use while a body is dirty

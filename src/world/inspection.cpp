@@ -32,7 +32,7 @@ class Stopwatch {
 Memory World::Engine::memory() const {
   Memory memory;
   memory.watches = heap_bytes(neighbours_);
-  memory.bodies = heap_bytes(bodies_, boxes_, changes_, filters_, marks_, sketches_, homes_, images_);
+  memory.bodies = heap_bytes(bodies_, boxes_, changes_, rests_, filters_, marks_, sketches_, homes_, images_);
   memory.contacts = heap_bytes(book_);
   memory.grid = heap_bytes(grid_);
   memory.schedule = heap_bytes(schedule_);

@@ -61,11 +61,12 @@ Result<bool> World::Engine::probe_stale(std::span<const std::uint32_t> numbers, 
   return true;
 }
 
-/// Probes the body whose report is older; the second one, if they are of the same age.
+/// Probes the body whose report is older; the second one, if they are of the same age. One of them at least
+/// is not fresh.
 Result<void> World::Engine::probe_staler(std::uint32_t a, std::uint32_t b) {
   const bool a_is_staler = bodies_[a].bound.time < bodies_[b].bound.time;
-  const bool a_moves = !bodies_[a].is_fixed();
-  const std::uint32_t staler = a_moves && (a_is_staler || bodies_[b].is_fixed()) ? a : b;
+  const bool a_is_asked = !bodies_[a].fresh(time_) && (a_is_staler || bodies_[b].fresh(time_));
+  const std::uint32_t staler = a_is_asked ? a : b;
   return probe(std::span(&staler, 1));
 }
 
@@ -89,6 +90,7 @@ void World::Engine::apply_report(std::uint32_t number, const State& answer) {
   if (!marks_[number].dirty) sketches_[number] = sketch_of(body);
   const auto broken =
       broken_promise(before, body.bound, body.radius, kicked_to, definition_.contact_tolerance);
+  if (body.is_resting()) stand_still(body);
   if (!broken) return;
   const Event violation = violation_event(time_, id_of(number),
                                           {space_.wrapped(state.position).position, state.velocity}, *broken);

@@ -23,7 +23,7 @@ namespace {
 /// Raise the version when the fields change, or when the engine would go on from the same fields in another
 /// way.
 constexpr Envelope envelope{{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'},
-                            6,
+                            7,
                             "world",
                             "World::restore",
                             "snapshot",
@@ -62,12 +62,12 @@ template <class Self, class Archive>
 void World::Engine::transfer(Self& self, Archive& archive) {
   // The definition comes first, as an engine is made from it, space and walls too; the last matter only
   // during advance().
-  auto& [definition, space, enclosure, book, time, size, bodies, changes, filters, marks, sketches, boxes,
-         homes, images, free, shapes, free_shapes, grid, neighbours, schedule, dirty, counters, sensors,
-         pair_filter, filtering, gathering, probe, probing_call, probing, probe_ids, probe_states, partners,
-         round, chosen, unwatched] = self;
-  archive(book, time, size, bodies, changes, filters, marks, boxes, images, free, shapes, free_shapes, grid,
-          neighbours, schedule, dirty, counters, sensors, filtering, gathering);
+  auto& [definition, space, enclosure, book, time, size, bodies, changes, rests, filters, marks, sketches,
+         boxes, homes, images, free, shapes, free_shapes, grid, neighbours, schedule, dirty, counters,
+         sensors, pair_filter, filtering, gathering, probe, probing_call, probing, probe_ids, probe_states,
+         partners, round, chosen, unwatched] = self;
+  archive(book, time, size, bodies, changes, rests, filters, marks, boxes, images, free, shapes, free_shapes,
+          grid, neighbours, schedule, dirty, counters, sensors, filtering, gathering);
 }
 
 std::vector<std::byte> World::Engine::save() const {
@@ -107,7 +107,7 @@ Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const st
 const char* World::Engine::contradiction() const {
   if (!std::isfinite(time_)) return "time";
   if (!shapes_are_sound()) return "shapes";
-  if (!changes_are_sound() || !bodies_are_sound()) return "bodies";
+  if (!changes_are_sound() || !rests_are_sound() || !bodies_are_sound()) return "bodies";
   for (int number = 0; number <= std::numeric_limits<SensorClass>::max(); ++number)
     if (!check_sensor(sensors_.of(static_cast<SensorClass>(number)), definition_)) return "sensors";
   const auto known = [this](BodyId id) { return was_given_out(id); };
@@ -209,6 +209,24 @@ bool World::Engine::changes_are_sound() const {
       return false;
   }
   return std::count_if(bodies_.begin(), bodies_.end(), has) == std::ssize(changes_);
+}
+
+/// Each rest is that of one body, which can move and takes part, and whose bound stands still unless there is
+/// no report yet.
+bool World::Engine::rests_are_sound() const {
+  for (std::uint32_t rest = 0; rest < rests_.size(); ++rest) {
+    const std::uint32_t number = rests_[rest].body;
+    if (number >= bodies_.size()) return false;
+    const Body& body = bodies_[number];
+    if (body.rest_number != rest || !body.present() || body.is_fixed()) return false;
+    Bound still = body.bound;
+    still.velocity = still.planned_acceleration = {};
+    still.growth_speed = still.growth_acceleration = 0.0;
+    if (body.is_at_rest() && !same(still, body.bound)) return false;
+    if (rests_[rest].limits.position_error != body.position_error) return false;
+  }
+  return std::count_if(bodies_.begin(), bodies_.end(), [](const Body& body) { return body.is_resting(); }) ==
+         std::ssize(rests_);
 }
 
 bool World::Engine::bodies_are_sound() const {

@@ -196,6 +196,18 @@ Result<void> World::disable(BodyId body) {
   return valid;
 }
 
+Result<void> World::rest(BodyId body) {
+  auto valid = check_mobile(body, "rest");
+  if (valid) changing(step::RestBody{body}).rest(body);
+  return valid;
+}
+
+Result<void> World::wake(BodyId body) {
+  auto valid = check_mobile(body, "wake");
+  if (valid) changing(step::Wake{body}).wake_up(body);
+  return valid;
+}
+
 Result<void> World::set_radius(BodyId body, double radius) {
   auto valid = check_moving(body, "set_radius");
   if (!valid) return valid;
