@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Runs one scene with the library built by both compilers, at several optimisation levels and with sanitizers,
 # and fails unless all of them, and the program given, find the same events bit for bit, and go through a recording
-# of that program without diverging.
+# of that program without diverging. The same again for a user of each of them who compiles its headers in ways that
+# change rounding, without inlining, so that copies of inline functions are left for the linker to choose from.
 # Usage: same_hash.sh <the program kinesphere> [scene bodies seconds]
 set -euo pipefail
 
@@ -13,7 +14,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # -march=native brings in fused multiply-add and wider vectors.
 configurations=(
   "gcc-O0 g++ -O0"
-  "gcc-O2 g++ -O2"
+  "gcc-O2-shared g++ -O2"
   "gcc-O3 g++ -O3 -DNDEBUG"
   "gcc-O3-native g++ -O3 -march=native"
   "gcc-sanitized g++ -O1 -fsanitize=address,undefined -fno-sanitize-recover=all"
@@ -23,7 +24,12 @@ configurations=(
   "clang-O3-native clang++ -O3 -march=native"
 )
 
+foreign_flags=(-std=c++20 -O2 -fno-inline -ffp-contract=fast)
+if grep -qw fma /proc/cpuinfo; then foreign_flags+=(-mfma); fi
+
 mkdir -p build/hash
+# All public headers, so that all of their inline functions are there.
+(cd include && find kinesphere -name '*.hpp' | sort | sed 's/.*/#include <&>/') >build/hash/every_header.cpp
 recording=$(mktemp build/hash/recording-XXXXXX)
 trap 'rm -f "$recording"' EXIT
 expected=$("$program" run "$scene" --bodies "$bodies" --seconds "$seconds" --record "$recording" --hash-only)
@@ -33,8 +39,10 @@ for configuration in "${configurations[@]}"; do
   read -r name compiler flags <<<"$configuration"
   build=build/hash/$name
   mkdir -p "$build"
+  shared=OFF
+  if [[ $name == *shared ]]; then shared=ON; fi
   if ! { cmake -S . -B "$build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags" \
-           -DKINESPHERE_BUILD_PROGRAM=OFF -DKINESPHERE_BUILD_EXAMPLES=OFF \
+           -DCMAKE_BUILD_TYPE=None -DKINESPHERE_BUILD_TESTS=ON -DBUILD_SHARED_LIBS="$shared" \
            -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=16 &&
          cmake --build "$build" --target scene_hash; } >"$build/build.log" 2>&1; then
     cat "$build/build.log"
@@ -42,8 +50,19 @@ for configuration in "${configurations[@]}"; do
   fi
   hash=$("$build/tests/scene_hash" "$scene" "$bodies" "$seconds")
   replayed=$("$build/tests/scene_hash" "$recording" || true)
-  echo "$hash  ${replayed:-diverged}  $name"
-  if [[ $hash != "$expected" || $replayed != "$expected" ]]; then different=$((different + 1)); fi
+  # g++ can be told to emit every inline function, used or not.
+  keep=()
+  if [[ $compiler == g++ ]]; then keep=(-fkeep-inline-functions); fi
+  library=("$build"/src/libkinesphere.*)
+  read -r -a flags <<<"$flags"
+  "$compiler" "${flags[@]}" "${foreign_flags[@]}" "${keep[@]}" -Iinclude -I"$build/include" \
+    tests/same_hash/scene_hash.cpp build/hash/every_header.cpp "${library[0]}" -Wl,-rpath,"$PWD/$build/src" \
+    -o "$build/foreign_user"
+  foreign=$("$build/foreign_user" "$scene" "$bodies" "$seconds")
+  echo "$hash  ${replayed:-diverged}  $foreign  $name"
+  if [[ $hash != "$expected" || $replayed != "$expected" || $foreign != "$expected" ]]; then
+    different=$((different + 1))
+  fi
 done
 
 if [[ $different != 0 ]]; then

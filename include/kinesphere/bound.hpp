@@ -13,7 +13,7 @@
 //      that cannot cancel, with the discriminant moved to the early side, and shortened by 2^-47 of
 //      themselves; the final sum is rounded down. Where a number overflows the answer is `from`.
 //      No rounding mode is changed, so the result is the same on every machine and at every
-//      optimisation level (build with -ffp-contract=off and without -ffast-math).
+//      optimisation level (the library is built with -ffp-contract=off and without -ffast-math).
 #pragma once
 
 #include "kinesphere/body.hpp"
@@ -34,16 +34,18 @@ struct Bound {
   double growth_acceleration = 0.0;  ///< A
 
   /// Centre and radius at time t >= time, correctly rounded step by step (no margin).
-  Vec3 centre_at(double t) const {
+  [[gnu::always_inline]] Vec3 centre_at(double t) const {
     const double s = t - time;
     return position + (velocity + planned_acceleration * (0.5 * s)) * s;
   }
-  double radius_at(double t) const {
+  [[gnu::always_inline]] double radius_at(double t) const {
     const double s = t - time;
     return radius + (growth_speed + 0.5 * growth_acceleration * s) * s;
   }
   /// Velocity of the centre at time t >= time.
-  Vec3 velocity_at(double t) const { return velocity + planned_acceleration * (t - time); }
+  [[gnu::always_inline]] Vec3 velocity_at(double t) const {
+    return velocity + planned_acceleration * (t - time);
+  }
 };
 
 /// The bound of a body that reports `state` at `time`.

@@ -26,24 +26,13 @@ class Random {
   constexpr double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
   /// In [lower, upper] (rounding may give `upper` itself).
-  constexpr double uniform(double lower, double upper) { return lower + (upper - lower) * uniform(); }
+  double uniform(double lower, double upper);
 
   /// Uniform in the ball of radius 1 around the origin. Takes about 2 tries.
-  constexpr Vec3 point_in_ball() {
-    for (;;) {
-      const Vec3 point{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
-      if (norm_squared(point) <= 1.0) return point;
-    }
-  }
+  Vec3 point_in_ball();
 
   /// Uniform on the sphere of radius 1 around the origin.
-  Vec3 unit_vector() {
-    for (;;) {
-      const Vec3 point = point_in_ball();
-      const double length = norm(point);
-      if (length > 0x1p-20) return point / length;  // nearer the origin the direction has few bits
-    }
-  }
+  Vec3 unit_vector();
 
  private:
   static constexpr std::uint64_t step = 0x9e3779b97f4a7c15u;  // 2^64 / golden ratio

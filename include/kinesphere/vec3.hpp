@@ -1,4 +1,9 @@
 // A vector of three doubles, and the axis-aligned box between two of them.
+//
+// Functions in public headers that calculate are inlined everywhere, without optimisation too. A copy of its
+// own, as compilers make of other inline functions, could be the one that the linker keeps for the whole
+// program: the library would then calculate with code that was compiled with its user's flags, which may
+// round otherwise.
 #pragma once
 
 #include <algorithm>
@@ -14,31 +19,41 @@ struct Vec3 {
   constexpr double& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
   constexpr double operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
 
-  constexpr Vec3& operator+=(const Vec3& other) { return *this = {x + other.x, y + other.y, z + other.z}; }
-  constexpr Vec3& operator-=(const Vec3& other) { return *this = {x - other.x, y - other.y, z - other.z}; }
-  constexpr Vec3& operator*=(double factor) { return *this = {x * factor, y * factor, z * factor}; }
+  [[gnu::always_inline]] constexpr Vec3& operator+=(const Vec3& other) {
+    return *this = {x + other.x, y + other.y, z + other.z};
+  }
+  [[gnu::always_inline]] constexpr Vec3& operator-=(const Vec3& other) {
+    return *this = {x - other.x, y - other.y, z - other.z};
+  }
+  [[gnu::always_inline]] constexpr Vec3& operator*=(double factor) {
+    return *this = {x * factor, y * factor, z * factor};
+  }
 
   friend constexpr bool operator==(const Vec3&, const Vec3&) = default;
 };
 
-constexpr Vec3 operator+(Vec3 a, const Vec3& b) { return a += b; }
-constexpr Vec3 operator-(Vec3 a, const Vec3& b) { return a -= b; }
-constexpr Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
-constexpr Vec3 operator*(Vec3 a, double factor) { return a *= factor; }
-constexpr Vec3 operator*(double factor, Vec3 a) { return a *= factor; }
-constexpr Vec3 operator/(const Vec3& a, double divisor) {
+[[gnu::always_inline]] constexpr Vec3 operator+(Vec3 a, const Vec3& b) { return a += b; }
+[[gnu::always_inline]] constexpr Vec3 operator-(Vec3 a, const Vec3& b) { return a -= b; }
+[[gnu::always_inline]] constexpr Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
+[[gnu::always_inline]] constexpr Vec3 operator*(Vec3 a, double factor) { return a *= factor; }
+[[gnu::always_inline]] constexpr Vec3 operator*(double factor, Vec3 a) { return a *= factor; }
+[[gnu::always_inline]] constexpr Vec3 operator/(const Vec3& a, double divisor) {
   return {a.x / divisor, a.y / divisor, a.z / divisor};
 }
 
-constexpr double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
+[[gnu::always_inline]] constexpr double dot(const Vec3& a, const Vec3& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+[[gnu::always_inline]] constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-constexpr double norm_squared(const Vec3& a) { return dot(a, a); }
-inline double norm(const Vec3& a) { return std::sqrt(norm_squared(a)); }
+[[gnu::always_inline]] constexpr double norm_squared(const Vec3& a) { return dot(a, a); }
+[[gnu::always_inline]] inline double norm(const Vec3& a) { return std::sqrt(norm_squared(a)); }
 
 /// |x| + |y| + |z|: the cheap size that rounding margins are taken from.
-inline double norm_one(const Vec3& a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
+[[gnu::always_inline]] inline double norm_one(const Vec3& a) {
+  return std::abs(a.x) + std::abs(a.y) + std::abs(a.z);
+}
 
 inline bool is_finite(const Vec3& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);

@@ -107,7 +107,7 @@ double rounded_down(Long value) {
 double rounded_up(Long value) { return -rounded_down(-value); }
 
 /// More than what fewer than a hundred roundings do to a result, relative to all that went into it.
-constexpr Long margin = 128 * std::numeric_limits<Long>::epsilon();
+constexpr Long result_margin = 128 * std::numeric_limits<Long>::epsilon();
 
 }  // namespace
 
@@ -138,7 +138,7 @@ PlainGap::Limits PlainGap::distance(double time) const {
         },
         *shape_);
   }
-  return {rounded_down(range.lower - margin * size), rounded_up(range.upper + margin * size)};
+  return {rounded_down(range.lower - result_margin * size), rounded_up(range.upper + result_margin * size)};
 }
 
 double PlainGap::radii() const { return moving_.radius + (shape_ == nullptr ? other_.radius : 0.0); }

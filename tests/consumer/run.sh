@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
 # Installs a build of the library into a temporary folder, moves it, and builds the project beside this
-# script against it: through find_package, and through pkg-config.
-# Usage: run.sh <build folder> <library folder under the prefix> <compiler> <compiler flags>
+# script against it: through find_package, and through pkg-config. Whatever flags its user compiles with, none is
+# forced upon it and the library's results are the same as those of the program. Without options the library alone
+# would be built, with nothing but a compiler.
+# Usage: run.sh <build folder> <library folder under the prefix> <compiler> <compiler flags> [the program kinesphere]
 set -euo pipefail
 
-build=$1 libdir=$2 compiler=$3 flags=$4
+build=$1 libdir=$2 compiler=$3 flags=$4 program=${5:-}
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -19,10 +21,46 @@ cmake -S "$source" -B "$work/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
   -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags" >"$work/configure.log"
 cmake --build "$work/build"
 "$work/build/consumer"
+if grep -r INTERFACE_COMPILE_OPTIONS "$prefix/$libdir/cmake"; then
+  echo "consumer: compiler flags are forced upon users of the CMake package" >&2
+  exit 1
+fi
 
 echo "with pkg-config:"
 export PKG_CONFIG_PATH=$prefix/$libdir/pkgconfig
+read -r -a link < <(pkg-config --cflags --libs kinesphere)
+if pkg-config --cflags kinesphere | tr ' ' '\n' | grep -v -e '^-I' -e '^$'; then
+  echo "consumer: compiler flags are forced upon users of pkg-config" >&2
+  exit 1
+fi
 # Flags are lists of words.
-# shellcheck disable=SC2046,SC2086
-"$compiler" -std=c++20 $flags "$source/main.cpp" $(pkg-config --cflags --libs kinesphere) -o "$work/consumer"
+read -r -a flags <<<"$flags"
+"$compiler" -std=c++20 "${flags[@]}" "$source/main.cpp" "${link[@]}" -o "$work/consumer"
 "$work/consumer"
+
+if [[ -n $program ]]; then
+  scene=(paper1 100 2)
+  expected=$("$program" run "${scene[0]}" --bodies "${scene[1]}" --seconds "${scene[2]}" --hash-only)
+  fused=()
+  if grep -qw fma /proc/cpuinfo; then fused=(-mfma -ffp-contract=fast); fi
+  # Without inlining the linker has copies of inline functions to choose from.
+  for optimisation in "-O0" "-O2 -fno-inline" "-O3"; do
+    read -r -a optimised <<<"$optimisation"
+    "$compiler" -std=c++20 "${flags[@]}" "${optimised[@]}" "${fused[@]}" "$source/../same_hash/scene_hash.cpp" \
+      "${link[@]}" -o "$work/scene_hash"
+    hash=$("$work/scene_hash" "${scene[@]}")
+    echo "$hash  with $optimisation ${fused[*]}, and $expected in the program"
+    [[ $hash == "$expected" ]] || { echo "consumer: results depend on its flags" >&2 && exit 1; }
+  done
+fi
+
+echo "without options:"
+missing=()
+for package in CLI11 fmt nlohmann_json ZLIB GTest rapidcheck; do missing+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON"); done
+cmake -S "$source/../.." -B "$work/plain" -DCMAKE_CXX_COMPILER="$compiler" "${missing[@]}" -G Ninja >"$work/configure.log"
+targets=$(cmake --build "$work/plain" --target help)
+grep -o 'libkinesphere[^:]*' <<<"$targets" | head -n 1
+if grep -E 'kinesphere_program|example_|test_|scene_hash' <<<"$targets"; then
+  echo "consumer: more than the library is built without options" >&2
+  exit 1
+fi

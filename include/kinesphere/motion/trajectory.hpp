@@ -19,7 +19,7 @@ struct Segment {
 
   State state_at(double t) const;
   /// Acceleration at time t.
-  Vec3 acceleration_at(double t) const { return acceleration + jerk * (t - begin); }
+  [[gnu::always_inline]] Vec3 acceleration_at(double t) const { return acceleration + jerk * (t - begin); }
 };
 
 /// Consecutive segments: each begins where the one before it ends.

@@ -1,6 +1,10 @@
-# The warnings that all code of this project is free of, under g++ and clang++.
+# What all code of this project is compiled with, under g++ and clang++.
 
-function(kinesphere_enable_warnings target)
+function(kinesphere_compile target)
+  # Where the machine has a fused multiply-add, compilers may contract a * b + c into one rounding, each as it
+  # likes. That would make results depend on compiler, optimisation level and machine. Users of the library
+  # need no such flag: nothing that they compile from its headers does its work (see vec3.hpp).
+  target_compile_options(${target} PRIVATE -ffp-contract=off)
   # Designated initialisers that leave the other members at their defaults are the style of the library, so
   # they get no warning.
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
