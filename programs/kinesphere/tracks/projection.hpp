@@ -35,7 +35,7 @@ enum class ProjectionChoice {
 /// Plane: azimuthal equidistant. Distances from the middle are true; no other is too short, and none is too
 /// long by more than description() says. Heights are kept as z.
 /// Earth: the Earth's space, turned so that z goes up in the middle. Distances are true, in a straight line
-/// (through the ground, which makes 10 km less than a millimetre shorter). Motion is 3D.
+/// (through the ground, which makes 10 km a millimetre shorter). Motion is 3D.
 ///
 /// `has_heights` says whether points have heights above the ground, which make `automatic` choose earth.
 /// Throws ProgramError without GeographicLib, and when a plane is asked for points around the whole Earth.
