@@ -38,26 +38,6 @@ TEST(FailedAdvance, BetweenANewFixedBodyAndANewBodyCanBeSaved) {
   EXPECT_TRUE(is_clean(p.world));
 }
 
-/// One that comes back has times of its former presence.
-TEST(FailedAdvance, BetweenANewFixedBodyAndAnEnabledBodyCanBeSaved) {
-  Playground p({.box = Box{{-9, -9, -9}, {4.2, 9, 9}}});
-  const BodyId box = p.world.add_fixed({.shape = Box{{3, -1, -1}, {4, 1, 1}}}).value();
-  const BodyId old = p.add({.radius = 1, .acceleration_limit = 1, .position = {0.4, 0, 0}});
-  const BodyId back = p.add({.radius = 1, .acceleration_limit = 1, .position = {2.5, 0, 0}});
-  p.run(1.0);
-  p.world.disable(box).value();
-  p.world.disable(back).value();
-  p.run(5.0);
-  p.world.enable(box, {}).value();
-  p.world.enable(back, {{2.5, 0, 0}, {}}).value();
-  p.distort = [&](BodyId id, double, State& state) {
-    if (id == old) state.position.x = nan;
-  };
-  ASSERT_FALSE(p.world.advance(6.0, p.probe()));
-  EXPECT_TRUE(is_clean(p.world));
-  EXPECT_TRUE(can_be_restored(p.world));
-}
-
 /// A crowd among shapes, with sensors and changes, whose probe fails every so often.
 class RandomCrowd {
  public:
