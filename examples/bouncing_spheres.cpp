@@ -29,7 +29,7 @@ int main() {
   }
 
   const auto set_velocity = [&](BodyId body, double time, const Vec3& velocity) {
-    motion.set_velocity(body.index, time, velocity);
+    motion.set_velocity(body.index, time, velocity).value();
     world.set_velocity(body, velocity).value();
   };
   while (auto event = world.advance(10.0, motion.probe()).value()) {

@@ -2,7 +2,7 @@
 //
 //   auto id = world.add({.radius = -1});
 //   if (!id) std::puts(id.error().message.c_str());
-//   // add: radius must be a finite number >= 0, but is -1
+//   // add: radius must be >= 0, but is -1
 #pragma once
 
 #include <cstdio>
@@ -10,6 +10,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -23,6 +24,7 @@ enum class ErrorCode {
   time_backwards,      ///< a time lies before the world's current time
   unknown_body,        ///< an id that this world never gave out
   stale_body,          ///< an id of a body that has been removed
+  foreign_body,        ///< an id that another world gave out
   disabled_body,       ///< the call needs a body that is enabled
   enabled_body,        ///< the call needs a body that is disabled
   fixed_body,          ///< the call needs a body that can move
@@ -30,6 +32,8 @@ enum class ErrorCode {
   overlapping,         ///< two bodies overlap where the world does not allow it
   probe_in_progress,   ///< the world was called from inside its own probe
   filter_in_progress,  ///< the world was called from inside its own pair filter
+  null_probe,          ///< the probe is a null function pointer or an empty std::function
+  moved_from,          ///< the world has been moved from: only assigning to it and destroying it are left
   unsupported,         ///< this detector cannot do what the scene asks for
   bad_snapshot,        ///< bytes that no world can be restored from
   recording,           ///< the world is being recorded already
@@ -37,6 +41,9 @@ enum class ErrorCode {
   bad_recording,       ///< bytes that are no recording
   diverged,            ///< a replay went another way than its recording
 };
+
+/// "not_finite" and so on.
+std::string_view name_of(ErrorCode code);
 
 struct Error {
   ErrorCode code = ErrorCode::out_of_range;
@@ -64,15 +71,31 @@ namespace detail {
 #if defined(__cpp_exceptions)
   throw BadResult(error);
 #else
-  std::fputs(error.message.c_str(), stderr);
+  std::fprintf(stderr, "%s\n", error.message.c_str());
+  std::abort();
+#endif
+}
+
+[[noreturn]] inline void no_error() {
+  constexpr const char* message = "Result::error(): there is no error, as the call has succeeded";
+#if defined(__cpp_exceptions)
+  throw std::logic_error(message);
+#else
+  std::fprintf(stderr, "%s\n", message);
   std::abort();
 #endif
 }
 
 }  // namespace detail
 
-/// Either a value or an Error. `value()` throws BadResult when there is only an error (and aborts
-/// with its message where exceptions are switched off).
+/// Either a value or an Error. value(), `*` and `->` throw BadResult when there is only an error; error()
+/// throws std::logic_error when there is none. Where exceptions are switched off they print the message and
+/// abort instead.
+///
+/// Of a temporary Result, value() and `*` give the value itself, not a reference, so that
+///   for (const Found& found : *world.overlapping(centre, radius)) ...
+/// is safe. `->` on a temporary is good within its own expression, as with std::expected:
+///   if (world.body(id)->enabled) ...
 template <class T>
 class [[nodiscard]] Result {
  public:
@@ -80,7 +103,14 @@ class [[nodiscard]] Result {
   Result(Error error) : content_(std::in_place_index<1>, std::move(error)) {}
 
   explicit operator bool() const { return content_.index() == 0; }
-  const Error& error() const { return std::get<1>(content_); }
+  const Error& error() const& {
+    require_error();
+    return std::get<1>(content_);
+  }
+  Error error() && {
+    require_error();
+    return std::get<1>(std::move(content_));
+  }
 
   T& value() & {
     require_value();
@@ -94,14 +124,23 @@ class [[nodiscard]] Result {
     require_value();
     return std::get<0>(std::move(content_));
   }
-  T& operator*() { return value(); }
-  const T& operator*() const { return value(); }
+  T value() const&& {
+    require_value();
+    return std::get<0>(content_);
+  }
+  T& operator*() & { return value(); }
+  const T& operator*() const& { return value(); }
+  T operator*() && { return std::move(*this).value(); }
+  T operator*() const&& { return std::move(*this).value(); }
   T* operator->() { return &value(); }
   const T* operator->() const { return &value(); }
 
  private:
   void require_value() const {
-    if (content_.index() != 0) detail::bad_result(error());
+    if (content_.index() != 0) detail::bad_result(std::get<1>(content_));
+  }
+  void require_error() const {
+    if (content_.index() != 1) detail::no_error();
   }
 
   std::variant<T, Error> content_;
@@ -115,12 +154,23 @@ class [[nodiscard]] Result<void> {
   Result(Error error) : error_(std::make_shared<const Error>(std::move(error))) {}
 
   explicit operator bool() const { return !error_; }
-  const Error& error() const { return *error_; }
+  const Error& error() const& {
+    require_error();
+    return *error_;
+  }
+  Error error() && {
+    require_error();
+    return *error_;
+  }
   void value() const {
     if (error_) detail::bad_result(*error_);
   }
 
  private:
+  void require_error() const {
+    if (!error_) detail::no_error();
+  }
+
   std::shared_ptr<const Error> error_;
 };
 

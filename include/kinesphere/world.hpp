@@ -86,6 +86,10 @@ class World {
   /// Errors: not_finite or out_of_range, naming the field.
   static Result<World> create(const WorldDefinition& definition);
 
+  /// Of a world that has been moved from all calls fail with moved_from; those that do not return a Result
+  /// throw BadResult. It may be assigned to and destroyed. A world that is moved from, assigned to or
+  /// destroyed inside its own probe or pair filter stops the program, with a message: the call that asked has
+  /// nowhere to return to.
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
   ~World();
@@ -319,30 +323,17 @@ class World {
   Result<void> start_recording();
   /// The recording: Replay::open. Errors: probe_in_progress; not_recording. Cost: as save().
   Result<std::vector<std::byte>> stop_recording();
-  bool recording() const { return recorder_ != nullptr; }
+  bool recording() const;
 
  private:
   friend class Replay;
   class Engine;
+  class Check;
   class Refresher;
   explicit World(std::unique_ptr<Engine> engine);
-  Result<void> check_new(const BodyDefinition& body, BodyId id, std::string_view call) const;
-  Result<void> check_alive(BodyId body, std::string_view call) const;
-  Result<void> check_call(BodyId body, std::string_view call) const;
-  Result<void> check_enabled(BodyId body, bool enabled, std::string_view call) const;
-  Result<void> check_room(const BodyDefinition& body, BodyId id, std::string_view call) const;
-  Result<void> check_moved(BodyId id, const State& state, std::string_view call) const;
-  Result<void> check_growth(const BodyDefinition& changed, BodyId id, std::string_view argument,
-                            std::string_view call) const;
-  Result<void> check_moving(BodyId body, std::string_view call) const;
-  Result<void> check_mobile(BodyId body, std::string_view call) const;
-  Result<void> check_reach(const BodyDefinition& changed, BodyId id, std::string_view argument,
-                           std::string_view call) const;
-  Result<void> check_fixed_room(const FixedDefinition& fixed, BodyId id, std::string_view call) const;
-  /// The definition as the world keeps it.
-  Result<FixedDefinition> check_new_fixed(const FixedDefinition& fixed, BodyId id,
-                                          std::string_view call) const;
-  Result<void> check_pair(BodyId first, BodyId second, std::string_view call) const;
+  void require_idle(const char* done) const noexcept;
+  /// Throws BadResult with moved_from.
+  const Engine& engine(std::string_view call) const;
 
   // The only ways to change the engine. A recording learns of each.
   Engine& changeable();

@@ -34,7 +34,8 @@ void transfer(Self& self, Archive& archive) {
 
 template <Some<BodyId> Self, class Archive>
 void transfer(Self& self, Archive& archive) {
-  auto& [index, generation] = self;
+  // The tag of the world would make equal histories differ.
+  auto& [index, generation, world] = self;
   archive(index, generation);
 }
 

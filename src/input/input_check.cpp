@@ -28,11 +28,7 @@ std::string text_of(const State& state) {
   return text_of(state.position) + " moving " + text_of(state.velocity);
 }
 
-std::string text_of(BodyId body) {
-  std::string text = "body " + std::to_string(body.index);
-  if (body.generation != 0) text += " (generation " + std::to_string(body.generation) + ")";
-  return text;
-}
+std::string text_of(BodyId body) { return body == no_body ? to_string(body) : "body " + to_string(body); }
 
 InputCheck& InputCheck::box(const Subject& subject, const Box& box) {
   finite(subject, box.lower).finite(subject, box.upper);

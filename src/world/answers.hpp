@@ -37,18 +37,18 @@ class World::Engine::Answers {
   DistanceLimits distance(std::uint32_t a, std::uint32_t b, double time) const;
 
   /// The answer of `ask(Answers)`. What limits it is probed and it is asked again, until fresh reports limit
-  /// it; stopping early is safe. `refresh(numbers)` probes those of them whose reports are old, at least one
-  /// in each round, and tells whether there were any.
+  /// it; stopping early is safe. Where `valid` is an error there may be no engine. `refresh(numbers)` probes
+  /// those of them whose reports are old, at least one in each round, and tells whether there were any.
   template <class Refresh, class Ask>
-  static Result<Refined> answer(const Engine& engine, const Result<void>& valid, Refresh refresh,
+  static Result<Refined> answer(const Engine* engine, const Result<void>& valid, Refresh refresh,
                                 std::size_t max_rounds, Ask ask) {
     if (!valid) return valid.error();
-    Refined refined{ask(Answers(engine))};
+    Refined refined{ask(Answers(*engine))};
     for (std::size_t round = 0; round < max_rounds; ++round) {
       const auto probed = refresh(concerned(refined.onset));
       if (!probed) return probed.error();
       if (!probed.value()) break;
-      refined = {ask(Answers(engine)), true};
+      refined = {ask(Answers(*engine)), true};
     }
     return refined;
   }

@@ -26,6 +26,9 @@ std::optional<Event> World::Engine::deliver() {
       book_.deliver([this](BodyId id) { return id == id_of(id.index) && bodies_[id.index].present(); },
                     [this](std::uint32_t number) { return sphere(number); }, walls_);
   if (!event) return event;
+  // Of events that a snapshot held, ids have lost their tags.
+  event->first.world = tag_;
+  if (event->second != no_body) event->second.world = tag_;
   ++counters_.events[static_cast<std::size_t>(event->kind)];
   if (!rests_.empty()) wake_by(*event);
   if (event->repeated) ++counters_.repeated_contacts;

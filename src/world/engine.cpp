@@ -2,14 +2,26 @@
 #include "world/engine.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "world/lookout.hpp"
 
 namespace kinesphere {
 
+namespace {
+
+std::uint32_t next_tag() {
+  static std::atomic<std::uint32_t> count{0};
+  const std::uint32_t tag = ++count;
+  return tag == 0 ? next_tag() : tag;
+}
+
+}  // namespace
+
 World::Engine::Engine(const WorldDefinition& definition)
     : definition_(definition),
+      tag_(next_tag()),
       space_(definition),
       walls_(walls_of(definition)),
       book_(definition),
@@ -76,7 +88,7 @@ void World::Engine::keep(std::uint32_t number, const BodyDefinition& definition)
 
 BodyId World::Engine::next_id(std::size_t additions_before) const {
   if (additions_before < free_.size()) return id_of(free_[free_.size() - 1 - additions_before]);
-  return {static_cast<std::uint32_t>(bodies_.size() + (additions_before - free_.size())), 0};
+  return {static_cast<std::uint32_t>(bodies_.size() + (additions_before - free_.size())), 0, tag_};
 }
 
 /// The body is where `bound` says, for everyone to find. The next advance looks what it meets there.

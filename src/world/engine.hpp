@@ -89,7 +89,9 @@ class World::Engine {
     return id.index < bodies_.size() && bodies_[id.index].alive &&
            bodies_[id.index].generation == id.generation;
   }
-  BodyId id_of(std::uint32_t number) const { return {number, bodies_[number].generation}; }
+  /// Of BodyId::world.
+  std::uint32_t tag() const { return tag_; }
+  BodyId id_of(std::uint32_t number) const { return {number, bodies_[number].generation, tag_}; }
   Activity activity() const {
     if (probing_) return Activity::probing;
     return pair_filter_ && FilterQuestion::is_asked_by(this) ? Activity::filtering : Activity::idle;
@@ -333,6 +335,7 @@ class World::Engine {
   bool was_given_out(BodyId id) const;
 
   WorldDefinition definition_;
+  std::uint32_t tag_;
   Space space_;
   std::optional<Box> walls_;  ///< as walls_of(definition_)
   ContactBook book_;

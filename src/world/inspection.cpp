@@ -7,8 +7,8 @@
 #include "archive/fields.hpp"
 #include "archive/heap_counter.hpp"
 #include "recording/recorder.hpp"
+#include "world/check.hpp"
 #include "world/engine.hpp"
-#include "world/validation.hpp"
 
 namespace kinesphere {
 namespace {
@@ -54,28 +54,33 @@ std::vector<Certificate> World::Engine::certificates() const {
 }
 
 Memory World::memory() const {
-  Memory memory = engine_->memory();
+  Memory memory = engine("memory").memory();
   if (recorder_) memory.recording = recorder_->memory();
   return memory;
 }
 
 std::vector<CellView> World::cells() const {
   std::vector<CellView> all;
-  engine_->grid().for_each_cell([&](const Box& box, std::size_t bodies) { all.push_back({box, bodies}); });
+  engine("cells").grid().for_each_cell([&](const Box& box, std::size_t bodies) {
+    all.push_back({box, bodies});
+  });
   return all;
 }
 
-std::vector<Certificate> World::certificates() const { return engine_->certificates(); }
+std::vector<Certificate> World::certificates() const { return engine("certificates").certificates(); }
 
 Result<void> World::set_timing(bool on) {
-  auto valid = check_idle(engine_->activity(), "set_timing");
+  auto valid = Check(*this, "set_timing").idle();
   if (!valid) return valid;
   if (on && !timing_) timings_ = {};
   timing_ = on;
   return valid;
 }
 
-Timings World::timings() const { return timings_; }
+Timings World::timings() const {
+  (void)engine("timings");
+  return timings_;
+}
 
 Result<std::optional<Event>> World::timed_advance(double until, const Probe& probe) {
   ++timings_.advances;

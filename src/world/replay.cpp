@@ -8,6 +8,7 @@
 
 #include "input/input_check.hpp"
 #include "recording/step.hpp"
+#include "world/check.hpp"
 #include "world/engine.hpp"
 
 namespace kinesphere {
@@ -162,7 +163,7 @@ class Replay::Player {
   Result<bool> refresh(const step::Asking& recorded, const Probe& probe) {
     std::vector<std::uint32_t> numbers;
     for (const step::Answer& answer : recorded.answers) {
-      if (auto valid = world_.check_enabled(answer.report.body, true, "refresh"); !valid)
+      if (auto valid = World::Check(world_, "refresh").enabled(answer.report.body, true); !valid)
         return valid.error();
       numbers.push_back(answer.report.body.index);
     }

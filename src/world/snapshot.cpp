@@ -60,12 +60,12 @@ bool is_sound(const Box& box) {
 
 template <class Self, class Archive>
 void World::Engine::transfer(Self& self, Archive& archive) {
-  // The definition comes first, as an engine is made from it, space and walls too; the last matter only
-  // during advance().
-  auto& [definition, space, enclosure, book, time, size, bodies, changes, rests, filters, marks, sketches,
-         boxes, homes, images, free, shapes, free_shapes, grid, neighbours, schedule, dirty, counters,
-         sensors, pair_filter, filtering, gathering, probe, probing_call, probing, probe_ids, probe_states,
-         partners, round, chosen, unwatched] = self;
+  // The definition comes first, as an engine is made from it, space and walls too. The tag is left out
+  // (BodyId::world). The last ones matter only during advance().
+  auto& [definition, tag, space, enclosure, book, time, size, bodies, changes, rests, filters, marks,
+         sketches, boxes, homes, images, free, shapes, free_shapes, grid, neighbours, schedule, dirty,
+         counters, sensors, pair_filter, filtering, gathering, probe, probing_call, probing, probe_ids,
+         probe_states, partners, round, chosen, unwatched] = self;
   archive(book, time, size, bodies, changes, rests, filters, marks, boxes, images, free, shapes, free_shapes,
           grid, neighbours, schedule, dirty, counters, sensors, filtering, gathering);
 }
@@ -97,6 +97,7 @@ Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const st
   engine->sketches_.resize(engine->bodies_.size());
   if (engine->space_.repeats()) engine->homes_.resize(engine->bodies_.size());
   for (std::uint32_t number = 0; number < engine->bodies_.size(); ++number) engine->sketch_box(number);
+  engine->tag_ = 0;
   if (pair_filter) engine->filtering_ = true;
   engine->pair_filter_ = std::move(pair_filter);
   return engine;

@@ -257,4 +257,9 @@ Error overlap_error(std::string_view call, BodyId other, const std::string& name
               " must not overlap another body, but the body would overlap " + name_of_other};
 }
 
+Error moved_from_error(std::string_view call) {
+  return {ErrorCode::moved_from, "world", no_body,
+          std::string(call) + ": world must be one that has not been moved from"};
+}
+
 }  // namespace kinesphere

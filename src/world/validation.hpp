@@ -30,6 +30,8 @@ Result<void> check_velocity(const Vec3& velocity, BodyId body, const WorldDefini
 Result<void> check_report(const State& state, BodyId body, double time, const WorldDefinition& world,
                           std::string_view call = "advance");
 Result<void> check_time(double until, double now);
+/// A world that has been moved from cannot do anything.
+Error moved_from_error(std::string_view call);
 
 /// Lengths reach this many contact tolerances: then the rounding of a certificate stays well within one.
 double coordinate_limit(const WorldDefinition& world);

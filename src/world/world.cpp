@@ -2,20 +2,54 @@
 // to the recorder.
 #include "kinesphere/world.hpp"
 
+#include <cstdio>
+#include <cstdlib>
 #include <set>
 #include <utility>
 
 #include "input/input_check.hpp"
 #include "recording/recorder.hpp"
 #include "world/changing.hpp"
+#include "world/check.hpp"
 #include "world/engine.hpp"
 #include "world/validation.hpp"
 
 namespace kinesphere {
 World::World(std::unique_ptr<Engine> engine) : engine_(std::move(engine)) {}
-World::World(World&&) noexcept = default;
-World& World::operator=(World&&) noexcept = default;
-World::~World() = default;
+
+World::World(World&& other) noexcept {
+  other.require_idle("moved from");
+  engine_ = std::move(other.engine_);
+  recorder_ = std::move(other.recorder_);
+  timings_ = other.timings_;
+  timing_ = other.timing_;
+}
+
+World& World::operator=(World&& other) noexcept {
+  require_idle("assigned to");
+  other.require_idle("moved from");
+  engine_ = std::move(other.engine_);
+  recorder_ = std::move(other.recorder_);
+  timings_ = other.timings_;
+  timing_ = other.timing_;
+  return *this;
+}
+
+World::~World() { require_idle("destroyed"); }
+
+/// Stops the program if the call that asks the probe or the pair filter would come back to a world that is no
+/// more.
+void World::require_idle(const char* done) const noexcept {
+  if (!engine_ || engine_->activity() == Activity::idle) return;
+  std::fprintf(stderr, "kinesphere: a World was %s inside its own %s\n", done,
+               engine_->activity() == Activity::probing ? "probe" : "pair filter");
+  std::abort();
+}
+
+const World::Engine& World::engine(std::string_view call) const {
+  if (!engine_) detail::bad_result(moved_from_error(call));
+  return *engine_;
+}
 
 // The engine is const to all else, so that no change can forget to be recorded.
 World::Engine& World::changeable() { return const_cast<Engine&>(*engine_); }
@@ -25,104 +59,33 @@ Result<World> World::create(const WorldDefinition& definition) {
   return World(std::make_unique<Engine>(definition));
 }
 
-Result<void> World::check_alive(BodyId body, std::string_view call) const {
-  if (engine_->is_alive(body)) return {};
-  const auto& table = engine_->table();
-  // A free index has the generation that its next body will have.
-  if (body.index < table.size() && body.generation < table[body.index].generation) {
-    return Error{ErrorCode::stale_body, "body", body,
-                 std::string(call) + ": " + text_of(body) + " has been removed"};
-  }
-  return Error{ErrorCode::unknown_body, "body", body,
-               std::string(call) + ": " + text_of(body) + " was never in this world"};
-}
-
-Result<void> World::check_call(BodyId body, std::string_view call) const {
-  if (auto idle = check_idle(engine_->activity(), call); !idle) return idle;
-  return check_alive(body, call);
-}
-
-/// As check_call, for a call that needs the body to be enabled, or disabled.
-Result<void> World::check_enabled(BodyId body, bool enabled, std::string_view call) const {
-  auto valid = check_call(body, call);
-  if (!valid || engine_->table()[body.index].enabled == enabled) return valid;
-  return Error{enabled ? ErrorCode::disabled_body : ErrorCode::enabled_body, "body", body,
-               std::string(call) + ": body must be " + (enabled ? "enabled" : "disabled") + ", but " +
-                   text_of(body) + " is not"};
-}
-
-/// Whether there is room for body `id` with this definition, where overlaps are not allowed.
-Result<void> World::check_room(const BodyDefinition& body, BodyId id, std::string_view call) const {
-  if (definition().allow_overlap) return {};
-  const Bound bound = engine_->bound_now(body);
-  const auto other = engine_->certain_overlap(id, {bound}, body);
-  return other ? Result<void>(overlap_error(call, *other, text_of(*other))) : Result<void>();
-}
-
-/// Whether the body may be in this state now.
-Result<void> World::check_moved(BodyId id, const State& state, std::string_view call) const {
-  BodyDefinition moved = engine_->definition_of(id.index);
-  if (auto valid = check_state(state, moved, id, definition(), call); !valid) return valid;
-  moved.position = state.position;
-  moved.velocity = state.velocity;
-  return check_room(moved, id, call);
-}
-
-/// Whether there is room for a body to grow where it is: where space repeats, and where overlaps are not
-/// allowed.
-Result<void> World::check_growth(const BodyDefinition& changed, BodyId id, std::string_view argument,
-                                 std::string_view call) const {
-  if (auto reach = check_reach(changed, id, argument, call); !reach) return reach;
-  const Body& body = engine_->table()[id.index];
-  const Bound bound = engine_->bound_with(id, changed);
-  if (definition().allow_overlap || !body.enabled || bound.radius <= body.bound.radius) return {};
-  if (const auto wall = engine_->certain_overlap_of_wall(bound)) {
-    return Error{ErrorCode::outside_domain, std::string(argument), id,
-                 std::string(call) + ": " + std::string(argument) + " of " + text_of(id) +
-                     " must keep the whole sphere in the box, but it would overlap the wall " +
-                     std::string(name_of(*wall))};
-  }
-  if (const auto other = engine_->certain_overlap(id, {bound}, changed))
-    return overlap_error(call, *other, text_of(*other), argument);
-  return {};
-}
-
-/// Whether there is room where space repeats for all that a body senses.
-Result<void> World::check_reach(const BodyDefinition& changed, BodyId id, std::string_view argument,
-                                std::string_view call) const {
-  const double reach = engine_->sensors().reach(changed.sensor_class);
-  return kinesphere::check_reach(reach, changed, id, argument, definition(), call);
-}
-
-Result<void> World::check_new(const BodyDefinition& body, BodyId id, std::string_view call) const {
-  auto valid = first_error(check_idle(engine_->activity(), call), check_body(body, definition(), call),
-                           check_reach(body, no_body, "sensor_class", call));
-  return valid ? check_room(body, id, call) : valid;
-}
-
 Result<BodyId> World::add(const BodyDefinition& body) {
-  if (auto valid = check_new(body, engine_->next_id(), "add"); !valid) return valid.error();
+  const Check check(*this, "add");
+  if (auto idle = check.idle(); !idle) return idle.error();
+  if (auto valid = check.new_body(body, engine_->next_id()); !valid) return valid.error();
   return changing(step::Add{body}).add(body);
 }
 
 Result<void> World::reserve(std::size_t bodies) {
   const std::size_t most = no_body.index;
-  auto valid = first_error(
-      check_idle(engine_->activity(), "reserve"),
-      InputCheck("reserve")
-          .require(bodies <= most, ErrorCode::out_of_range, {"bodies"}, "must be at most", most, bodies)
-          .result());
+  auto valid = Check(*this, "reserve").idle();
+  if (valid) {
+    valid = InputCheck("reserve")
+                .require(bodies <= most, ErrorCode::out_of_range, {"bodies"}, "must be at most", most, bodies)
+                .result();
+  }
   if (valid) changeable().reserve(bodies);
   return valid;
 }
 
 Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodies) {
-  if (auto idle = check_idle(engine_->activity(), "add_all"); !idle) return idle.error();
+  if (auto idle = Check(*this, "add_all").idle(); !idle) return idle.error();
   HashGrid earlier;
   for (std::uint32_t number = 0; number < bodies.size(); ++number) {
     const std::string call = "add_all: bodies[" + std::to_string(number) + "]";
-    if (auto valid = check_new(bodies[number], engine_->next_id(number), call); !valid) return valid.error();
-    if (definition().allow_overlap) continue;
+    if (auto valid = Check(*this, call).new_body(bodies[number], engine_->next_id(number)); !valid)
+      return valid.error();
+    if (engine_->definition().allow_overlap) continue;
     const Bound bound = engine_->bound_now(bodies[number]);
     const Box box = engine_->box_now(bound);
     std::optional<std::uint32_t> other;
@@ -145,17 +108,17 @@ Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodie
 }
 
 Result<void> World::remove(BodyId body) {
-  auto valid = check_call(body, "remove");
+  auto valid = Check(*this, "remove").changeable(body);
   if (valid) changing(step::Remove{body}).remove(body);
   return valid;
 }
 
 Result<void> World::remove_all(std::span<const BodyId> bodies) {
-  if (auto idle = check_idle(engine_->activity(), "remove_all"); !idle) return idle;
+  if (auto idle = Check(*this, "remove_all").idle(); !idle) return idle;
   std::set<BodyId> earlier;
   for (std::size_t number = 0; number < bodies.size(); ++number) {
     const std::string call = "remove_all: bodies[" + std::to_string(number) + "]";
-    if (auto valid = check_alive(bodies[number], call); !valid) return valid;
+    if (auto valid = Check(*this, call).known(bodies[number]); !valid) return valid;
     if (!earlier.insert(bodies[number]).second) {
       return Error{ErrorCode::stale_body, "body", bodies[number],
                    call + ": " + text_of(bodies[number]) + " is named twice"};
@@ -166,131 +129,136 @@ Result<void> World::remove_all(std::span<const BodyId> bodies) {
 }
 
 Result<void> World::set_velocity(BodyId body, const Vec3& velocity) {
-  auto valid = check_mobile(body, "set_velocity");
-  if (valid) valid = check_velocity(velocity, body, definition(), "set_velocity");
+  auto valid = Check(*this, "set_velocity").mobile(body);
+  if (valid) valid = check_velocity(velocity, body, engine_->definition(), "set_velocity");
   if (valid) changing(step::SetVelocity{body, velocity}).set_velocity(body, velocity);
   return valid;
 }
 
 Result<void> World::teleport(BodyId body, const State& state) {
-  auto valid = check_mobile(body, "teleport");
-  if (valid) valid = check_moved(body, state, "teleport");
+  auto valid = Check(*this, "teleport").mobile(body);
+  if (valid) valid = Check(*this, "teleport").moved(body, state);
   if (valid) changing(step::Teleport{body, state}).teleport(body, state);
   return valid;
 }
 
 Result<void> World::enable(BodyId body, const State& state) {
-  auto valid = check_enabled(body, false, "enable");
+  auto valid = Check(*this, "enable").enabled(body, false);
   if (valid) {
     valid = engine_->table()[body.index].is_fixed()
-                ? check_fixed_room(engine_->fixed_definition(body), body, "enable")
-                : check_moved(body, state, "enable");
+                ? Check(*this, "enable").fixed_room(engine_->fixed_definition(body), body)
+                : Check(*this, "enable").moved(body, state);
   }
   if (valid) changing(step::Enable{body, state}).enable(body, state);
   return valid;
 }
 
 Result<void> World::disable(BodyId body) {
-  auto valid = check_enabled(body, true, "disable");
+  auto valid = Check(*this, "disable").enabled(body, true);
   if (valid) changing(step::Disable{body}).disable(body);
   return valid;
 }
 
 Result<void> World::rest(BodyId body) {
-  auto valid = check_mobile(body, "rest");
+  auto valid = Check(*this, "rest").mobile(body);
   if (valid) changing(step::RestBody{body}).rest(body);
   return valid;
 }
 
 Result<void> World::wake(BodyId body) {
-  auto valid = check_mobile(body, "wake");
+  auto valid = Check(*this, "wake").mobile(body);
   if (valid) changing(step::Wake{body}).wake_up(body);
   return valid;
 }
 
 Result<void> World::set_radius(BodyId body, double radius) {
-  auto valid = check_moving(body, "set_radius");
+  auto valid = Check(*this, "set_radius").moving(body);
   if (!valid) return valid;
   BodyDefinition changed = engine_->definition_of(body.index);
   changed.radius = radius;
-  valid = check_radius(changed, body, definition(), "set_radius");
-  if (valid) valid = check_growth(changed, body, "radius", "set_radius");
+  valid = check_radius(changed, body, engine_->definition(), "set_radius");
+  if (valid) valid = Check(*this, "set_radius").growth(changed, body, "radius");
   if (valid) changing(step::SetRadius{body, radius}).set_radius(body, radius);
   return valid;
 }
 
 Result<void> World::set_motion_limits(BodyId body, const MotionLimits& promise) {
-  auto valid = check_moving(body, "set_motion_limits");
+  auto valid = Check(*this, "set_motion_limits").moving(body);
   if (!valid) return valid;
   const BodyDefinition changed = with_motion_limits(engine_->definition_of(body.index), promise);
-  valid = check_promise(changed, body, definition(), "set_motion_limits");
-  if (valid) valid = check_growth(changed, body, "position_error", "set_motion_limits");
+  valid = check_promise(changed, body, engine_->definition(), "set_motion_limits");
+  if (valid) valid = Check(*this, "set_motion_limits").growth(changed, body, "position_error");
   if (valid) changing(step::SetMotionLimits{body, promise}).set_motion_limits(body, promise);
   return valid;
 }
 
 Result<void> World::set_filter(BodyId body, const Filter& filter) {
-  auto valid = check_call(body, "set_filter");
+  auto valid = Check(*this, "set_filter").changeable(body);
   if (valid) changing(step::SetFilter{body, filter}).set_filter(body, filter);
   return valid;
 }
 
 Result<void> World::set_pair_filter(PairFilter filter) {
-  auto valid = check_idle(engine_->activity(), "set_pair_filter");
+  auto valid = Check(*this, "set_pair_filter").idle();
   const bool given = static_cast<bool>(filter);
   if (valid) changing(step::SetPairFilter{given}).set_pair_filter(std::move(filter));
   return valid;
 }
 
 Result<void> World::refilter(BodyId body) {
-  auto valid = check_call(body, "refilter");
+  auto valid = Check(*this, "refilter").changeable(body);
   if (valid) changing(step::Refilter{body}).refilter(body);
   return valid;
 }
 
 Result<void> World::set_solid(BodyId body, bool solid) {
-  auto valid = check_call(body, "set_solid");
+  auto valid = Check(*this, "set_solid").changeable(body);
   if (valid) changing(step::SetSolid{body, solid}).set_solid(body, solid);
   return valid;
 }
 
 Result<void> World::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
-  auto valid = first_error(check_idle(engine_->activity(), "set_sensor"), check_sensor(sensor, definition()));
+  auto valid = Check(*this, "set_sensor").idle();
+  if (valid) valid = check_sensor(sensor, engine_->definition());
+  if (!valid) return valid;
   const double reach = reach_of(sensor);
   for (const BodyId id : bodies()) {
     const BodyDefinition body = engine_->definition_of(id.index);
     if (valid && body.sensor_class == sensor_class)
-      valid = kinesphere::check_reach(reach, body, id, "sensor", definition(), "set_sensor");
+      valid = check_reach(reach, body, id, "sensor", engine_->definition(), "set_sensor");
   }
   if (valid) changing(step::SetSensor{sensor_class, sensor}).set_sensor(sensor_class, sensor);
   return valid;
 }
 
 Result<void> World::set_sensor_class(BodyId body, SensorClass sensor_class) {
-  auto valid = check_call(body, "set_sensor_class");
+  auto valid = Check(*this, "set_sensor_class").changeable(body);
   if (!valid) return valid;
   BodyDefinition changed = engine_->definition_of(body.index);
   changed.sensor_class = sensor_class;
-  valid = check_reach(changed, body, "sensor_class", "set_sensor_class");
+  valid = Check(*this, "set_sensor_class").reach(changed, body, "sensor_class");
   if (valid) changing(step::SetSensorClass{body, sensor_class}).set_sensor_class(body, sensor_class);
   return valid;
 }
 
-const Sensor& World::sensor(SensorClass sensor_class) const { return engine_->sensors().of(sensor_class); }
+const Sensor& World::sensor(SensorClass sensor_class) const {
+  return engine("sensor").sensors().of(sensor_class);
+}
 
 Result<void> World::set_user_data(BodyId body, std::uint64_t data) {
-  auto valid = check_call(body, "set_user_data");
+  auto valid = Check(*this, "set_user_data").changeable(body);
   if (valid) changing(step::SetUserData{body, data}).set_user_data(body, data);
   return valid;
 }
 
 Result<std::uint64_t> World::user_data(BodyId body) const {
-  if (auto valid = check_alive(body, "user_data"); !valid) return valid.error();
+  if (auto valid = Check(*this, "user_data").known(body); !valid) return valid.error();
   return engine_->table()[body.index].user_data;
 }
 
 Result<std::optional<Event>> World::advance(double until, Probe probe) {
-  const auto valid = first_error(check_idle(engine_->activity(), "advance"), check_time(until, time()));
+  auto valid = Check(*this, "advance").may_ask(probe);
+  if (valid) valid = check_time(until, engine_->time());
   if (!valid) return valid.error();
   return timing_ ? timed_advance(until, probe) : recorded_advance(until, probe);
 }
@@ -312,19 +280,30 @@ Result<bool> World::refresh(std::span<const std::uint32_t> numbers, const Probe&
   return probed;
 }
 
-double World::time() const { return engine_->time(); }
-std::size_t World::size() const { return engine_->size(); }
-const WorldDefinition& World::definition() const { return engine_->definition(); }
-bool World::contains(BodyId body) const { return static_cast<bool>(check_alive(body, "contains")); }
-const Counters& World::counters() const { return engine_->counters(); }
+double World::time() const { return engine("time").time(); }
+std::size_t World::size() const { return engine("size").size(); }
+const WorldDefinition& World::definition() const { return engine("definition").definition(); }
+const Counters& World::counters() const { return engine("counters").counters(); }
+
 std::optional<AuditFinding> World::audit() const {
-  if (const auto idle = check_idle(engine_->activity(), "audit"); !idle)
+  const Engine& audited = engine("audit");
+  if (const auto idle = Check(*this, "audit").idle(); !idle)
     return AuditFinding{"call", idle.error().message};
-  return engine_->audit();
+  return audited.audit();
+}
+
+bool World::contains(BodyId body) const {
+  (void)engine("contains");
+  return static_cast<bool>(Check(*this, "contains").known(body));
+}
+
+bool World::recording() const {
+  (void)engine("recording");
+  return recorder_ != nullptr;
 }
 
 Result<std::vector<std::byte>> World::save() const {
-  if (auto idle = check_idle(engine_->activity(), "save"); !idle) return idle.error();
+  if (auto idle = Check(*this, "save").idle(); !idle) return idle.error();
   return engine_->save();
 }
 
@@ -335,12 +314,12 @@ Result<World> World::restore(std::span<const std::byte> snapshot, PairFilter pai
 }
 
 Result<World> World::clone() const {
-  if (auto idle = check_idle(engine_->activity(), "clone"); !idle) return idle.error();
+  if (auto idle = Check(*this, "clone").idle(); !idle) return idle.error();
   return World(std::make_unique<Engine>(*engine_));
 }
 
 Result<void> World::start_recording() {
-  auto idle = check_idle(engine_->activity(), "start_recording");
+  auto idle = Check(*this, "start_recording").idle();
   if (!idle) return idle;
   if (recorder_)
     return Error{ErrorCode::recording, "world", no_body,
@@ -350,7 +329,7 @@ Result<void> World::start_recording() {
 }
 
 Result<std::vector<std::byte>> World::stop_recording() {
-  if (auto idle = check_idle(engine_->activity(), "stop_recording"); !idle) return idle.error();
+  if (auto idle = Check(*this, "stop_recording").idle(); !idle) return idle.error();
   if (!recorder_)
     return Error{ErrorCode::not_recording, "world", no_body,
                  "stop_recording: the world is not being recorded"};
@@ -358,12 +337,12 @@ Result<std::vector<std::byte>> World::stop_recording() {
 }
 
 Result<BodyView> World::body(BodyId id) const {
-  if (auto valid = check_alive(id, "body"); !valid) return valid.error();
+  if (auto valid = Check(*this, "body").known(id); !valid) return valid.error();
   return engine_->view(id.index);
 }
 
 Result<std::vector<BodyId>> World::touching(BodyId body) const {
-  if (auto valid = check_alive(body, "touching"); !valid) return valid.error();
+  if (auto valid = Check(*this, "touching").known(body); !valid) return valid.error();
   std::vector<BodyId> partners;
   for (const std::uint32_t partner : engine_->book().partners_of(body.index))
     partners.push_back(engine_->id_of(partner));
@@ -371,7 +350,7 @@ Result<std::vector<BodyId>> World::touching(BodyId body) const {
 }
 
 Result<std::vector<Sensed>> World::sensed(BodyId body) const {
-  if (auto valid = check_alive(body, "sensed"); !valid) return valid.error();
+  if (auto valid = Check(*this, "sensed").known(body); !valid) return valid.error();
   std::vector<Sensed> within;
   for (const Crossing& crossing : engine_->book().crossings_of(body.index))
     within.push_back({engine_->id_of(crossing.partner), crossing.distance});
@@ -380,8 +359,9 @@ Result<std::vector<Sensed>> World::sensed(BodyId body) const {
 
 std::vector<BodyId> World::bodies() const {
   std::vector<BodyId> ids;
-  for (std::uint32_t number = 0; number < engine_->table().size(); ++number)
-    if (engine_->table()[number].alive) ids.push_back(engine_->id_of(number));
+  const Engine& engine = this->engine("bodies");
+  for (std::uint32_t number = 0; number < engine.table().size(); ++number)
+    if (engine.table()[number].alive) ids.push_back(engine.id_of(number));
   return ids;
 }
 

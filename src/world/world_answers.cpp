@@ -3,6 +3,7 @@
 
 #include "input/input_check.hpp"
 #include "world/answers.hpp"
+#include "world/check.hpp"
 #include "world/refresher.hpp"
 #include "world/validation.hpp"
 
@@ -11,12 +12,6 @@ namespace {
 
 constexpr std::size_t max_rounds_of_world = 32;
 constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
-
-Result<void> check_distinct(BodyId first, BodyId second, std::string_view call) {
-  if (first != second) return {};
-  return Error{ErrorCode::out_of_range, "second", second,
-               std::string(call) + ": second must be another body than first, but is " + text_of(second)};
-}
 
 Result<void> check_not_past(double time, double now, std::string_view call) {
   return InputCheck(call)
@@ -32,10 +27,10 @@ Result<SafeTime> safe_time(const Result<Refined>& refined) {
 }
 
 template <class Engine>
-Result<EarliestContact> earliest(const Engine& engine, const Result<Refined>& refined) {
+Result<EarliestContact> earliest(const Engine* engine, const Result<Refined>& refined) {
   if (!refined) return refined.error();
   const Onset& onset = refined->onset;
-  const BodyId partner = onset.partner ? engine.id_of(*onset.partner) : no_body;
+  const BodyId partner = onset.partner ? engine->id_of(*onset.partner) : no_body;
   return EarliestContact{onset.time, partner, onset.wall, onset.touching, refined->probed};
 }
 
@@ -51,64 +46,66 @@ auto about_pair(BodyId first, BodyId second) {
 
 }  // namespace
 
-Result<void> World::check_pair(BodyId first, BodyId second, std::string_view call) const {
-  return first_error(check_call(first, call), check_alive(second, call), check_distinct(first, second, call));
-}
-
 Result<SafeTime> World::safe_until(BodyId first, BodyId second) const {
-  return safe_time(Engine::Answers::answer(*engine_, check_pair(first, second, "safe_until"), without_probe,
-                                           any_number, about_pair(first, second)));
+  return safe_time(Engine::Answers::answer(engine_.get(), Check(*this, "safe_until").pair(first, second),
+                                           without_probe, any_number, about_pair(first, second)));
 }
 
 Result<SafeTime> World::safe_until(BodyId first, BodyId second, Probe probe) {
-  return safe_time(Engine::Answers::answer(*engine_, check_pair(first, second, "safe_until"),
-                                           Refresher(*this, probe, "safe_until"), any_number,
-                                           about_pair(first, second)));
+  const Check check(*this, "safe_until");
+  return safe_time(
+      Engine::Answers::answer(engine_.get(), first_error(check.may_ask(probe), check.pair(first, second)),
+                              Refresher(*this, probe, "safe_until"), any_number, about_pair(first, second)));
 }
 
 Result<SafeTime> World::safe_until(BodyId body) const {
-  return safe_time(Engine::Answers::answer(*engine_, check_call(body, "safe_until"), without_probe,
-                                           any_number, about_body(body)));
+  return safe_time(Engine::Answers::answer(engine_.get(), Check(*this, "safe_until").changeable(body),
+                                           without_probe, any_number, about_body(body)));
 }
 
 Result<SafeTime> World::safe_until(BodyId body, Probe probe) {
-  return safe_time(Engine::Answers::answer(*engine_, check_call(body, "safe_until"),
-                                           Refresher(*this, probe, "safe_until"), any_number,
-                                           about_body(body)));
+  const Check check(*this, "safe_until");
+  return safe_time(
+      Engine::Answers::answer(engine_.get(), first_error(check.may_ask(probe), check.known(body)),
+                              Refresher(*this, probe, "safe_until"), any_number, about_body(body)));
 }
 
 Result<SafeTime> World::safe_until() const {
-  return safe_time(Engine::Answers::answer(*engine_, check_idle(engine_->activity(), "safe_until"),
-                                           without_probe, max_rounds_of_world, about_world));
+  return safe_time(Engine::Answers::answer(engine_.get(), Check(*this, "safe_until").idle(), without_probe,
+                                           max_rounds_of_world, about_world));
 }
 
 Result<SafeTime> World::safe_until(Probe probe) {
-  return safe_time(Engine::Answers::answer(*engine_, check_idle(engine_->activity(), "safe_until"),
+  return safe_time(Engine::Answers::answer(engine_.get(), Check(*this, "safe_until").may_ask(probe),
                                            Refresher(*this, probe, "safe_until"), max_rounds_of_world,
                                            about_world));
 }
 
 Result<EarliestContact> World::earliest_contact(BodyId body) const {
-  return earliest(*engine_, Engine::Answers::answer(*engine_, check_call(body, "earliest_contact"),
-                                                    without_probe, any_number, about_body(body)));
+  return earliest(engine_.get(),
+                  Engine::Answers::answer(engine_.get(), Check(*this, "earliest_contact").changeable(body),
+                                          without_probe, any_number, about_body(body)));
 }
 
 Result<EarliestContact> World::earliest_contact(BodyId body, Probe probe) {
-  return earliest(*engine_, Engine::Answers::answer(*engine_, check_call(body, "earliest_contact"),
-                                                    Refresher(*this, probe, "earliest_contact"), any_number,
-                                                    about_body(body)));
+  const Check check(*this, "earliest_contact");
+  return earliest(
+      engine_.get(),
+      Engine::Answers::answer(engine_.get(), first_error(check.may_ask(probe), check.known(body)),
+                              Refresher(*this, probe, "earliest_contact"), any_number, about_body(body)));
 }
 
 Result<DistanceLimits> World::distance_limits(BodyId first, BodyId second, double time) const {
-  const auto valid = first_error(check_pair(first, second, "distance_limits"),
-                                 check_not_past(time, this->time(), "distance_limits"));
+  auto valid = Check(*this, "distance_limits").pair(first, second);
+  if (valid) valid = check_not_past(time, engine_->time(), "distance_limits");
   if (!valid) return valid.error();
   return Engine::Answers(*engine_).distance(first.index, second.index, time);
 }
 
 Result<DistanceLimits> World::distance_limits(BodyId first, BodyId second, double time, Probe probe) {
-  const auto valid = first_error(check_pair(first, second, "distance_limits"),
-                                 check_not_past(time, this->time(), "distance_limits"));
+  const Check check(*this, "distance_limits");
+  auto valid = first_error(check.may_ask(probe), check.pair(first, second));
+  if (valid) valid = check_not_past(time, engine_->time(), "distance_limits");
   if (!valid) return valid.error();
   const std::uint32_t both[] = {first.index, second.index};
   const auto probed = refresh(both, probe, "distance_limits");

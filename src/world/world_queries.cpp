@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "input/input_check.hpp"
+#include "world/check.hpp"
 #include "world/queries.hpp"
 #include "world/refresher.hpp"
 #include "world/validation.hpp"
@@ -77,14 +78,15 @@ bool leaves_open(const Near&) { return true; }
 bool leaves_open(const Hit&) { return true; }
 
 /// Asks for the states that leave the answer open, and again, until fresh reports stand behind it. Without a
-/// probe the first answer is the last.
-template <class Queries, class Engine, class Refresh, class Ask>
-auto answer(const Engine& engine, const Result<void>& valid, Refresh refresh, std::string_view call, Ask ask)
-    -> Result<decltype(ask(Queries(engine)))> {
-  if (const auto callable = first_error(check_idle(engine.activity(), call), valid); !callable)
-    return callable.error();
+/// probe the first answer is the last. `callable` says whether the engine may be asked at all, and `valid`
+/// checks the arguments.
+template <class Queries, class Engine, class Valid, class Refresh, class Ask>
+auto answer(const Engine* engine, const Result<void>& callable, Valid valid, Refresh refresh, Ask ask)
+    -> Result<decltype(ask(Queries(*engine)))> {
+  if (!callable) return callable.error();
+  if (const Result<void> fit = valid(engine->definition()); !fit) return fit.error();
   for (;;) {
-    auto found = ask(Queries(engine));
+    auto found = ask(Queries(*engine));
     if constexpr (std::is_same_v<Refresh, WithoutProbe>) return found;
     std::vector<std::uint32_t> open;
     for (const auto& each : found)
@@ -93,6 +95,23 @@ auto answer(const Engine& engine, const Result<void>& valid, Refresh refresh, st
     if (!probed) return probed.error();
     if (!probed.value()) return found;
   }
+}
+
+auto fit_sphere(const Vec3& centre, double radius) {
+  return [=](const WorldDefinition& world) { return check_sphere(centre, radius, world); };
+}
+
+auto fit_box(const Box& box) {
+  return [=](const WorldDefinition& world) { return check_region(box, world); };
+}
+
+auto fit_point(const Vec3& point) {
+  return [=](const WorldDefinition& world) { return check_point(point, world); };
+}
+
+auto fit_way(const Vec3& origin, double radius, const Vec3& direction, double length, std::string_view call) {
+  return
+      [=](const WorldDefinition& world) { return check_way(origin, radius, direction, length, world, call); };
 }
 
 auto about_sphere(const Vec3& centre, double radius) {
@@ -114,61 +133,63 @@ auto about_way(const Vec3& origin, double radius, const Vec3& direction, double 
 }  // namespace
 
 Result<std::vector<Found>> World::overlapping(const Vec3& centre, double radius) const {
-  return answer<Engine::Queries>(*engine_, check_sphere(centre, radius, definition()), without_probe,
-                                 "overlapping", about_sphere(centre, radius));
+  return answer<Engine::Queries>(engine_.get(), Check(*this, "overlapping").idle(),
+                                 fit_sphere(centre, radius), without_probe, about_sphere(centre, radius));
 }
 
 Result<std::vector<Found>> World::overlapping(const Vec3& centre, double radius, Probe probe) {
-  return answer<Engine::Queries>(*engine_, check_sphere(centre, radius, definition()),
-                                 Refresher(*this, probe, "overlapping"), "overlapping",
+  return answer<Engine::Queries>(engine_.get(), Check(*this, "overlapping").may_ask(probe),
+                                 fit_sphere(centre, radius), Refresher(*this, probe, "overlapping"),
                                  about_sphere(centre, radius));
 }
 
 Result<std::vector<Found>> World::overlapping(const Box& box) const {
-  return answer<Engine::Queries>(*engine_, check_region(box, definition()), without_probe, "overlapping",
-                                 about_box(box));
+  return answer<Engine::Queries>(engine_.get(), Check(*this, "overlapping").idle(), fit_box(box),
+                                 without_probe, about_box(box));
 }
 
 Result<std::vector<Found>> World::overlapping(const Box& box, Probe probe) {
-  return answer<Engine::Queries>(*engine_, check_region(box, definition()),
-                                 Refresher(*this, probe, "overlapping"), "overlapping", about_box(box));
+  return answer<Engine::Queries>(engine_.get(), Check(*this, "overlapping").may_ask(probe), fit_box(box),
+                                 Refresher(*this, probe, "overlapping"), about_box(box));
 }
 
 Result<std::vector<Near>> World::nearest(const Vec3& point, std::size_t count) const {
-  return answer<Engine::Queries>(*engine_, check_point(point, definition()), without_probe, "nearest",
-                                 about_nearest(point, count));
+  return answer<Engine::Queries>(engine_.get(), Check(*this, "nearest").idle(), fit_point(point),
+                                 without_probe, about_nearest(point, count));
 }
 
 Result<std::vector<Near>> World::nearest(const Vec3& point, std::size_t count, Probe probe) {
-  return answer<Engine::Queries>(*engine_, check_point(point, definition()),
-                                 Refresher(*this, probe, "nearest"), "nearest", about_nearest(point, count));
+  return answer<Engine::Queries>(engine_.get(), Check(*this, "nearest").may_ask(probe), fit_point(point),
+                                 Refresher(*this, probe, "nearest"), about_nearest(point, count));
 }
 
 Result<std::vector<Hit>> World::ray_cast(const Vec3& origin, const Vec3& direction, double length) const {
-  return answer<Engine::Queries>(*engine_,
-                                 check_way(origin, 0.0, direction, length, definition(), "ray_cast"),
-                                 without_probe, "ray_cast", about_way(origin, 0.0, direction, length));
+  return answer<Engine::Queries>(engine_.get(), Check(*this, "ray_cast").idle(),
+                                 fit_way(origin, 0.0, direction, length, "ray_cast"), without_probe,
+                                 about_way(origin, 0.0, direction, length));
 }
 
 Result<std::vector<Hit>> World::ray_cast(const Vec3& origin, const Vec3& direction, double length,
                                          Probe probe) {
-  return answer<Engine::Queries>(
-      *engine_, check_way(origin, 0.0, direction, length, definition(), "ray_cast"),
-      Refresher(*this, probe, "ray_cast"), "ray_cast", about_way(origin, 0.0, direction, length));
+  return answer<Engine::Queries>(engine_.get(), Check(*this, "ray_cast").may_ask(probe),
+                                 fit_way(origin, 0.0, direction, length, "ray_cast"),
+                                 Refresher(*this, probe, "ray_cast"),
+                                 about_way(origin, 0.0, direction, length));
 }
 
 Result<std::vector<Hit>> World::sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
                                             double length) const {
-  return answer<Engine::Queries>(*engine_,
-                                 check_way(origin, radius, direction, length, definition(), "sphere_cast"),
-                                 without_probe, "sphere_cast", about_way(origin, radius, direction, length));
+  return answer<Engine::Queries>(engine_.get(), Check(*this, "sphere_cast").idle(),
+                                 fit_way(origin, radius, direction, length, "sphere_cast"), without_probe,
+                                 about_way(origin, radius, direction, length));
 }
 
 Result<std::vector<Hit>> World::sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
                                             double length, Probe probe) {
-  return answer<Engine::Queries>(
-      *engine_, check_way(origin, radius, direction, length, definition(), "sphere_cast"),
-      Refresher(*this, probe, "sphere_cast"), "sphere_cast", about_way(origin, radius, direction, length));
+  return answer<Engine::Queries>(engine_.get(), Check(*this, "sphere_cast").may_ask(probe),
+                                 fit_way(origin, radius, direction, length, "sphere_cast"),
+                                 Refresher(*this, probe, "sphere_cast"),
+                                 about_way(origin, radius, direction, length));
 }
 
 }  // namespace kinesphere

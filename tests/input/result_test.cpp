@@ -3,6 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
 #include "kinesphere/world.hpp"
 
 namespace kinesphere {
@@ -37,6 +43,38 @@ TEST(Result, ThatIsAValueGivesIt) {
   EXPECT_EQ(*added, (BodyId{0, 0}));
   EXPECT_EQ(added->index, 0u);
   EXPECT_NO_THROW(world.remove(added.value()).value());
+}
+
+TEST(Result, ThatIsTemporaryGivesItsValueAndNoReferenceIntoItself) {
+  using Values = Result<std::vector<int>>;
+  static_assert(std::is_same_v<decltype(*std::declval<Values>()), std::vector<int>>);
+  static_assert(std::is_same_v<decltype(*std::declval<const Values>()), std::vector<int>>);
+  static_assert(std::is_same_v<decltype(std::declval<Values>().value()), std::vector<int>>);
+  static_assert(std::is_same_v<decltype(std::declval<const Values>().value()), std::vector<int>>);
+  static_assert(std::is_same_v<decltype(std::declval<Values>().error()), Error>);
+  static_assert(std::is_same_v<decltype(*std::declval<Values&>()), std::vector<int>&>);
+  World world = World::create({}).value();
+  world.add_all(std::vector<BodyDefinition>(3)).value();
+  std::size_t found = 0;
+  for (const Found& each : *world.overlapping({0, 0, 0}, 100.0)) found += each.body.index + 1u;
+  EXPECT_EQ(found, 6u);
+}
+
+TEST(Result, ThatIsASuccessHasNoError) {
+  World world = World::create({}).value();
+  EXPECT_THROW((void)Result<void>{}.error(), std::logic_error);
+  EXPECT_THROW((void)world.add({}).error(), std::logic_error);
+  const Result<void> made = world.set_user_data({0, 0}, 7);
+  EXPECT_THROW((void)made.error(), std::logic_error);
+}
+
+TEST(ErrorCode, HasANameOfItsOwn) {
+  std::set<std::string_view> names;
+  for (int code = 0; code <= static_cast<int>(ErrorCode::diverged); ++code)
+    EXPECT_TRUE(names.insert(name_of(static_cast<ErrorCode>(code))).second) << code;
+  EXPECT_FALSE(names.contains(""));
+  EXPECT_EQ(name_of(ErrorCode::not_finite), "not_finite");
+  EXPECT_EQ(name_of(ErrorCode::moved_from), "moved_from");
 }
 
 }  // namespace

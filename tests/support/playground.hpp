@@ -17,10 +17,6 @@
 
 namespace kinesphere {
 
-inline std::ostream& operator<<(std::ostream& out, const BodyId& id) {
-  return out << id.index << "." << id.generation;
-}
-
 inline std::ostream& operator<<(std::ostream& out, const Event& e) {
   out << std::hexfloat << e.time << std::defaultfloat << " (" << e.time << ") " << name_of(e.kind) << " "
       << e.first << " " << e.second << " " << name_of(e.wall);

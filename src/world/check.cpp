@@ -1,0 +1,138 @@
+#include "world/check.hpp"
+
+#include <string>
+
+#include "input/input_check.hpp"
+#include "world/fixed.hpp"
+#include "world/validation.hpp"
+
+namespace kinesphere {
+
+Error World::Check::error_about(ErrorCode code, BodyId body, std::string_view what) const {
+  return {code, "body", body, std::string(call_) + ": " + std::string(what)};
+}
+
+Result<void> World::Check::exists() const {
+  if (engine_) return {};
+  return moved_from_error(call_);
+}
+
+Result<void> World::Check::idle() const {
+  auto valid = exists();
+  return valid ? check_idle(engine_->activity(), call_) : valid;
+}
+
+Result<void> World::Check::may_ask(const Probe& probe) const {
+  auto valid = idle();
+  if (valid && !probe) {
+    return Error{ErrorCode::null_probe, "probe", no_body,
+                 std::string(call_) + ": probe must be a function, but is empty"};
+  }
+  return valid;
+}
+
+Result<void> World::Check::known(BodyId body) const {
+  if (auto valid = exists(); !valid) return valid;
+  const bool foreign = body.world != engine_->tag() && body.world != 0 && engine_->tag() != 0;
+  if (!foreign && engine_->is_alive(body)) return {};
+  const std::string name = text_of(body);
+  if (foreign) return error_about(ErrorCode::foreign_body, body, name + " is one of another world");
+  const auto& table = engine_->table();
+  // A free index has the generation that its next body will have.
+  if (body.index < table.size() && body.generation < table[body.index].generation)
+    return error_about(ErrorCode::stale_body, body, name + " has been removed");
+  return error_about(ErrorCode::unknown_body, body, name + " was never in this world");
+}
+
+Result<void> World::Check::changeable(BodyId body) const {
+  auto valid = idle();
+  return valid ? known(body) : valid;
+}
+
+Result<void> World::Check::enabled(BodyId body, bool enabled) const {
+  auto valid = changeable(body);
+  if (!valid || engine_->table()[body.index].enabled == enabled) return valid;
+  return error_about(enabled ? ErrorCode::disabled_body : ErrorCode::enabled_body, body,
+                     std::string("body must be ") + (enabled ? "enabled" : "disabled") + ", but " +
+                         text_of(body) + " is not");
+}
+
+Result<void> World::Check::moving(BodyId body) const {
+  auto valid = changeable(body);
+  if (!valid || !engine_->table()[body.index].is_fixed()) return valid;
+  return error_about(ErrorCode::fixed_body, body,
+                     "body must be one that can move, but " + text_of(body) + " is fixed");
+}
+
+Result<void> World::Check::mobile(BodyId body) const {
+  auto valid = moving(body);
+  return !valid || engine_->table()[body.index].enabled ? valid : enabled(body, true);
+}
+
+Result<void> World::Check::pair(BodyId first, BodyId second) const {
+  auto valid = changeable(first);
+  if (valid) valid = known(second);
+  if (!valid || first != second) return valid;
+  return Error{ErrorCode::out_of_range, "second", second,
+               std::string(call_) + ": second must be another body than first, but is " + text_of(second)};
+}
+
+Result<void> World::Check::room(const BodyDefinition& body, BodyId id) const {
+  if (definition().allow_overlap) return {};
+  const auto other = engine_->certain_overlap(id, {engine_->bound_now(body)}, body);
+  return other ? Result<void>(overlap_error(call_, *other, text_of(*other))) : Result<void>();
+}
+
+Result<void> World::Check::fixed_room(const FixedDefinition& fixed, BodyId id) const {
+  if (definition().allow_overlap) return {};
+  const Bound bound = engine_->bound_now(body_of(fixed));
+  const auto other = engine_->certain_overlap(id, Engine::extent_of(bound, fixed.shape), body_of(fixed));
+  return other ? Result<void>(overlap_error(call_, *other, text_of(*other), "shape")) : Result<void>();
+}
+
+Result<void> World::Check::moved(BodyId id, const State& state) const {
+  BodyDefinition moved = engine_->definition_of(id.index);
+  if (auto valid = check_state(state, moved, id, definition(), call_); !valid) return valid;
+  moved.position = state.position;
+  moved.velocity = state.velocity;
+  return room(moved, id);
+}
+
+Result<void> World::Check::growth(const BodyDefinition& changed, BodyId id, std::string_view argument) const {
+  if (auto valid = reach(changed, id, argument); !valid) return valid;
+  const Body& body = engine_->table()[id.index];
+  const Bound bound = engine_->bound_with(id, changed);
+  if (definition().allow_overlap || !body.enabled || bound.radius <= body.bound.radius) return {};
+  if (const auto wall = engine_->certain_overlap_of_wall(bound)) {
+    return Error{ErrorCode::outside_domain, std::string(argument), id,
+                 std::string(call_) + ": " + std::string(argument) + " of " + text_of(id) +
+                     " must keep the whole sphere in the box, but it would overlap the wall " +
+                     std::string(name_of(*wall))};
+  }
+  if (const auto other = engine_->certain_overlap(id, {bound}, changed))
+    return overlap_error(call_, *other, text_of(*other), argument);
+  return {};
+}
+
+Result<void> World::Check::reach(const BodyDefinition& changed, BodyId id, std::string_view argument) const {
+  const double reach = engine_->sensors().reach(changed.sensor_class);
+  return check_reach(reach, changed, id, argument, definition(), call_);
+}
+
+Result<void> World::Check::new_body(const BodyDefinition& body, BodyId id) const {
+  auto valid = check_body(body, definition(), call_);
+  if (valid) valid = reach(body, no_body, "sensor_class");
+  return valid ? room(body, id) : valid;
+}
+
+Result<FixedDefinition> World::Check::new_fixed(const FixedDefinition& fixed, BodyId id) const {
+  auto valid = check_shape(fixed.shape, definition(), call_);
+  if (valid) valid = reach(body_of(fixed), no_body, "shape");
+  if (!valid) return valid.error();
+  FixedDefinition kept = fixed;
+  kept.shape = engine_->as_kept(fixed.shape);
+  if (auto space = fixed_room(kept, id); !space) return space.error();
+  return kept;
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,102 @@
+// Ids know which world gave them out.
+#include <gtest/gtest.h>
+
+#include "support/expect_error.hpp"
+#include "support/playground.hpp"
+
+namespace kinesphere {
+namespace {
+
+TEST(ForeignId, IsRefusedByEveryCallThatTakesOne) {
+  World world = World::create({}).value();
+  World other = World::create({}).value();
+  const BodyId own = world.add({}).value();
+  const BodyId id = other.add({.position = {5, 0, 0}}).value();
+  ASSERT_EQ(own, id) << "equal but for the world";
+  const std::vector<std::byte> before = world.save().value();
+  const auto refused = [&](const auto& result, const std::string& call) {
+    expect_error(result, ErrorCode::foreign_body, "body", call, id);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().message, call + ": body 0 is one of another world");
+  };
+  refused(world.remove(id), "remove");
+  refused(world.remove_all(std::vector{id}), "remove_all: bodies[0]");
+  refused(world.set_velocity(id, {1, 0, 0}), "set_velocity");
+  refused(world.teleport(id, {}), "teleport");
+  refused(world.set_radius(id, 2.0), "set_radius");
+  refused(world.set_motion_limits(id, {}), "set_motion_limits");
+  refused(world.disable(id), "disable");
+  refused(world.enable(id, {}), "enable");
+  refused(world.set_filter(id, {}), "set_filter");
+  refused(world.refilter(id), "refilter");
+  refused(world.set_solid(id, true), "set_solid");
+  refused(world.set_sensor_class(id, 0), "set_sensor_class");
+  refused(world.set_user_data(id, 0), "set_user_data");
+  refused(world.user_data(id), "user_data");
+  refused(world.body(id), "body");
+  refused(world.shape_of(id), "shape_of");
+  refused(world.touching(id), "touching");
+  refused(world.sensed(id), "sensed");
+  refused(world.safe_until(id), "safe_until");
+  refused(world.safe_until(own, id), "safe_until");
+  refused(world.earliest_contact(id), "earliest_contact");
+  refused(world.distance_limits(id, own, 1.0), "distance_limits");
+  EXPECT_FALSE(world.contains(id));
+  EXPECT_EQ(world.save().value(), before);
+}
+
+/// All ids that a world gives out.
+std::vector<BodyId> given_out(Playground& p) {
+  std::vector<BodyId> ids = p.world.bodies();
+  for (const Event& event : p.run(10.0)) {
+    ids.push_back(event.first);
+    if (event.second != no_body) ids.push_back(event.second);
+    for (const BodyId id : p.world.touching(event.first).value()) ids.push_back(id);
+  }
+  for (const Found& found : p.world.overlapping({0, 0, 0}, 100.0).value()) ids.push_back(found.body);
+  for (const Near& near : p.world.nearest({0, 0, 0}, 5).value()) ids.push_back(near.body);
+  for (const Hit& hit : p.world.ray_cast({-50, 0, 0}, {1, 0, 0}, 100.0).value()) ids.push_back(hit.body);
+  for (const Certificate& each : p.world.certificates()) ids.insert(ids.end(), {each.first, each.second});
+  return ids;
+}
+
+TEST(ForeignId, IsNoneThatTheWorldGaveOutItself) {
+  Playground p({.box = Box{{-100, -100, -100}, {100, 100, 100}}});
+  std::vector<BodyId> probed;
+  p.distort = [&](BodyId id, double, State&) { probed.push_back(id); };
+  p.add({.acceleration_limit = 1.0, .velocity = {1, 0, 0}});
+  p.add({.acceleration_limit = 1.0, .position = {10, 0, 0}});
+  const std::vector<BodyId> ids = given_out(p);
+  EXPECT_GT(ids.size(), 10u);
+  ASSERT_FALSE(probed.empty());
+  for (const BodyId id : ids) EXPECT_TRUE(id.world != 0 && p.world.contains(id)) << id;
+  for (const BodyId id : probed) EXPECT_TRUE(id.world != 0 && p.world.contains(id)) << id;
+}
+
+TEST(ForeignId, IsNoneOfACloneAndNoneThatDoesNotSay) {
+  World world = World::create({}).value();
+  const BodyId id = world.add({}).value();
+  World clone = world.clone().value();
+  EXPECT_TRUE(clone.set_velocity(id, {1, 0, 0}));
+  EXPECT_TRUE(world.contains(clone.bodies().front()));
+  EXPECT_TRUE(world.set_velocity({0, 0}, {1, 0, 0})) << "a literal";
+  World moved = std::move(world);
+  EXPECT_TRUE(moved.set_velocity(id, {1, 0, 0}));
+}
+
+TEST(ForeignId, IsNoneOfARestoredWorldWhichSavesWithoutItsTag) {
+  World world = World::create({}).value();
+  World twin = World::create({}).value();
+  const BodyId id = world.add({}).value();
+  twin.add({}).value();
+  EXPECT_EQ(world.save().value(), twin.save().value()) << "equal histories, equal snapshots";
+  World restored = World::restore(world.save().value()).value();
+  EXPECT_TRUE(restored.set_velocity(id, {1, 0, 0}));
+  for (const BodyId other : restored.bodies()) {
+    EXPECT_EQ(other.world, 0u);
+    EXPECT_TRUE(world.contains(other));
+  }
+}
+
+}  // namespace
+}  // namespace kinesphere
