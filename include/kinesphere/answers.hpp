@@ -1,7 +1,10 @@
-// What the world certifies about the future: World::safe_until, earliest_contact and distance_limits.
+// What the world certifies about the future: World::safe_until, earliest_contact, earliest_approach and
+// distance_limits.
 //
 //   SafeTime quiet = world.safe_until(ball).value();
 //   // whatever the bodies do within their promises, the ball touches nothing before quiet.time
+//   EarliestApproach near = world.earliest_approach(drone, 50.0).value();
+//   // nothing comes within 50 of the drone before near.time, and near.partner may be the first that does
 //
 // An answer holds as long as bodies keep their promises and the caller changes nothing: a kick or a new body
 // voids it. It follows from what the world knows already, reports and recorded facts, and so it is a lower
@@ -37,6 +40,27 @@ struct EarliestContact {
   Wall wall;
   /// It is a contact that lasts now.
   bool touching;
+  bool probed;
+};
+
+/// The first time at which something may be within a distance of a body, from surface to surface.
+struct EarliestApproach {
+  /// In [now, +infinity]: the distance is not reached before it. Now, where it may be reached already.
+  double time;
+  /// By whom or, if it is no_body, by which wall. Both are none when `time` is infinite.
+  BodyId partner;
+  Wall wall;
+  /// It certainly is within the distance now. When `time` is now and this is false, the reports leave it
+  /// open.
+  bool within;
+  bool probed;
+};
+
+/// No two surfaces are within the distance that was asked for before `time`.
+struct SafeSeparation {
+  /// As EarliestApproach::time.
+  double time;
+  bool within;  ///< as EarliestApproach::within
   bool probed;
 };
 

@@ -269,6 +269,19 @@ class World {
   /// As safe_until(body), naming what limits the answer: the partner or wall that may come first.
   Result<EarliestContact> earliest_contact(BodyId body) const;
   Result<EarliestContact> earliest_contact(BodyId body, Probe probe);
+  /// The surfaces of the two do not come within `distance` (length, 0 to 2^43 contact tolerances) of each
+  /// other before this. It is about where the bodies are and nothing else: filters and solid do not count.
+  /// Errors: as safe_until(first, second); not_finite or out_of_range for `distance`. Of two fixed bodies
+  /// that are not both balls nothing is known: the answer is now. Cost: O(1); with a probe at most two
+  /// states.
+  Result<SafeSeparation> safe_until(BodyId first, BodyId second, double distance) const;
+  Result<SafeSeparation> safe_until(BodyId first, BodyId second, double distance, Probe probe);
+  /// The same for a body and all others that its filter and the pair filter let it meet (also those that are
+  /// not solid), and walls: who may be the first within `distance`. Two fixed bodies do not meet. Errors: as
+  /// safe_until(first); not_finite or out_of_range for `distance`. Cost: O(n); with a probe that again for
+  /// each state that limits the answer.
+  Result<EarliestApproach> earliest_approach(BodyId body, double distance) const;
+  Result<EarliestApproach> earliest_approach(BodyId body, double distance, Probe probe);
   /// How far the two are apart at `time` >= now, at least and at most. Errors: as safe_until(first, second);
   /// not_finite or time_backwards for `time`. Of two fixed bodies that are not both balls nothing is known.
   /// Cost: O(1); with a probe at most two states.

@@ -213,6 +213,54 @@ DistanceLimits World::Engine::Answers::distance(std::uint32_t a, std::uint32_t b
   return {gap.lower, upper, false};
 }
 
+void World::Engine::Answers::consider_approach(std::uint32_t a, std::uint32_t b, double distance,
+                                               Onset& first) const {
+  if (first.touching || !body(a).present() || !body(b).present()) return;
+  Bound wider = present(a);
+  wider.radius = rounding::sum_up(wider.radius, distance);
+  const Bound other = present(b);
+  const Extent extent_of_a = engine_.extent(a, wider);
+  const Extent extent_of_b = engine_.extent(b, other);
+  const bool known = !extent_of_a.shape || !extent_of_b.shape;
+  const double time = known ? meeting(extent_of_a, extent_of_b) : now_;
+  const bool within = time <= now_ && known && this->distance(a, b, now_).upper <= distance;
+  if (time < first.time || within) first = {time, a, b, Wall::none, within};
+}
+
+void World::Engine::Answers::consider_approach_to_walls(std::uint32_t number, double distance,
+                                                        Onset& first) const {
+  if (!engine_.walls_ || !body(number).present() || body(number).is_fixed()) return;
+  const Bound bound = present(number);
+  for (const Wall wall : walls) {
+    if (first.touching || !stands(*engine_.walls_, wall)) continue;
+    const HalfSpace inside = half_space(*engine_.walls_, wall);
+    const double time = earliest_meeting(bound, inside, now_, infinity, distance);
+    // The upper limit is about the body as reported, which is up to the errors in its radius away.
+    const double excess = 2.0 * (bound.radius - body(number).radius);
+    const bool within =
+        time <= now_ && rounding::sum_up(gap_limits(bound, inside, now_).upper, excess) <= distance;
+    if (time < first.time || within) first = {time, number, std::nullopt, wall, within};
+  }
+}
+
+Onset World::Engine::Answers::approach_of_pair(std::uint32_t a, std::uint32_t b, double distance) const {
+  Onset first;
+  consider_approach(a, b, distance, first);
+  return first;
+}
+
+Onset World::Engine::Answers::approach_of_body(std::uint32_t number, double distance) const {
+  Onset first;
+  consider_approach_to_walls(number, distance, first);
+  for (std::uint32_t other = 0; other < engine_.bodies_.size(); ++other) {
+    const bool counts = other != number && body(other).present() &&
+                        !(body(number).is_fixed() && body(other).is_fixed()) &&
+                        engine_.may_meet(number, other);
+    if (counts) consider_approach(number, other, distance, first);
+  }
+  return first;
+}
+
 std::vector<std::uint32_t> World::Engine::Answers::concerned(const Onset& onset) {
   std::vector<std::uint32_t> numbers;
   if (!onset.exists() || onset.touching) return numbers;

@@ -9,13 +9,13 @@
 
 namespace kinesphere {
 
-/// A contact that may begin, and the time before which it cannot.
+/// A contact that may begin, or a distance that may be reached, and the time before which it cannot.
 struct Onset {
   double time = std::numeric_limits<double>::infinity();
   std::uint32_t body = 0;
   std::optional<std::uint32_t> partner{};
   Wall wall = Wall::none;
-  bool touching = false;
+  bool touching = false;  ///< it has begun, or the distance certainly is reached: `time` is now
 
   bool exists() const { return partner || wall != Wall::none; }
 };
@@ -35,6 +35,10 @@ class World::Engine::Answers {
   Onset of_body(std::uint32_t number) const;
   Onset of_world() const;
   DistanceLimits distance(std::uint32_t a, std::uint32_t b, double time) const;
+  /// When the surfaces of the two may be as near as this, whatever filters say.
+  Onset approach_of_pair(std::uint32_t a, std::uint32_t b, double distance) const;
+  /// When a wall, or a body that it may meet, may be as near to it as this.
+  Onset approach_of_body(std::uint32_t number, double distance) const;
 
   /// The answer of `ask(Answers)`. What limits it is probed and it is asked again, until fresh reports limit
   /// it; stopping early is safe. Where `valid` is an error there may be no engine. `refresh(numbers)` probes
@@ -65,6 +69,8 @@ class World::Engine::Answers {
   void consider_touching(std::uint32_t number, Onset& first) const;
   void consider_walls(std::uint32_t number, Onset& first) const;
   void consider(std::uint32_t a, std::uint32_t b, Onset& first) const;
+  void consider_approach(std::uint32_t a, std::uint32_t b, double distance, Onset& first) const;
+  void consider_approach_to_walls(std::uint32_t number, double distance, Onset& first) const;
   void consider_all_within(const std::vector<std::uint32_t>& numbers, Onset& first) const;
 
   const Engine& engine_;

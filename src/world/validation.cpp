@@ -114,6 +114,13 @@ void require_shape(InputCheck& check, const Triangle& triangle, const WorldDefin
 
 }  // namespace
 
+InputCheck& require_length(InputCheck& check, std::string_view argument, double length,
+                           const WorldDefinition& world) {
+  const double limit = 4.0 * coordinate_limit(world);
+  return check.not_negative({argument}, length)
+      .require(length <= limit, ErrorCode::out_of_range, {argument}, "must be at most", limit, length);
+}
+
 void require_plane(InputCheck& check, const Subject& subject, const Vec3& value,
                    const WorldDefinition& world) {
   check.require(world.dimensions == 3 || value.z == 0.0, ErrorCode::out_of_range, subject,

@@ -39,6 +39,9 @@ double coordinate_limit(const WorldDefinition& world);
 /// Another body is where one is to be, as `argument` has it.
 Error overlap_error(std::string_view call, BodyId other, const std::string& name_of_other,
                     std::string_view argument = "position");
+/// A length of a question: from 0 to four times the largest coordinate.
+InputCheck& require_length(InputCheck& check, std::string_view argument, double length,
+                           const WorldDefinition& world);
 /// In two dimensions z must be 0.
 void require_plane(InputCheck& check, const Subject& subject, const Vec3& value,
                    const WorldDefinition& world);

@@ -26,12 +26,23 @@ Result<SafeTime> safe_time(const Result<Refined>& refined) {
   return SafeTime{refined->onset.time, refined->onset.touching, refined->probed};
 }
 
-template <class Engine>
-Result<EarliestContact> earliest(const Engine* engine, const Result<Refined>& refined) {
+/// EarliestContact and EarliestApproach list the same fields.
+template <class Earliest, class Engine>
+Result<Earliest> earliest(const Engine* engine, const Result<Refined>& refined) {
   if (!refined) return refined.error();
   const Onset& onset = refined->onset;
   const BodyId partner = onset.partner ? engine->id_of(*onset.partner) : no_body;
-  return EarliestContact{onset.time, partner, onset.wall, onset.touching, refined->probed};
+  return Earliest{onset.time, partner, onset.wall, onset.touching, refined->probed};
+}
+
+Result<void> check_distance(double distance, const WorldDefinition& world, std::string_view call) {
+  InputCheck check(call);
+  return require_length(check, "distance", distance, world).result();
+}
+
+Result<SafeSeparation> safe_separation(const Result<Refined>& refined) {
+  if (!refined) return refined.error();
+  return SafeSeparation{refined->onset.time, refined->onset.touching, refined->probed};
 }
 
 const auto about_world = [](const auto& answers) { return answers.of_world(); };
@@ -42,6 +53,14 @@ auto about_body(BodyId body) {
 
 auto about_pair(BodyId first, BodyId second) {
   return [=](const auto& answers) { return answers.of_pair(first.index, second.index); };
+}
+
+auto about_separation(BodyId first, BodyId second, double distance) {
+  return [=](const auto& answers) { return answers.approach_of_pair(first.index, second.index, distance); };
+}
+
+auto about_approach(BodyId body, double distance) {
+  return [=](const auto& answers) { return answers.approach_of_body(body.index, distance); };
 }
 
 }  // namespace
@@ -82,17 +101,50 @@ Result<SafeTime> World::safe_until(Probe probe) {
 }
 
 Result<EarliestContact> World::earliest_contact(BodyId body) const {
-  return earliest(engine_.get(),
-                  Engine::Answers::answer(engine_.get(), Check(*this, "earliest_contact").changeable(body),
-                                          without_probe, any_number, about_body(body)));
+  return earliest<EarliestContact>(
+      engine_.get(), Engine::Answers::answer(engine_.get(), Check(*this, "earliest_contact").changeable(body),
+                                             without_probe, any_number, about_body(body)));
 }
 
 Result<EarliestContact> World::earliest_contact(BodyId body, Probe probe) {
   const Check check(*this, "earliest_contact");
-  return earliest(
+  return earliest<EarliestContact>(
       engine_.get(),
       Engine::Answers::answer(engine_.get(), first_error(check.may_ask(probe), check.known(body)),
                               Refresher(*this, probe, "earliest_contact"), any_number, about_body(body)));
+}
+
+Result<SafeSeparation> World::safe_until(BodyId first, BodyId second, double distance) const {
+  auto valid = Check(*this, "safe_until").pair(first, second);
+  if (valid) valid = check_distance(distance, definition(), "safe_until");
+  return safe_separation(Engine::Answers::answer(engine_.get(), valid, without_probe, any_number,
+                                                 about_separation(first, second, distance)));
+}
+
+Result<SafeSeparation> World::safe_until(BodyId first, BodyId second, double distance, Probe probe) {
+  const Check check(*this, "safe_until");
+  auto valid = first_error(check.may_ask(probe), check.pair(first, second));
+  if (valid) valid = check_distance(distance, definition(), "safe_until");
+  return safe_separation(Engine::Answers::answer(engine_.get(), valid, Refresher(*this, probe, "safe_until"),
+                                                 any_number, about_separation(first, second, distance)));
+}
+
+Result<EarliestApproach> World::earliest_approach(BodyId body, double distance) const {
+  auto valid = Check(*this, "earliest_approach").changeable(body);
+  if (valid) valid = check_distance(distance, definition(), "earliest_approach");
+  return earliest<EarliestApproach>(engine_.get(),
+                                    Engine::Answers::answer(engine_.get(), valid, without_probe, any_number,
+                                                            about_approach(body, distance)));
+}
+
+Result<EarliestApproach> World::earliest_approach(BodyId body, double distance, Probe probe) {
+  const Check check(*this, "earliest_approach");
+  auto valid = first_error(check.may_ask(probe), check.known(body));
+  if (valid) valid = check_distance(distance, definition(), "earliest_approach");
+  return earliest<EarliestApproach>(
+      engine_.get(),
+      Engine::Answers::answer(engine_.get(), valid, Refresher(*this, probe, "earliest_approach"), any_number,
+                              about_approach(body, distance)));
 }
 
 Result<DistanceLimits> World::distance_limits(BodyId first, BodyId second, double time) const {

@@ -12,18 +12,11 @@
 namespace kinesphere {
 namespace {
 
-InputCheck& check_length(InputCheck& check, std::string_view argument, double length,
-                         const WorldDefinition& world) {
-  const double limit = 4.0 * coordinate_limit(world);
-  return check.not_negative({argument}, length)
-      .require(length <= limit, ErrorCode::out_of_range, {argument}, "must be at most", limit, length);
-}
-
 Result<void> check_sphere(const Vec3& centre, double radius, const WorldDefinition& world) {
   InputCheck check("overlapping");
   check.within({"centre"}, centre, coordinate_limit(world));
   require_plane(check, {"centre"}, centre, world);
-  return check_length(check, "radius", radius, world).result();
+  return require_length(check, "radius", radius, world).result();
 }
 
 Result<void> check_region(const Box& box, const WorldDefinition& world) {
@@ -47,12 +40,12 @@ Result<void> check_way(const Vec3& origin, double radius, const Vec3& direction,
                        const WorldDefinition& world, std::string_view call) {
   InputCheck check(call);
   check.within({"origin"}, origin, coordinate_limit(world));
-  check_length(check, "radius", radius, world)
+  require_length(check, "radius", radius, world)
       .within({"direction"}, direction, 1e100)
       .require(direction != Vec3{}, ErrorCode::out_of_range, {"direction"}, "must not be zero", direction);
   require_plane(check, {"origin"}, origin, world);
   require_plane(check, {"direction"}, direction, world);
-  check_length(check, "length", length, world);
+  require_length(check, "length", length, world);
   for (int axis = 0; axis < 3; ++axis) {
     if (!world.periodic[axis]) continue;
     const double period = world.box->upper[axis] - world.box->lower[axis];
