@@ -216,11 +216,13 @@ DistanceLimits World::Engine::Answers::distance(std::uint32_t a, std::uint32_t b
 void World::Engine::Answers::consider_approach(std::uint32_t a, std::uint32_t b, double distance,
                                                Onset& first) const {
   if (first.touching || !body(a).present() || !body(b).present()) return;
-  Bound wider = present(a);
-  wider.radius = rounding::sum_up(wider.radius, distance);
-  const Bound other = present(b);
-  const Extent extent_of_a = engine_.extent(a, wider);
-  const Extent extent_of_b = engine_.extent(b, other);
+  Bound bound_of_a = present(a);
+  Bound bound_of_b = present(b);
+  // A shape has no radius that could be larger by the distance, but then the other body has.
+  double& radius = body(a).is_fixed() ? bound_of_b.radius : bound_of_a.radius;
+  radius = rounding::sum_up(radius, distance);
+  const Extent extent_of_a = engine_.extent(a, bound_of_a);
+  const Extent extent_of_b = engine_.extent(b, bound_of_b);
   const bool known = !extent_of_a.shape || !extent_of_b.shape;
   const double time = known ? meeting(extent_of_a, extent_of_b) : now_;
   const bool within = time <= now_ && known && this->distance(a, b, now_).upper <= distance;

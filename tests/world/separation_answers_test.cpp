@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "number/infinity.hpp"
 #include "support/expect_error.hpp"
@@ -20,6 +21,7 @@ class Separation : public testing::TestWithParam<CrowdKind> {
   void expect_apart(BodyId a, BodyId b, double distance, double time) {
     const double now = crowd.world.time();
     const double end = std::min(time, now + 2.0);
+    if (!(end > now)) return;
     for (int k = 0; k < 40; ++k) {
       const double at = now + (end - now) * k / 40;
       ASSERT_GT(crowd.gap(a, b, at), distance - rounding_room)
@@ -49,7 +51,10 @@ class Separation : public testing::TestWithParam<CrowdKind> {
       }
       if (probe) {
         const SafeSeparation fresh = world.safe_until(a, b, distance, crowd.probe()).value();
-        ASSERT_GE(fresh.time, pair.time);
+        // With errors a later report may certify less than the one before.
+        if (GetParam().noise == 0.0) {
+          ASSERT_GE(fresh.time - world.time(), (1.0 - 1e-9) * (pair.time - world.time()));
+        }
         ASSERT_NO_FATAL_FAILURE(expect_apart(a, b, distance, fresh.time));
         // Fresh reports leave no more open than their errors do.
         if (fresh.time == world.time() && !fresh.within) {
@@ -105,20 +110,20 @@ TEST(SafeSeparation, AProbeDecides) {
   const BodyId a = p.add({.radius = 1, .acceleration_limit = 1, .position = {0, 0, 0}}, Vec3{});
   const BodyId b = p.add({.radius = 1, .acceleration_limit = 1, .position = {30, 0, 0}}, Vec3{});
   EXPECT_FALSE(p.advance(4.0));
-  const auto open = p.world.safe_until(a, b, 20.0);
+  const auto open = p.world.safe_until(a, b, 27.9);
   EXPECT_EQ(open->time, 4.0);
   EXPECT_FALSE(open->within);
-  const auto decided = p.world.safe_until(a, b, 20.0, p.probe());
+  const auto decided = p.world.safe_until(a, b, 27.9, p.probe());
   EXPECT_TRUE(decided->probed);
-  EXPECT_GT(decided->time, 6.0);
+  EXPECT_NEAR(decided->time, 4.0 + std::sqrt(0.1), 1e-9);
   EXPECT_TRUE(p.world.safe_until(a, b, 29.0)->within);
 }
 
 TEST(SafeSeparation, FiltersDoNotCountForAPairButForABody) {
   Playground p;
   const BodyId a =
-      p.add({.radius = 1, .filter = {.group = -1}, .position = {0, 0, 0}, .velocity = {1, 0, 0}});
-  const BodyId b = p.add({.radius = 1, .filter = {.group = -1}, .position = {12, 0, 0}});
+      p.add({.radius = 1, .position = {0, 0, 0}, .velocity = {1, 0, 0}, .filter = {.group = -1}});
+  const BodyId b = p.add({.radius = 1, .position = {12, 0, 0}, .filter = {.group = -1}});
   const BodyId zone = p.world.add_fixed({.shape = Box{{20, -1, -1}, {21, 1, 1}}, .solid = false}).value();
   EXPECT_NEAR(p.world.safe_until(a, b, 2.0)->time, 8.0, 1e-9);
   const auto approach = p.world.earliest_approach(a, 2.0);
@@ -137,6 +142,7 @@ TEST(SafeSeparation, CountsWallsAndShapes) {
   const BodyId floor = p.world.add_fixed({.shape = HalfSpace{{0, 1, 0}, 5.0}}).value();
   EXPECT_EQ(p.world.earliest_approach(a, 10.0)->partner, floor);
   EXPECT_NEAR(p.world.safe_until(a, floor, 10.0)->time, 34.0, 1e-9);
+  EXPECT_NEAR(p.world.safe_until(floor, a, 10.0)->time, 34.0, 1e-9);
   const BodyId box = p.world.add_fixed({.shape = Box{{0, 0, 0}, {1, 1, 1}}}).value();
   EXPECT_EQ(p.world.safe_until(floor, box, 1.0)->time, p.world.time()) << "nothing is known of two shapes";
   EXPECT_FALSE(p.world.safe_until(floor, box, 1.0)->within);
