@@ -42,6 +42,7 @@ class RandomSurroundings : public testing::TestWithParam<Kind> {
       case 2:
         return Box{at, at + Vec3{random.uniform(), 2 * random.uniform(), random.uniform()}};
       default: {
+        if (random.bits() % 3 == 0) return needle_through(at);
         const Vec3 side = 3.0 * random.unit_vector();
         const Vec3 other = 3.0 * random.unit_vector();
         return Triangle{at, at + side, at + other};
@@ -49,11 +50,21 @@ class RandomSurroundings : public testing::TestWithParam<Kind> {
     }
   }
 
+  /// As long as a world with this tolerance allows, and hardly thicker than it has to be.
+  Triangle needle_through(const Vec3& place) {
+    constexpr double length = 1e7;
+    const Vec3 along = length * random.unit_vector();
+    const Vec3 across = cross(along, random.unit_vector());
+    const Vec3 height = across / norm(across) * (0x1.1p-20 * length);
+    const Vec3 corner = place - 0.5 * along - 0.25 * height;
+    return {corner, corner + along, corner + random.uniform(0.25, 0.75) * along + height};
+  }
+
   void come() { shapes.push_back(p.place(any_shape())); }
 
   void join() {
     const Vec3 plan = random.uniform() < 0.5 ? Vec3{0, 0, -0.3} : Vec3{};
-    const BodyDefinition body{.radius = 0.05 + 0.5 * random.uniform(),
+    const BodyDefinition body{.radius = balls.size() % 4 == 0 ? 0.0 : 0.05 + 0.5 * random.uniform(),
                               .acceleration_limit = 2,
                               .planned_acceleration = plan,
                               .position = any_point(),
@@ -120,6 +131,13 @@ class RandomSurroundings : public testing::TestWithParam<Kind> {
     return view.enabled && view.definition.filter == Filter{};
   }
 
+  /// Of a gap: a hundredth of the tolerance for a needle, next to nothing for others.
+  static double rounding(const Shape& shape) {
+    const auto* triangle = std::get_if<Triangle>(&shape);
+    if (triangle == nullptr) return 1e-12;
+    return 1e-12 + 0x1p-49 * (norm_one(triangle->a) + norm_one(triangle->b) + norm_one(triangle->c));
+  }
+
   void check_gaps() {
     for (const BodyId ball : balls)
       for (const BodyId shape : shapes) {
@@ -130,8 +148,9 @@ class RandomSurroundings : public testing::TestWithParam<Kind> {
         ASSERT_LE(limits.lower, gap + 1e-12);
         ASSERT_GE(limits.upper, gap - 1e-12);
         if (GetParam().mode == ContactMode::impacts) continue;
-        ASSERT_TRUE(gap >= -eps || touch) << ball << " is unreported in " << shape << " by " << gap;
-        ASSERT_TRUE(gap <= 5 * eps + 1e-12 || !touch)
+        const double wrong = rounding(p.fixed.at(shape));
+        ASSERT_TRUE(gap >= -eps - wrong || touch) << ball << " is unreported in " << shape << " by " << gap;
+        ASSERT_TRUE(gap <= 5 * eps + wrong || !touch)
             << ball << " and " << shape << " are apart, gap " << gap;
       }
   }
@@ -165,6 +184,9 @@ TEST_P(RandomSurroundings, NothingIsMissed) {
     check_gaps();
   }
   EXPECT_GT(begins, 100u);
+  // Nobody crawls: a body that is far from all changes, or deep in a box, is left alone.
+  const Counters& counters = p.world.counters();
+  EXPECT_LE(counters.wakes, 2 * counters.probes);
 }
 
 INSTANTIATE_TEST_SUITE_P(, RandomSurroundings,
