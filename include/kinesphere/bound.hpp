@@ -5,15 +5,19 @@
 //   // whatever the two bodies do within their promises, they are apart before t
 //
 // Every function here is pure. Each `earliest_` answer is a LOWER bound of the true time: it is never
-// late. Two things make sure of that:
+// late. Three things make sure of that:
 //   1. Every step of an iteration is safe by itself, so stopping early only answers sooner.
 //   2. Rounding. Each coefficient of a step is lowered by a margin of 2^-47 times the sum of the
 //      magnitudes that went into it, which is more than all the roundings on the way there can add up
 //      to (fewer than 40 of them, each at most 2^-53 of such a magnitude); roots are taken in the form
 //      that cannot cancel, with the discriminant moved to the early side, and shortened by 2^-47 of
-//      themselves; the final sum is rounded down. Where a number overflows the answer is `from`.
-//      No rounding mode is changed, so the result is the same on every machine and at every
-//      optimisation level (the library is built with -ffp-contract=off and without -ffast-math).
+//      themselves; the final sum is rounded down. No rounding mode is changed, so the result is the same on
+//      every machine and at every optimisation level (the library is built with -ffp-contract=off and
+//      without -ffast-math).
+//   3. Numbers of all sizes are taken, down to zero and up to what overflows, infinity and NaN. Between
+//      limits::least_size and limits::largest_size (limits.hpp) answers are as near to the truth as rounding
+//      allows. Numbers below count as if they were up to that large, so answers may be early by as much;
+//      beyond, where nothing is certain, the answer is `from`, and gap limits are infinite.
 #pragma once
 
 #include "kinesphere/body.hpp"
@@ -94,12 +98,14 @@ double earliest_separation(const Bound& bound, const HalfSpace& wall, double fro
 /// opposite.
 double earliest_exit(const Bound& bound, const Box& box, double from, double until);
 
-/// A box that contains the bound during all of [from, to], rounded outward. Needs a finite `to`.
+/// A box that contains the bound during all of [from, to], rounded outward; sides that overflow are infinite.
+/// Needs a finite `to`.
 Box swept_box(const Bound& bound, double from, double to);
 
 /// Certified limits of the distance between the surfaces of two bodies at time t >= both report
 /// times: lower = |C| - rho_i - rho_j, upper = |C| - r_i - r_j + growth_i + growth_j, rounded apart.
-/// With e0 > 0 the upper limit is about the bodies as reported, as in earliest_separation.
+/// With e0 > 0 the upper limit is about the bodies as reported, as in earliest_separation. Where sizes are
+/// beyond limits::largest_size: -infinity and +infinity.
 struct GapLimits {
   double lower;
   double upper;

@@ -95,8 +95,7 @@ class World {
   ~World();
 
   /// Adds a body at the current time. Errors: not_finite; out_of_range (a negative radius, limit or
-  /// error; a coordinate beyond 2^41 contact tolerances, where doubles could no longer keep
-  /// the promise); outside_domain; overlapping. Cost: O(1) here (a grid search where overlaps are not
+  /// error; a number beyond limits.hpp); outside_domain; overlapping. Cost: O(1) here (a grid search where overlaps are not
   /// allowed), a grid search at the next advance.
   Result<BodyId> add(const BodyDefinition& body);
   /// Makes room for this many bodies in all, as std::vector::reserve() does: adding them takes less time and
@@ -108,7 +107,7 @@ class World {
   /// Adds a body that never moves. It has an id, a filter and contacts like any other, and is the `first` or
   /// `second` of their events; it is never probed, and fixed bodies do not concern each other. It may reach
   /// out of the box of the world. Errors: not_finite; out_of_range (a coordinate, offset or radius beyond
-  /// 2^41 contact tolerances, a negative radius, a box without lower <= upper, a triangle thinner than 2^-20
+  /// limits.hpp, a negative radius, a box without lower <= upper, a triangle thinner than 2^-20
   /// of its longest side, a normal whose length differs from 1 by more than 10^-6: the world makes it 1);
   /// unsupported (all but balls where space repeats, a triangle in two dimensions); overlapping. Cost: O(1)
   /// here (a grid search where overlaps are not allowed), a grid search at the next advance.
@@ -194,8 +193,8 @@ class World {
   Result<void> set_solid(BodyId body, bool solid);
   /// From now on all bodies of this class have this sensor; without it they sense nothing. Sensor distances
   /// that no longer count are left, and those that newly do are entered, in events at the next advance.
-  /// Errors: probe_in_progress; not_finite or out_of_range for a distance that is negative or beyond 2^41
-  /// contact tolerances or, where space repeats, so large that a body has no room for it, which is named.
+  /// Errors: probe_in_progress; not_finite or out_of_range for a distance that is negative or beyond
+  /// limits.hpp or, where space repeats, so large that a body has no room for it, which is named.
   /// Cost: O(n) here, and each body of the class searches again at the next advance.
   Result<void> set_sensor(SensorClass sensor_class, const Sensor& sensor);
   Result<void> set_sensor_class(BodyId body, SensorClass sensor_class);
@@ -209,9 +208,9 @@ class World {
   /// nothing, with time() == until. Events come in the order of (time, kind, first, second, wall, distance);
   /// those that a kick causes at the same instant follow in a new round of that order, and contacts that
   /// other changes have ended come first.
-  /// Errors: time_backwards or not_finite for `until`; not_finite or out_of_range naming the body when
-  /// the probe answers with such a state: that answer is dropped, time() is when it was asked for, no
-  /// event or fact is lost, and the call may be repeated. The same holds when the probe throws.
+  /// Errors: time_backwards, not_finite or out_of_range (limits.hpp) for `until`; not_finite or out_of_range
+  /// naming the body when the probe answers with such a state: that answer is dropped, time() is when it was
+  /// asked for, no event or fact is lost, and the call may be repeated. The same holds when the probe throws.
   Result<std::optional<Event>> advance(double until, Probe probe);
 
   double time() const;
@@ -289,7 +288,7 @@ class World {
   Result<DistanceLimits> distance_limits(BodyId first, BodyId second, double time, Probe probe);
 
   // Queries at the current time (queries.hpp). Errors: probe_in_progress; not_finite or out_of_range for
-  // points beyond 2^41 contact tolerances, negative lengths, or lengths beyond 2^43 of them; with a Probe
+  // points and lengths beyond limits.hpp, and for negative lengths; with a Probe
   // also as above. Cost: a grid search, what it finds, and the bodies added or kicked since the last advance.
 
   /// The bodies that may overlap a sphere, by index. With a probe: one state for each that is in doubt.
@@ -303,8 +302,7 @@ class World {
   /// of them probed. Cost: grid searches of doubling size.
   Result<std::vector<Near>> nearest(const Vec3& point, std::size_t count) const;
   Result<std::vector<Near>> nearest(const Vec3& point, std::size_t count, Probe probe);
-  /// All bodies that may be the first on the way from `origin` along `direction` (of any length > 0, at most
-  /// 1e100), by lower limit of that way: empty when there certainly is none within `length`. A single body
+  /// All bodies that may be the first on the way from `origin` along `direction` (of any length > 0), by lower limit of that way: empty when there certainly is none within `length`. A single body
   /// that is certainly the first is marked so. With a probe all of them are probed. Walls do not count. Where
   /// space repeats the length may be at most 64 boxes, and a sphere's radius half a box (out_of_range). Cost:
   /// at most 64 grid searches along the way.

@@ -1,4 +1,4 @@
-// What a world is made with: its walls, and what counts as a contact.
+// What a world is made with: its walls, and what counts as a contact. Which numbers it takes: limits.hpp.
 #pragma once
 
 #include <limits>

@@ -3,6 +3,7 @@
 
 #include "bound/relative_motion.hpp"
 #include "bound/rounding.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 
@@ -26,8 +27,16 @@ double greatest(double p, double v, double a, double s0, double s1) {
     const double vertex = -v / a;
     if (vertex > s0 && vertex < s1) top = std::max(top, at(vertex));
   }
-  const double size = std::abs(p) + (std::abs(v) + std::abs(a) * s1) * s1;
-  return top + size * rounding::margin;
+  using rounding::widened;
+  const double size = widened(std::abs(p)) + (widened(std::abs(v)) + widened(std::abs(a)) * s1) * s1;
+  return size <= limits::largest_size ? top + size * rounding::margin : infinity;
+}
+
+/// Of a gap to which growth, up or down, and rounding, relative to the size, have still to be added.
+GapLimits limits_around(double gap, double growth, double size) {
+  if (!(size <= limits::largest_size)) return {.lower = -infinity, .upper = infinity};
+  const double margin = rounding::margin * size;
+  return {.lower = gap - growth - margin, .upper = gap + growth + margin};
 }
 
 }  // namespace
@@ -50,20 +59,20 @@ Box swept_box(const Bound& bound, double from, double to) {
 
 GapLimits gap_limits(const Bound& a, const Bound& b, double t) {
   const RelativeMotion motion(a, b, t);
-  const double margin = rounding::margin * motion.offset_size;
-  const double gap = norm(motion.offset) - motion.radii;
-  return {.lower = gap - motion.growth - margin, .upper = gap + motion.growth + margin};
+  return limits_around(norm(motion.offset) - motion.radii, motion.growth, motion.offset_size);
 }
 
 GapLimits gap_limits(const Bound& bound, const HalfSpace& wall, double t) {
   const double s = t - bound.time;
   const double growth = (bound.growth_speed + 0.5 * bound.growth_acceleration * s) * s;
   const double gap = dot(wall.normal, bound.centre_at(t)) - wall.offset - bound.radius;
-  const double size = norm_one(bound.position) + norm_one(bound.velocity) * s +
-                      norm_one(bound.planned_acceleration) * (s * s) + bound.radius + growth +
+  using rounding::widened;
+  const double size = widened(norm_one(bound.position) + bound.radius) +
+                      (widened(norm_one(bound.velocity) + bound.growth_speed) +
+                       widened(norm_one(bound.planned_acceleration) + bound.growth_acceleration) * s) *
+                          s +
                       std::abs(wall.offset);
-  const double margin = rounding::margin * size;
-  return {.lower = gap - growth - margin, .upper = gap + growth + margin};
+  return limits_around(gap, growth, size);
 }
 
 }  // namespace kinesphere

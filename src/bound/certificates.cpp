@@ -23,18 +23,14 @@ struct Projection {
       : Projection(from - bound.time, dot(normal, bound.position), dot(normal, bound.velocity),
                    dot(normal, bound.planned_acceleration), bound) {
     // The products of a dot product may cancel, so the sizes come from the vectors.
-    acceleration_size = norm_one(bound.planned_acceleration) + bound.growth_acceleration;
-    velocity_size = norm_one(bound.velocity) + bound.growth_speed + acceleration_size * s;
-    position_size = norm_one(bound.position) + bound.radius + velocity_size * s;
+    add_up(norm_one(bound.position), norm_one(bound.velocity), norm_one(bound.planned_acceleration), bound);
   }
 
   /// Along one coordinate axis.
   Projection(const Bound& bound, int axis, double from)
       : Projection(from - bound.time, bound.position[axis], bound.velocity[axis],
                    bound.planned_acceleration[axis], bound) {
-    acceleration_size = std::abs(acceleration) + bound.growth_acceleration;
-    velocity_size = std::abs(bound.velocity[axis]) + bound.growth_speed + acceleration_size * s;
-    position_size = std::abs(bound.position[axis]) + bound.radius + velocity_size * s;
+    add_up(std::abs(bound.position[axis]), std::abs(bound.velocity[axis]), std::abs(acceleration), bound);
   }
 
   double s;
@@ -50,6 +46,13 @@ struct Projection {
         acceleration(a),
         growth((bound.growth_speed + 0.5 * bound.growth_acceleration * elapsed) * elapsed),
         growth_speed(bound.growth_speed + bound.growth_acceleration * elapsed) {}
+
+  void add_up(double position_part, double velocity_part, double acceleration_part, const Bound& bound) {
+    acceleration_size = rounding::capped(rounding::widened(acceleration_part + bound.growth_acceleration));
+    velocity_size =
+        rounding::capped(rounding::widened(velocity_part + bound.growth_speed) + acceleration_size * s);
+    position_size = rounding::capped(rounding::widened(position_part + bound.radius) + velocity_size * s);
+  }
 };
 
 }  // namespace
@@ -59,9 +62,10 @@ double earliest_meeting(const Bound& a, const Bound& b, double from, double unti
   const double reach = motion.radii + distance;
   return advance_by_safe_steps(from, until, [&](double d) {
     const Vec3 centre = motion.centre_at(d);
-    const double length = norm(centre);
-    // Where the square of the length underflows there is no unit vector; any shorter one is safe.
-    const Vec3 n = length > 0x1p-500 ? centre / length : Vec3{};
+    // Where its square underflows there is no unit vector. With none, |C(d)| >= 0 remains.
+    const double measured = norm(centre);
+    const double length = measured > 0x1p-500 ? measured : 0.0;
+    const Vec3 n = length > 0.0 ? centre / length : Vec3{};
     const double c =
         (length - reach) - motion.growth_at(d) - margin * (motion.size_at(d) + std::abs(distance));
     const double speed = dot(n, motion.velocity_at(d)) - motion.growth_speed_at(d) -

@@ -53,8 +53,8 @@ class Encounter {
   /// is |X|, its value at the end, or |X x V| / |V|: no root, no division. Radii count as they are at the
   /// end, and half of what the centres turn by then is added to them.
   [[gnu::always_inline]] bool stay_apart(double duration, double room) const {
-    // Where squares underflow nothing is known.
-    constexpr double least = 0x1p-900;
+    // Where squares of squares underflow nothing is known.
+    constexpr double least = 0x1p-400;
     const double radii =
         radii_ + room + (speed_ + 0.5 * (growth_ + norm_one(acceleration_)) * duration) * duration;
     const double limit = radii * radii;
@@ -117,8 +117,10 @@ class Encounter {
     const double radii = radii_ + room;
     for (int round = 0; round < most_rounds; ++round) {
       const Vec3 centre = offset_ + (velocity_ + acceleration_ * (0.5 * d)) * d;
-      const double length = norm(centre);
-      const Vec3 n = length > 0x1p-500 ? centre * (1.0 / length) : Vec3{};
+      // Where its square underflows there is no unit vector. With none, |C(d)| >= 0 remains.
+      const double measured = norm(centre);
+      const double length = measured > 0x1p-500 ? measured : 0.0;
+      const Vec3 n = length > 0.0 ? centre * (1.0 / length) : Vec3{};
       const double gain = rounding::first_crossing(
           length - radii - (speed_ + 0.5 * growth_ * d) * d,
           dot(n, velocity_ + acceleration_ * d) - (speed_ + growth_ * d), dot(n, acceleration_) - growth_);

@@ -27,7 +27,8 @@ struct alignas(64) Sketch {
   /// Until `end_time`. `beside` is the most that may be added to the centre: a period.
   ///
   /// A look at two sketches computes with numbers that are at most the sum of their sizes, in magnitudes of
-  /// what goes into them, and all its roundings together come to less than 2^-18 of that.
+  /// what goes into them, and all its roundings together come to less than 2^-18 of that. One that is too
+  /// fast is never apart from anything.
   Sketch(const Bound& bound, double end_time, double beside)
       : span{bound.time, end_time},
         place(row(bound.position, 0.0)),
@@ -37,12 +38,16 @@ struct alignas(64) Sketch {
     const double acceleration = norm_one(bound.planned_acceleration) + bound.growth_acceleration;
     const double speed = norm_one(bound.velocity) + bound.growth_speed + acceleration * lasts;
     const double size = beside + norm_one(bound.position) + bound.radius + speed * lasts;
-    place[3] = static_cast<float>(bound.radius + 0x1p-18 * size);
+    place[3] = speed < fastest ? static_cast<float>(bound.radius + 0x1p-18 * size)
+                               : std::numeric_limits<float>::infinity();
   }
 
   friend bool operator==(const Sketch&, const Sketch&) = default;
 
  private:
+  /// The squares of greater speeds may be too large for single precision.
+  static constexpr double fastest = 0x1p58;
+
   static std::array<float, 4> row(const Vec3& v, double last) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z),
             static_cast<float>(last)};
@@ -51,10 +56,27 @@ struct alignas(64) Sketch {
 
 /// Where space repeats: the body is to be seen in the image in which its home is nearest.
 struct Home {
-  std::array<float, 4> centre{};  ///< of its box, and 0
+  /// Of its box, as seen from the lower corner of the primary box, and 0. On each axis that repeats it is
+  /// about a period at most, so it errs by less than 2^-23 of a period, wherever the primary box lies.
+  std::array<float, 4> centre{};
 
+  Home() = default;
+  explicit Home(const Vec3& from_corner)
+      : centre{static_cast<float>(from_corner.x), static_cast<float>(from_corner.y),
+               static_cast<float>(from_corner.z), 0.0f} {}
   friend bool operator==(const Home&, const Home&) = default;
 };
+
+/// What Glance::Images adds to the place of a body with home `from`, seen by one with home `to`.
+inline Vec3 shift_at_a_glance(const Home& from, const Home& to, const Vec3& period) {
+  Vec3 shift;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float way = from.centre[static_cast<std::size_t>(axis)] - to.centre[static_cast<std::size_t>(axis)];
+    const auto half = static_cast<float>(0.5 * period[axis]);
+    if (period[axis] > 0.0) shift[axis] = way > half ? -period[axis] : way < -half ? period[axis] : 0.0;
+  }
+  return shift;
+}
 
 /// From one body at one instant.
 template <class Number = Four>

@@ -2,6 +2,7 @@
 // went into these, from which rounding margins are taken.
 #pragma once
 
+#include "bound/rounding.hpp"
 #include "kinesphere/bound.hpp"
 
 namespace kinesphere {
@@ -10,7 +11,7 @@ namespace kinesphere {
 ///   centre difference  C(d) = offset + velocity d + 1/2 acceleration d^2
 ///   growth             Gamma(d) = growth + growth_speed d + 1/2 growth_acceleration d^2
 /// where growth is what has been added to the radii since the reports. The sizes bound the sums of the
-/// magnitudes of the terms of each coefficient.
+/// magnitudes of the terms of each coefficient, and are widened and capped (rounding.hpp).
 struct RelativeMotion {
   Vec3 offset, velocity, acceleration;
   double radii;  ///< r + e0 of both
@@ -38,9 +39,10 @@ struct RelativeMotion {
           growth((bound.growth_speed + 0.5 * bound.growth_acceleration * s) * s),
           growth_speed(bound.growth_speed + bound.growth_acceleration * s),
           growth_acceleration(bound.growth_acceleration),
-          acceleration_size(norm_one(acceleration) + growth_acceleration),
-          velocity_size(norm_one(bound.velocity) + bound.growth_speed + acceleration_size * s),
-          offset_size(norm_one(bound.position) + radius + velocity_size * s) {}
+          acceleration_size(rounding::widened(norm_one(acceleration) + growth_acceleration)),
+          velocity_size(rounding::widened(norm_one(bound.velocity) + bound.growth_speed) +
+                        acceleration_size * s),
+          offset_size(rounding::widened(norm_one(bound.position) + radius) + velocity_size * s) {}
 
     double s;
     Vec3 centre, velocity, acceleration;
@@ -56,9 +58,9 @@ struct RelativeMotion {
         growth(a.growth + b.growth),
         growth_speed(a.growth_speed + b.growth_speed),
         growth_acceleration(a.growth_acceleration + b.growth_acceleration),
-        offset_size(a.offset_size + b.offset_size),
-        velocity_size(a.velocity_size + b.velocity_size),
-        acceleration_size(a.acceleration_size + b.acceleration_size) {}
+        offset_size(rounding::capped(a.offset_size + b.offset_size)),
+        velocity_size(rounding::capped(a.velocity_size + b.velocity_size)),
+        acceleration_size(rounding::capped(a.acceleration_size + b.acceleration_size)) {}
 };
 
 }  // namespace kinesphere

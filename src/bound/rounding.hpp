@@ -4,10 +4,21 @@
 #include <cmath>
 #include <limits>
 
+#include "kinesphere/limits.hpp"
+
 namespace kinesphere::rounding {
 
 /// Relative margin, 2^-47 = 64 unit roundoffs: more than all the roundings behind one coefficient.
 inline constexpr double margin = 0x1p-47;
+
+/// A sum of magnitudes, from which margins will be taken, with room for what products lose to underflow. Zero
+/// stays zero, as nothing is lost where there is nothing.
+inline double widened(double size) { return size + (size > 0.0 ? limits::least_size : 0.0); }
+
+/// The same sum; +infinity where products of two of its kind might overflow.
+inline double capped(double size) {
+  return size <= limits::largest_size ? size : std::numeric_limits<double>::infinity();
+}
 
 /// A lower bound of the exact sum a + b; NaN where the sum of two finite numbers overflows.
 inline double sum_down(double a, double b) {

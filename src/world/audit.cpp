@@ -81,6 +81,8 @@ class World::Engine::Audit {
       find("registration", name(number) + " has too wide a box");
     if (!(engine_.sketches_[number] == engine_.sketch_of(b)))
       find("registration", name(number) + " is not where others see it at a glance");
+    if (engine_.space_.repeats() && engine_.homes_[number] != engine_.home_of(number))
+      find("registration", name(number) + " is not in the image in which others see it at a glance");
     if (!exact(b)) return;
     const Vec3 room = Vec3{1.0, 1.0, 1.0} * (0.25 * engine_.definition_.contact_tolerance);
     Box box{engine_.box(number).lower - room, engine_.box(number).upper + room};
@@ -144,7 +146,22 @@ class World::Engine::Audit {
     check_crossings(a, b);
     check_crossings(b, a);
     if (!engine_.may_meet(a, b) || !settled(a, b)) return;
+    if (engine_.space_.repeats()) check_image(a, b);
     engine_.for_each_threshold(a, b, [&](const Threshold& threshold) { check_threshold(a, b, threshold); });
+  }
+
+  /// Bodies whose boxes overlap must be seen in the image in which these do, also at a glance.
+  void check_image(std::uint32_t a, std::uint32_t b) {
+    const Vec3 shift = engine_.shift_to_meet(a, b);
+    const Box& own = engine_.boxes_[a];
+    const Box& other = engine_.boxes_[b];
+    const auto overlap = [&](int axis) {
+      return own.lower[axis] <= other.upper[axis] + shift[axis] &&
+             other.lower[axis] + shift[axis] <= own.upper[axis];
+    };
+    if (!(overlap(0) && overlap(1) && overlap(2))) return;
+    if (shift_at_a_glance(engine_.homes_[b], engine_.homes_[a], engine_.space_.period()) != shift)
+      find("certificate", pair(a, b) + " are seen in another image at a glance");
   }
 
   void check_crossings(std::uint32_t a, std::uint32_t b) {

@@ -150,9 +150,12 @@ Sketch World::Engine::sketch_of(const Body& body) const {
 void World::Engine::sketch_box(std::uint32_t number) {
   sketches_[number] = sketch_of(bodies_[number]);
   if (!space_.repeats()) return;
-  const Vec3 home = centre_of(boxes_[number]);
-  homes_[number] = {
-      {static_cast<float>(home.x), static_cast<float>(home.y), static_cast<float>(home.z), 0.0f}};
+  homes_[number] = home_of(number);
+}
+
+/// Where the body's box is, to single precision.
+Home World::Engine::home_of(std::uint32_t number) const {
+  return Home(space_.from_corner(centre_of(boxes_[number])));
 }
 
 /// Contains the body until its box_end. One that was kicked lately may be kicked again, and go anywhere: it

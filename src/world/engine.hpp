@@ -254,6 +254,7 @@ class World::Engine {
   double longest_in_period(const Body& body, double length) const;
 
   Sketch sketch_of(const Body& body) const;
+  Home home_of(std::uint32_t number) const;
   void sketch_box(std::uint32_t number);
 
   // settling.cpp: facts.

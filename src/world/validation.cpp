@@ -7,20 +7,15 @@
 
 #include "bound/triangle.hpp"
 #include "contact/contact_rule.hpp"
+#include "kinesphere/limits.hpp"
 
 namespace kinesphere {
 namespace {
-
-/// Beyond this, squares would overflow.
-constexpr double magnitude_limit = 1e100;
 
 /// Nearly all input is fine, and words cost time: what fits needs no check that could speak.
 bool fits(const Vec3& v, double limit) {
   return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
 }
-
-/// With this, coordinates still fit into the single precision of the grid.
-constexpr double tolerance_limit = 1e20;
 
 void require_size(InputCheck& check, const Subject& subject, double value, double limit) {
   check.not_negative(subject, value)
@@ -49,17 +44,17 @@ void require_room(InputCheck& check, std::string_view argument, const BodyDefini
 
 void require_promise(InputCheck& check, const MotionLimits& promise, BodyId body,
                      const WorldDefinition& world) {
-  require_size(check, {"acceleration_limit", body}, promise.acceleration_limit, magnitude_limit);
+  require_size(check, {"acceleration_limit", body}, promise.acceleration_limit, limits::largest_acceleration);
   require_size(check, {"position_error", body}, promise.position_error, coordinate_limit(world));
-  require_size(check, {"velocity_error", body}, promise.velocity_error, magnitude_limit);
-  check.within({"planned_acceleration", body}, promise.planned_acceleration, magnitude_limit);
+  require_size(check, {"velocity_error", body}, promise.velocity_error, limits::largest_speed);
+  check.within({"planned_acceleration", body}, promise.planned_acceleration, limits::largest_acceleration);
   require_plane(check, {"planned_acceleration", body}, promise.planned_acceleration, world);
 }
 
 void require_state(InputCheck& check, const State& state, const BodyDefinition& definition, BodyId body,
                    const WorldDefinition& world) {
   check.within({"position", body}, state.position, coordinate_limit(world))
-      .within({"velocity", body}, state.velocity, magnitude_limit);
+      .within({"velocity", body}, state.velocity, limits::largest_speed);
   require_plane(check, {"position", body}, state.position, world);
   require_plane(check, {"velocity", body}, state.velocity, world);
   if (!world.box) return;
@@ -116,7 +111,7 @@ void require_shape(InputCheck& check, const Triangle& triangle, const WorldDefin
 
 InputCheck& require_length(InputCheck& check, std::string_view argument, double length,
                            const WorldDefinition& world) {
-  const double limit = 4.0 * coordinate_limit(world);
+  const double limit = limits::largest_query_length * world.contact_tolerance;
   return check.not_negative({argument}, length)
       .require(length <= limit, ErrorCode::out_of_range, {argument}, "must be at most", limit, length);
 }
@@ -127,20 +122,31 @@ void require_plane(InputCheck& check, const Subject& subject, const Vec3& value,
                 "must have z = 0 in two dimensions", value);
 }
 
-double coordinate_limit(const WorldDefinition& world) { return 0x1p41 * world.contact_tolerance; }
+double coordinate_limit(const WorldDefinition& world) {
+  return limits::largest_length * world.contact_tolerance;
+}
 
 Result<void> check_world(const WorldDefinition& definition) {
   InputCheck check("World::create");
   check.positive({"contact_tolerance"}, definition.contact_tolerance)
-      .require(definition.contact_tolerance <= tolerance_limit, ErrorCode::out_of_range,
-               {"contact_tolerance"}, "must be at most", tolerance_limit, definition.contact_tolerance)
+      .require(definition.contact_tolerance >= limits::least_contact_tolerance, ErrorCode::out_of_range,
+               {"contact_tolerance"}, "must be at least", limits::least_contact_tolerance,
+               definition.contact_tolerance)
+      .require(definition.contact_tolerance <= limits::largest_contact_tolerance, ErrorCode::out_of_range,
+               {"contact_tolerance"}, "must be at most", limits::largest_contact_tolerance,
+               definition.contact_tolerance)
       .not_negative({"zeno_interval"}, definition.zeno_interval)
-      .finite({"start_time"}, definition.start_time);
+      .finite({"start_time"}, definition.start_time)
+      .require(std::abs(definition.start_time) <= limits::largest_time, ErrorCode::out_of_range,
+               {"start_time"}, "must lie within +-", limits::largest_time, definition.start_time);
   if (!std::isnan(definition.separation_distance)) {
     check.finite({"separation_distance"}, definition.separation_distance)
         .require(definition.separation_distance > definition.contact_tolerance, ErrorCode::out_of_range,
                  {"separation_distance"}, "must be larger than contact_tolerance",
-                 definition.contact_tolerance, definition.separation_distance);
+                 definition.contact_tolerance, definition.separation_distance)
+        .require(definition.separation_distance <= coordinate_limit(definition), ErrorCode::out_of_range,
+                 {"separation_distance"}, "must be at most", coordinate_limit(definition),
+                 definition.separation_distance);
   }
   const int dimensions = definition.dimensions;
   check.require(dimensions == 2 || dimensions == 3, ErrorCode::out_of_range, {"dimensions"}, "must be 2 or 3",
@@ -227,9 +233,9 @@ Result<void> check_reach(double reach, const BodyDefinition& body, BodyId id, st
 
 Result<void> check_velocity(const Vec3& velocity, BodyId body, const WorldDefinition& world,
                             std::string_view call) {
-  if (fits(velocity, magnitude_limit) && (world.dimensions == 3 || velocity.z == 0.0)) return {};
+  if (fits(velocity, limits::largest_speed) && (world.dimensions == 3 || velocity.z == 0.0)) return {};
   InputCheck check(call);
-  check.within({"velocity", body}, velocity, magnitude_limit);
+  check.within({"velocity", body}, velocity, limits::largest_speed);
   require_plane(check, {"velocity", body}, velocity, world);
   return check.result();
 }
@@ -237,21 +243,24 @@ Result<void> check_velocity(const Vec3& velocity, BodyId body, const WorldDefini
 Result<void> check_report(const State& state, BodyId body, double time, const WorldDefinition& world,
                           std::string_view call) {
   const bool in_plane = world.dimensions == 3 || (state.position.z == 0.0 && state.velocity.z == 0.0);
-  if (fits(state.position, coordinate_limit(world)) && fits(state.velocity, magnitude_limit) && in_plane)
+  if (fits(state.position, coordinate_limit(world)) && fits(state.velocity, limits::largest_speed) &&
+      in_plane)
     return {};
   const std::string answer = std::string(call) + ": the probe's answer at time " + text_of(time);
   InputCheck check(answer);
   check.within({"position", body}, state.position, coordinate_limit(world))
-      .within({"velocity", body}, state.velocity, magnitude_limit);
+      .within({"velocity", body}, state.velocity, limits::largest_speed);
   require_plane(check, {"position", body}, state.position, world);
   require_plane(check, {"velocity", body}, state.velocity, world);
   return check.result();
 }
 
 Result<void> check_time(double until, double now) {
-  if (std::isfinite(until) && until >= now) return {};
+  if (until >= now && until <= limits::largest_time) return {};
   return InputCheck("advance")
       .finite({"until"}, until)
+      .require(until <= limits::largest_time, ErrorCode::out_of_range, {"until"}, "must be at most",
+               limits::largest_time, until)
       .require(until >= now, ErrorCode::time_backwards, {"until"}, "must not lie before the current time",
                now, until)
       .result();

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "input/input_check.hpp"
+#include "kinesphere/limits.hpp"
 #include "world/check.hpp"
 #include "world/queries.hpp"
 #include "world/refresher.hpp"
@@ -41,7 +42,7 @@ Result<void> check_way(const Vec3& origin, double radius, const Vec3& direction,
   InputCheck check(call);
   check.within({"origin"}, origin, coordinate_limit(world));
   require_length(check, "radius", radius, world)
-      .within({"direction"}, direction, 1e100)
+      .within({"direction"}, direction, limits::largest_direction)
       .require(direction != Vec3{}, ErrorCode::out_of_range, {"direction"}, "must not be zero", direction);
   require_plane(check, {"origin"}, origin, world);
   require_plane(check, {"direction"}, direction, world);

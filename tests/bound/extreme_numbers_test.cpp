@@ -158,5 +158,99 @@ TEST(ExtremeNumbers, squares_that_underflow_make_nothing_late) {
   }
 }
 
+/// A power of two that is in range, out of range or no number at all.
+double any_scale(Random& random, int least, int most) {
+  const int count = most - least + 1;
+  return std::ldexp(1.0, least + static_cast<int>(random.bits() % static_cast<std::uint64_t>(count)));
+}
+
+bool is_finite(PairCase& c) {
+  bool finite = std::isfinite(c.from) && std::isfinite(c.horizon) && std::isfinite(c.distance);
+  for (Bound* bound : {&c.a, &c.b})
+    for (const double* number : numbers_of(*bound)) finite = finite && std::isfinite(*number);
+  return finite;
+}
+
+/// Lengths, times, or single kinds of numbers as small and as large as doubles are, and the others with them
+/// or not. All are finite, as the exact twin needs them.
+PairCase of_any_size(Random& random) {
+  PairCase c = families::everyday(random);
+  const double length = any_scale(random, -1060, 600);
+  const double time = any_scale(random, -300, 300);
+  const double speed = chance(random, 0.7) ? length / time : any_scale(random, -1060, 600);
+  const double acceleration = chance(random, 0.7) ? speed / time : any_scale(random, -1060, 600);
+  for (Bound* bound : {&c.a, &c.b}) {
+    bound->time *= time;
+    bound->position *= length;
+    bound->radius *= length;
+    bound->velocity *= speed;
+    bound->growth_speed *= speed;
+    bound->planned_acceleration *= acceleration;
+    bound->growth_acceleration *= acceleration;
+  }
+  c.from *= time;
+  c.horizon *= time;
+  c.distance = length * 20.0 * random.uniform();
+  return is_finite(c) ? c : of_any_size(random);
+}
+
+TEST(ExtremeNumbers, numbers_of_any_size_make_nothing_late) {
+  for (const Certificate& certificate : certificates)
+    for (std::uint64_t k = 0; k < 6000; ++k) {
+      Random random = Random::at(seed, k, 3);
+      const PairCase c = of_any_size(random);
+      ASSERT_TRUE(never_late(certificate.answer(c), certificate.truth(c), c.from, c.horizon))
+          << certificate.name << ", seed " << seed << ", case " << k << "\n"
+          << c;
+    }
+}
+
+testing::AssertionResult encloses(const GapLimits& limits, const exact::Gaps& truth) {
+  if (exact::Wide(limits.lower) <= truth.lower && truth.upper <= exact::Wide(limits.upper))
+    return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "from " << limits.lower << " to " << limits.upper << ", not "
+                                     << static_cast<double>(truth.lower) << " to "
+                                     << static_cast<double>(truth.upper);
+}
+
+TEST(ExtremeNumbers, gaps_of_any_size_are_enclosed) {
+  for (std::uint64_t k = 0; k < 20000; ++k) {
+    Random random = Random::at(seed, k, 4);
+    const PairCase c = of_any_size(random);
+    ASSERT_TRUE(encloses(gap_limits(c.a, c.b, c.horizon), exact::gap_limits(c.a, c.b, c.horizon)))
+        << "seed " << seed << ", case " << k << "\n"
+        << c;
+    ASSERT_TRUE(encloses(gap_limits(c.a, wall, c.horizon), exact::gap_limits(c.a, wall, c.horizon)))
+        << "wall, seed " << seed << ", case " << k << "\n"
+        << c;
+  }
+}
+
+TEST(ExtremeNumbers, boxes_of_any_size_hold_what_they_should) {
+  for (std::uint64_t k = 0; k < 20000; ++k) {
+    Random random = Random::at(seed, k, 5);
+    const PairCase c = of_any_size(random);
+    const Box swept = swept_box(c.a, c.from, c.horizon);
+    for (int axis = 0; axis < 3; ++axis) {
+      ASSERT_TRUE(exact::Wide(swept.upper[axis]) >= exact::farthest(c.a, axis, 1, c.from, c.horizon))
+          << "seed " << seed << ", case " << k << "\n"
+          << c;
+      ASSERT_TRUE(exact::Wide(swept.lower[axis]) <= exact::farthest(c.a, axis, -1, c.from, c.horizon))
+          << "seed " << seed << ", case " << k << "\n"
+          << c;
+    }
+  }
+}
+
+TEST(ExtremeNumbers, gaps_that_overflow_are_not_known) {
+  const Bound far{.position = {1e155, 0, 0}, .radius = 1};
+  const GapLimits gap = gap_limits({.position = {-1e155, 0, 0}, .radius = 1}, far, 0.0);
+  EXPECT_EQ(gap.lower, -infinity);
+  EXPECT_EQ(gap.upper, infinity);
+  // Two that overlap, by a radius whose square overflows.
+  const Bound huge{.position = {1e160, 0, 0}, .radius = 2e160};
+  EXPECT_EQ(earliest_meeting({}, huge, 3.0, 4.0), 3.0);
+}
+
 }  // namespace
 }  // namespace kinesphere

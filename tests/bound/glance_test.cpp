@@ -190,6 +190,19 @@ PairCase enormous(Random& random) {
   return c;
 }
 
+/// So fast that squares of their speeds are more than single precision holds, or the speeds themselves.
+PairCase swift(Random& random) {
+  PairCase c = families::ballistic(random);
+  const int exponent = 50 + static_cast<int>(random.bits() % 90);
+  const double faster = std::ldexp(1.0, exponent);
+  for (Bound* bound : {&c.a, &c.b}) {
+    bound->time = c.from;
+    bound->velocity *= faster;
+  }
+  c.horizon = c.from + (c.horizon - c.from) / faster;
+  return c;
+}
+
 /// The like of bodies that have gone far together since their reports.
 PairCase far_gone(Random& random) {
   PairCase c = marginal(random);
@@ -219,6 +232,7 @@ std::vector<Family> families_here() {
   families.push_back({"far_gone", far_gone});
   families.push_back({"small_and_far", small_and_far});
   families.push_back({"enormous", enormous});
+  families.push_back({"swift", swift});
   return families;
 }
 

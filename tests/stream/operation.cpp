@@ -2,6 +2,7 @@
 #include "stream/operation.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace kinesphere::stream {
 namespace {
@@ -10,6 +11,17 @@ constexpr std::size_t header_size = 5;
 
 std::uint8_t header(std::span<const std::uint8_t> bytes, std::size_t k) {
   return k < bytes.size() ? bytes[k] : std::uint8_t{0};
+}
+
+/// Where space repeats, a whole number of periods away, so that what is asked of bodies near the origin is
+/// asked of images of theirs.
+void move_far(WorldDefinition& world) {
+  const double away = world_size * std::floor(far_away * world.contact_tolerance / world_size);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!world.periodic[axis]) continue;
+    world.box->lower[axis] -= away;
+    world.box->upper[axis] -= away;
+  }
 }
 
 }  // namespace
@@ -111,6 +123,7 @@ WorldKind kind_of(std::span<const std::uint8_t> bytes) {
   if (features / 4 % 4 == 1) world.dimensions = 2;
   if (world.box && features / 16 % 2 == 1)
     world.periodic = {true, features / 32 % 2 == 1, features / 64 % 2 == 1 && world.dimensions == 3};
+  if (features / 128 == 1 && choices / 128 == 1) move_far(world);
   return kind;
 }
 

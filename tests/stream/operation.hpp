@@ -23,6 +23,9 @@ using Bytes = std::vector<std::uint8_t>;
 /// The world is a cube of this size, or, without walls, the bodies keep near it.
 inline constexpr double world_size = 4.0;
 
+/// How far from its origin space repeats in some worlds, in contact tolerances: a sixteenth of what may be.
+inline constexpr double far_away = 0x1p37;
+
 /// All distances that sensors in a stream may have. Where space repeats there is no room for the last.
 inline constexpr std::array sensor_distances{0.0, 0.02, 0.1, 0.3, 1.0};
 inline constexpr SensorClass sensor_classes = 3;

@@ -28,7 +28,11 @@ bool is_end(const Event& event) {
 
 ToldContacts::ToldContacts(const WorldDefinition& definition, Truth& truth)
     // Far below the tolerance, above rounding.
-    : rule_(definition), truth_(truth), slack_(1e-3 * rule_.tolerance() + 1e-12), space_(definition) {}
+    : rule_(definition),
+      truth_(truth),
+      rounding_(1e-12 + (definition.box ? 0x1p-50 * norm_one(definition.box->lower) : 0.0)),
+      slack_(1e-3 * rule_.tolerance() + rounding_),
+      space_(definition) {}
 
 ToldContacts::Told& ToldContacts::told(const Contact& contact) {
   return const_cast<Told&>(std::as_const(*this).told(contact));
@@ -225,7 +229,7 @@ bool ToldContacts::same_state(const State& told, BodyId id) const {
   const State truth = truth_.state(id);
   if (!space_.repeats()) return told == truth;
   const Vec3 shift = truth_.shift_to_nearest(told.position, truth.position);
-  return told.velocity == truth.velocity && norm(told.position + shift - truth.position) <= 1e-12;
+  return told.velocity == truth.velocity && norm(told.position + shift - truth.position) <= rounding_;
 }
 
 bool ToldContacts::same(const Event& a, const Event& b) const {
@@ -238,9 +242,9 @@ bool ToldContacts::same(const Event& a, const Event& b) const {
            a.second_state == b.second_state;
   const Vec3 way = a.second_state.position - a.first_state.position;
   const Vec3 other = b.second_state.position - b.first_state.position;
-  return std::abs(a.gap - b.gap) <= 1e-12 && a.first_state.velocity == b.first_state.velocity &&
+  return std::abs(a.gap - b.gap) <= rounding_ && a.first_state.velocity == b.first_state.velocity &&
          a.second_state.velocity == b.second_state.velocity &&
-         (a.wall != Wall::none || norm(way - other) <= 1e-12);
+         (a.wall != Wall::none || norm(way - other) <= rounding_);
 }
 
 void ToldContacts::begin(const Event& event, const Contact& contact) {

@@ -86,6 +86,7 @@ class ToldContacts {
 
   ContactRule rule_;
   Truth& truth_;
+  double rounding_;  ///< of a position or a gap
   double slack_;
   Space space_;
   PairTable<Told> pairs_;

@@ -1,0 +1,128 @@
+// Space that repeats far from its origin, where single precision cannot tell half a period: bodies whose
+// boxes are nearly as wide as they may be, and overlap by a sliver.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <ostream>
+
+#include "support/playground.hpp"
+
+namespace kinesphere {
+namespace {
+
+constexpr double eps = 1e-6;
+constexpr double half_width = 0.1;  ///< of both bodies
+
+struct Place {
+  double lower;
+  double period;
+
+  double upper() const { return lower + period; }
+  double wrapped(double x) const { return x - std::floor((x - lower) / period) * period; }
+  /// The image of a way in which it is shortest, when its ends are rounded to single precision first.
+  int image_in_single_precision(double from, double to) const {
+    const float way = static_cast<float>(wrapped(to)) - static_cast<float>(wrapped(from));
+    return image(static_cast<double>(way));
+  }
+  int image_of(double from, double to) const { return image(wrapped(to) - wrapped(from)); }
+
+ private:
+  int image(double way) const { return way > 0.5 * period ? -1 : way < -0.5 * period ? 1 : 0; }
+};
+
+std::ostream& operator<<(std::ostream& out, const Place& place) {
+  return out << "period " << place.period << " from " << place.lower << " on";
+}
+
+class FarPeriod : public testing::TestWithParam<Place> {};
+
+/// One body goes along x at speed 1; the other waits, far from it on y, until it is thrown towards the first
+/// from where its new box will reach into that of the first by `depth`.
+class Meeting : public Playground {
+ public:
+  Meeting(const Place& its_place, double start)
+      : Playground({.box = Box{{its_place.lower, -1000, -1000}, {its_place.upper(), 1000, 1000}},
+                    .periodic = {true, false, false},
+                    .contact_tolerance = eps}),
+        place(its_place),
+        goer(add({.radius = half_width, .position = {place.lower + start, 0, 0}, .velocity = {1, 0, 0}})),
+        waiter(add({.radius = half_width, .position = {place.lower + 7, 900, 0}, .velocity = {-1, 0, 0}})) {
+    distort = [this](BodyId, double, State& told) { told.position.x = place.wrapped(told.position.x); };
+  }
+
+  /// Runs until the box of the goer is nearly half a period wide, and lasts for a few more of its diameters.
+  bool gets_ready() {
+    run(400);
+    for (int step = 1; step <= 4000; ++step) {
+      run(400 + 0.05 * step);
+      const BodyView view = world.body(goer).value();
+      box = view.box;
+      left = view.box_end - world.time();
+      if (box.upper.x - box.lower.x > 0.49 * place.period && left > 3.5 && left < 4.0) return true;
+    }
+    return false;
+  }
+
+  /// Where the waiter goes for the boxes to overlap by `depth`, if single precision would then name another
+  /// image than the boxes do.
+  std::optional<double> thrown_from(double depth) const {
+    const double widest = (0.5 - 0x1p-10) * place.period - 5.0 * eps;
+    const double way = widest - 2.0 * (half_width + eps / 16.0);
+    const double from = box.upper.x - depth + way + half_width;
+    const double centre_of_goer = 0.5 * (box.lower.x + box.upper.x);
+    const double centre = 0.5 * (from - way - half_width + from + half_width);
+    if (place.image_of(centre_of_goer, centre) == place.image_in_single_precision(centre_of_goer, centre))
+      return std::nullopt;
+    return from;
+  }
+
+  /// Throws it, and runs until both boxes have ended.
+  void throw_from(double from) {
+    const double widest = (0.5 - 0x1p-10) * place.period - 5.0 * eps;
+    const double speed = (widest - 2.0 * half_width) / left;
+    const State state{{from, 0, 0}, {-speed, 0, 0}};
+    world.teleport(waiter, {{place.wrapped(from), 0, 0}, state.velocity}).value();
+    set_position(waiter, state.position);
+    set_velocity_unseen(waiter, state.velocity);
+    double ahead =
+        place.wrapped(from) - place.wrapped(world.body(goer).value().bound.centre_at(world.time()).x);
+    if (ahead < 0.0) ahead += place.period;
+    const double contact = world.time() + (ahead - 2.0 * half_width) / (1.0 + speed);
+    const auto begins = of_kind(run(world.time() + left + 1.0), EventKind::contact_begin);
+    ASSERT_FALSE(begins.empty()) << "never told";
+    EXPECT_LE(begins[0].time, contact + eps);
+    EXPECT_GE(begins[0].gap, -eps);
+    EXPECT_LE(begins[0].gap, eps);
+  }
+
+  Place place;
+  BodyId goer, waiter;
+  Box box{};
+  double left = 0.0;
+};
+
+TEST_P(FarPeriod, NoContactIsLateWhereSinglePrecisionNamesAnotherImage) {
+  int thrown = 0;
+  for (int n = 0; n < 100 && thrown < 25; ++n) {
+    Meeting meeting(GetParam(), 0.013 * n);
+    if (!meeting.gets_ready()) continue;
+    for (double depth = 0.2; depth > 0.0005; depth -= 0.0005) {
+      const auto from = meeting.thrown_from(depth);
+      if (!from) continue;
+      ++thrown;
+      SCOPED_TRACE(testing::Message() << GetParam() << ", start " << n << ", depth " << depth);
+      meeting.throw_from(*from);
+      EXPECT_TRUE(is_clean(meeting.world));
+      break;
+    }
+  }
+  EXPECT_GT(thrown, 5) << "a test that tests nothing";
+}
+
+INSTANTIATE_TEST_SUITE_P(Places, FarPeriod,
+                         testing::Values(Place{2000000.0, 40.24}, Place{262200.0, 20.06},
+                                         Place{-2000000.0, 40.24}, Place{1000000.5, 30.3}));
+
+}  // namespace
+}  // namespace kinesphere
