@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,9 +29,17 @@ struct ContactComparison {
   bool agrees() const { return late == 0 && missed == 0 && invented == 0 && oracle_faults == 0; }
 };
 
-/// Compares the events of a run of `scene` with the truth. Only for scenes in which nobody bounces: with
-/// bounces two correct programs drift apart. Errors: unsupported otherwise, and whatever the oracle refuses.
-Result<ContactComparison> compare_with_oracle(const Scene& scene, const std::vector<Event>& events);
+/// Told now and then which part of a comparison is done, from 0 to 1.
+using ComparisonProgress = std::function<void(double part)>;
+
+/// Compares the events of a run of `scene` with the truth: the exact course of the gap of all bodies that
+/// come near each other, along their trajectories, without any bound or engine. Only for scenes in which
+/// nobody bounces: with bounces two correct programs drift apart. Errors: unsupported otherwise, and where
+/// space repeats; not_finite, time_backwards and out_of_range as simulate() and World::add(). Cost: as the
+/// pieces of all trajectories, and the bodies that come near each other. Memory: 112 bytes for each piece,
+/// and some for each pair that comes near.
+Result<ContactComparison> compare_with_oracle(const Scene& scene, const std::vector<Event>& events,
+                                              const ComparisonProgress& on_progress = {});
 
 /// Runs the scene under the detector and compares.
 Result<ContactComparison> verify(const Scene& scene, const DetectorMaker& make);

@@ -80,6 +80,14 @@ std::string first_approaches(const std::vector<Approach>& approaches, const Reco
   return text;
 }
 
+/// A progress bar over the span of the scene for what is done in parts.
+ComparisonProgress shown(const TracksOptions& options, const Scene& scene) {
+  const auto progress = std::make_shared<Progress>(scene.world.start_time, scene.end_time);
+  if (options.quiet || !progress->visible()) return {};
+  const double span = scene.end_time - scene.world.start_time;
+  return [=, start = scene.world.start_time](double part) { progress->show(start + part * span); };
+}
+
 }  // namespace
 
 CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
@@ -141,7 +149,7 @@ int tracks(const TracksOptions& options) {
                                   static_cast<double>(recording.samples))));
   int exit_code = exit_fine;
   if (options.verify) {
-    const ContactComparison comparison = require(compare_with_oracle(scene, events));
+    const ContactComparison comparison = require(compare_with_oracle(scene, events, shown(options, scene)));
     summary.space();
     add_comparison(summary, comparison);
     if (!comparison.agrees()) exit_code = exit_disagreement;

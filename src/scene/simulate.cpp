@@ -9,6 +9,7 @@
 #include "kinesphere/response.hpp"
 #include "kinesphere/scene.hpp"
 #include "number/infinity.hpp"
+#include "scene/scene_check.hpp"
 
 namespace kinesphere {
 namespace {
@@ -148,42 +149,18 @@ class Simulation {
   SimulationResult result_;
 };
 
-/// What neither the detector nor the motion will look at, or only too late.
-Result<void> check(const Scene& scene, const SimulationObserver& observer) {
-  InputCheck check("simulate");
-  const double start = scene.world.start_time;
-  check.finite({"end_time"}, scene.end_time)
-      .require(!(scene.end_time < start), ErrorCode::time_backwards, {"end_time"},
-               "must not lie before start_time,", start, scene.end_time)
-      .require(observer.frame_interval > 0.0, ErrorCode::out_of_range, {"frame_interval"},
-               "must be larger than 0", observer.frame_interval)
-      .require(scene.bodies.size() <= scene.motion->size(), ErrorCode::out_of_range, {"bodies"},
-               "must be no more than the motion has,", std::size_t{scene.motion->size()},
-               scene.bodies.size());
-  for (std::uint32_t number = 0; number < scene.bodies.size(); ++number) {
-    const BodyId id{number, 0};
-    check
-        .require(!std::isnan(scene.bodies[number].appears), ErrorCode::not_finite, {"appears", id},
-                 "must be a time", scene.bodies[number].appears)
-        .require(!std::isnan(scene.bodies[number].vanishes), ErrorCode::not_finite, {"vanishes", id},
-                 "must be a time", scene.bodies[number].vanishes);
-  }
-  for (std::size_t k = 0; k < scene.turns.size(); ++k) {
-    const SceneTurn& turn = scene.turns[k];
-    const Subject subject{"turns", {turn.body, 0}, "turn", k};
-    check.finite(subject, turn.time)
-        .finite(subject, turn.velocity)
-        .require(turn.body < scene.bodies.size(), ErrorCode::out_of_range, subject, "must be of one of",
-                 scene.bodies.size(), std::size_t{turn.body});
-  }
-  return check.result();
-}
-
 }  // namespace
 
 Result<SimulationResult> simulate(const Scene& scene, const DetectorMaker& make,
                                   const SimulationObserver& observer) {
-  if (auto valid = check(scene, observer); !valid) return valid.error();
+  if (auto valid = check_times(scene, "simulate"); !valid) return valid.error();
+  if (auto valid = InputCheck("simulate")
+                       .require(observer.frame_interval > 0.0, ErrorCode::out_of_range, {"frame_interval"},
+                                "must be larger than 0", observer.frame_interval)
+                       .result();
+      !valid) {
+    return valid.error();
+  }
   const std::unique_ptr<Motion> motion = scene.motion->clone();
   auto detector = make(scene.world, *motion);
   if (!detector) return detector.error();

@@ -225,10 +225,8 @@ Bound World::Engine::seen_from(std::uint32_t a, std::uint32_t b) const {
   return bound;
 }
 
-/// Those whose boxes overlap the body's new one, and those that it touches or senses.
-void World::Engine::find_neighbours(std::uint32_t number) {
-  ++counters_.searches;
-  Body& body = bodies_[number];
+/// Gathers those whom the body touches or senses, and those whose boxes overlap its own.
+World::Engine::Crowd World::Engine::gather_candidates(std::uint32_t number) {
   const Box box = this->box(number);
   const double extent = width_of(box);
   std::size_t larger = 0;
@@ -245,12 +243,81 @@ void World::Engine::find_neighbours(std::uint32_t number) {
     partners_.push_back(other);
     if (Horizon::is_larger(extent_of_other, extent)) ++larger;
   });
-  const std::size_t candidates = partners_.size() - known;
-  counters_.candidates += candidates;
+  return {.candidates = partners_.size() - known, .larger = larger, .extent = extent};
+}
+
+/// Where a box meets a crowd, makes the way of the next one so short that few would overlap it if their boxes
+/// were no larger. Returns whether that is shorter than it was.
+bool World::Engine::shorten_way(std::uint32_t number, std::span<const std::uint32_t> crowd) {
+  Body& body = bodies_[number];
+  const double width = 2.0 * reach(body).radius;
+  if (body.is_fixed() || !body.horizon.is_crowded(crowd.size(), width)) return false;
+  const Vec3 centre = centre_of(box(number));
+  const auto near = [&] {
+    return static_cast<std::size_t>(std::count_if(crowd.begin(), crowd.end(), [&](std::uint32_t other) {
+      const Vec3 way = centre_of(box(other)) - centre;
+      return std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)}) <= width + body.horizon.way();
+    }));
+  };
+  const double before = body.horizon.way();
+  while (body.horizon.is_crowded(near(), width)) body.horizon.halve(definition_.contact_tolerance);
+  return body.horizon.way() < before;
+}
+
+/// Of bodies that others have found in a crowd: a slow body alone has a large box for a long time, into which
+/// a whole crowd may come. Such a box ends now.
+void World::Engine::shrink_boxes(const std::vector<std::uint32_t>& crowded) {
+  for (const std::uint32_t number : crowded) {
+    if (!bodies_[number].present() || marks_[number].dirty) continue;
+    partners_.clear();
+    for (const Neighbour& one : neighbours_.of(number)) partners_.push_back(one.partner);
+    if (!shorten_way(number, partners_)) continue;
+    bodies_[number].box_end = time_;
+    mark_dirty(number);
+  }
+}
+
+/// The first boxes of new bodies are of about one size, which follows from the distance between all of them.
+/// Where bodies lie in clusters that is too large, and boxes are made smaller before neighbours are linked.
+/// Every so many bodies are looked at first, as most crowds have no clusters.
+void World::Engine::shrink_first_boxes(const std::vector<std::uint32_t>& searching) {
+  constexpr std::size_t few = 64;
+  if (searching.size() < few) return;
+  const auto is_too_large = [this](std::uint32_t number) {
+    gather_candidates(number);
+    return shorten_way(number, partners_);
+  };
+  const auto step = static_cast<std::size_t>(std::sqrt(static_cast<double>(searching.size())));
+  bool any = false;
+  for (std::size_t k = 0; k < searching.size() && !any; k += step) any = is_too_large(searching[k]);
+  if (!any) return;
+  for (const std::uint32_t number : searching) {
+    if (bodies_[number].is_fixed()) continue;
+    is_too_large(number);
+    register_box(number, box_length(bodies_[number]));
+    sketch_box(number);
+  }
+}
+
+/// Those whose boxes overlap the body's new one, and those that it touches or senses. The box is made smaller
+/// if it is far too large.
+void World::Engine::find_neighbours(std::uint32_t number) {
+  for (;;) {
+    ++counters_.searches;
+    const Crowd crowd = gather_candidates(number);
+    counters_.candidates += crowd.candidates;
+    Body& body = bodies_[number];
+    if (shorten_way(number, partners_)) {
+      register_box(number, box_length(body));
+      sketch_box(number);
+      continue;
+    }
+    if (!body.is_fixed())
+      body.horizon.learn(crowd.candidates, crowd.larger, crowd.extent, 2.0 * reach(body).radius,
+                         definition_.contact_tolerance, definition_.dimensions);
+    break;
+  }
   neighbours_.replace(number, partners_);
-  if (!body.is_fixed())
-    body.horizon.learn(candidates, larger, extent, 2.0 * reach(body).radius, definition_.contact_tolerance,
-                       definition_.dimensions);
 }
 
 }  // namespace kinesphere

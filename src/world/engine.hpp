@@ -245,6 +245,16 @@ class World::Engine {
   bool renew_box(std::uint32_t number);
   bool keep_box(std::uint32_t number, double length);
   void register_box(std::uint32_t number, double length);
+  /// Those whose boxes overlap that of a body.
+  struct Crowd {
+    std::size_t candidates;
+    std::size_t larger;  ///< those of them with much larger boxes
+    double extent;       ///< of the body's own box
+  };
+  Crowd gather_candidates(std::uint32_t number);
+  bool shorten_way(std::uint32_t number, std::span<const std::uint32_t> crowd);
+  void shrink_boxes(const std::vector<std::uint32_t>& crowded);
+  void shrink_first_boxes(const std::vector<std::uint32_t>& searching);
   void find_neighbours(std::uint32_t number);
   void set_box(std::uint32_t number, const Box& box);
   Box bring_home(std::uint32_t number, const Box& box);

@@ -21,6 +21,17 @@ class Horizon {
 
   bool is_chosen() const { return way_ > 0.0; }
 
+  /// The way may be far too long among so many. What is learnt takes bodies to be spread evenly in a box, and
+  /// weighs the cost of a search, which is made once; neighbours cost as long as they are near, which may be
+  /// for ever among slow bodies that lie in clusters. The body's own width leaves no choice.
+  bool is_crowded(std::size_t candidates, double body_width) const {
+    constexpr std::size_t many = 64;
+    return candidates > many && way_ > body_width;
+  }
+  /// How far the body may go in its next box (length).
+  double way() const { return way_; }
+  void halve(double contact_tolerance) { way_ = possible(0.5 * way_, contact_tolerance); }
+
   /// Whether a box counts as `larger` beside one of the other extent.
   static bool is_larger(double extent, double than_extent) { return extent > 4.0 * than_extent; }
 

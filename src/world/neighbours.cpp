@@ -1,7 +1,9 @@
 #include "world/neighbours.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <utility>
 
 namespace kinesphere {
 namespace {
@@ -10,6 +12,34 @@ namespace {
 constexpr std::uint32_t most_spare = 2;
 /// In so small a table room is cheaper than packing.
 constexpr std::size_t few = std::size_t{1} << 14;
+/// Lists of this capacity or more have one of four capacities between one power of two and the next, so that
+/// a list that grows finds the place of another one.
+constexpr std::uint32_t long_list = 64;
+
+constexpr std::uint32_t crowd_step = 32;
+
+std::uint32_t quarter_of_octave(std::uint32_t capacity) { return std::bit_floor(capacity) / 4; }
+
+/// The least capacity that a list may have and that is not smaller.
+std::uint32_t possible_capacity(std::uint32_t capacity) {
+  if (capacity < long_list) return capacity;
+  const std::uint32_t quarter = quarter_of_octave(capacity);
+  return (capacity + quarter - 1) / quarter * quarter;
+}
+
+/// For a list that has no room left. Short lists are many: to double them would leave a third of the memory
+/// empty. Long ones would be moved too often if they did not grow in proportion.
+std::uint32_t grown_capacity(std::uint32_t size) {
+  const std::uint32_t room = size < long_list ? std::max<std::uint32_t>(2, size / 8) : size / 2;
+  return possible_capacity(size + room);
+}
+
+/// The same for equal capacities only, and less than 64 + 4 * 26.
+std::size_t hole_kind(std::uint32_t capacity) {
+  if (capacity < long_list) return capacity;
+  const auto octave = static_cast<std::uint32_t>(std::countr_zero(std::bit_floor(capacity) / long_list));
+  return long_list + 4 * octave + (capacity - std::bit_floor(capacity)) / quarter_of_octave(capacity);
+}
 
 }  // namespace
 
@@ -43,19 +73,17 @@ void Neighbours::replace(std::uint32_t body, std::span<const std::uint32_t> foun
   }
 }
 
-/// Lists are many and short: to double them would leave a third of the memory empty.
 void Neighbours::add(std::uint32_t body, const Neighbour& neighbour) {
-  if (lists_[body].size == lists_[body].capacity)
-    move(body, lists_[body].size + std::max<std::uint32_t>(2, lists_[body].size / 8));
+  if (lists_[body].size == lists_[body].capacity) move(body, grown_capacity(lists_[body].size));
   side(body, lists_[body].size++) = neighbour;
 }
 
 /// To a place of this capacity: a hole, if there is one, or at the end.
 void Neighbours::move(std::uint32_t body, std::uint32_t capacity) {
-  std::uint32_t first = none;
-  if (capacity < holes_.size() && holes_[capacity] != none) {
-    first = holes_[capacity];
-    holes_[capacity] = sides_[first].partner;
+  std::uint32_t& hole = holes_[hole_kind(capacity)];
+  std::uint32_t first = hole;
+  if (first != none) {
+    hole = sides_[first].partner;
   } else {
     if (sides_.capacity() - sides_.size() < capacity) pack(capacity);
     first = static_cast<std::uint32_t>(sides_.size());
@@ -63,9 +91,9 @@ void Neighbours::move(std::uint32_t body, std::uint32_t capacity) {
   }
   List& list = lists_[body];
   std::copy_n(sides_.data() + list.first, list.size, sides_.data() + first);
-  if (0 < list.capacity && list.capacity < holes_.size()) {
-    sides_[list.first].partner = holes_[list.capacity];
-    holes_[list.capacity] = list.first;
+  if (list.capacity > 0) {
+    std::uint32_t& left = holes_[hole_kind(list.capacity)];
+    sides_[list.first].partner = std::exchange(left, list.first);
   }
   list.first = first;
   list.capacity = capacity;
@@ -78,7 +106,8 @@ void Neighbours::pack(std::uint32_t room) {
   std::size_t all = 0;
   std::size_t filled = 0;
   for (List& list : lists_) {
-    list.capacity = std::min(list.capacity, list.size + most_spare);
+    const std::uint32_t spare = list.size < long_list ? most_spare : list.size / 8;
+    list.capacity = std::min(list.capacity, possible_capacity(list.size + spare));
     all += list.capacity;
     filled += list.size > 0;
   }
@@ -102,6 +131,8 @@ void Neighbours::link(std::uint32_t a, std::uint32_t b) {
   const Place place_b = lists_[b].size;
   add(a, {.partner = b, .mirror = place_b});
   add(b, {.partner = a, .mirror = place_a});
+  for (const std::uint32_t body : {a, b})
+    if (lists_[body].size % crowd_step == 0 && lists_[body].size > 2 * crowd_step) crowded_.push_back(body);
 }
 
 void Neighbours::build(const std::vector<std::vector<Neighbour>>& lists) {

@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "memory/prefetch.hpp"
@@ -78,6 +79,8 @@ class Neighbours {
   /// keep their watches. Cost: O(old + new).
   void replace(std::uint32_t body, std::span<const std::uint32_t> found);
   void remove_all(std::uint32_t body);
+  /// Bodies whose lists have come to 96, 128, 160, ... neighbours since the last call, some several times.
+  std::vector<std::uint32_t> take_crowded() { return std::exchange(crowded_, {}); }
 
   /// The pair is watched from the body's side, until `time`, which may be Neighbour::nobody, and not from the
   /// other. The other list is touched only if it has to change.
@@ -120,8 +123,9 @@ class Neighbours {
 
  private:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-  static constexpr std::array<std::uint32_t, 64> no_holes() {
-    std::array<std::uint32_t, 64> holes;
+  using Holes = std::array<std::uint32_t, 168>;
+  static constexpr Holes no_holes() {
+    Holes holes;
     holes.fill(none);
     return holes;
   }
@@ -146,10 +150,11 @@ class Neighbours {
 
   std::vector<List> lists_;
   std::vector<Neighbour> sides_;
-  /// By capacity, what lists that have moved leave behind, until all are packed: the first one's place, where
-  /// `partner` is that of the next.
-  std::array<std::uint32_t, 64> holes_ = no_holes();
+  /// By capacity (hole_kind), what lists that have moved leave behind, until all are packed: the first one's
+  /// place, where `partner` is that of the next.
+  Holes holes_ = no_holes();
   std::uint32_t stamp_ = 0;
+  std::vector<std::uint32_t> crowded_;
 };
 
 }  // namespace kinesphere

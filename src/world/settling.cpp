@@ -88,6 +88,7 @@ class World::Engine::RoundInProgress {
   ~RoundInProgress() {
     for (const std::uint32_t number : round_) engine_.marks_[number].settled = false;
     if (done_) return;
+    engine_.neighbours_.take_crowded();
     for (const std::uint32_t number : round_) {
       engine_.marks_[number].dirty = false;
       engine_.mark_dirty(number);
@@ -148,6 +149,7 @@ Result<void> World::Engine::settle_round(std::vector<std::uint32_t>& round) {
     if (renew_box(number)) chosen_.push_back(number);
     sketch_box(number);
   }
+  if (any_new) shrink_first_boxes(chosen_);
   // All of them before the first look, which may meet a bad answer: a body keeps its new box when the round
   // is done again, and does not search then.
   for (std::size_t k = 0; k < chosen_.size(); ++k) {
@@ -159,6 +161,7 @@ Result<void> World::Engine::settle_round(std::vector<std::uint32_t>& round) {
     if (auto settled = settle_body(round[k]); !settled) return settled;
   }
   in_progress.finish();
+  shrink_boxes(neighbours_.take_crowded());
   return {};
 }
 

@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "archive/archive.hpp"
+#include "archive/heap_counter.hpp"
+#include "kinesphere/random.hpp"
 #include "number/infinity.hpp"
 
 namespace kinesphere {
@@ -216,6 +218,48 @@ TEST(Neighbours, are_watched_from_the_side_that_was_last) {
   EXPECT_EQ(neighbours.of(0).front().watch, Neighbour::partner_does);
   neighbours.unwatch(0, 0);
   EXPECT_EQ(watched_until(neighbours, 1, 0), infinity);
+}
+
+/// Each new body is near all that came before it. A list that moves is copied; when the whole table moves, so
+/// does each list in it.
+TEST(Neighbours, in_long_lists_are_seldom_moved) {
+  constexpr std::uint32_t bodies = 600;
+  Neighbours neighbours;
+  neighbours.make_room(bodies);
+  std::vector<std::uint32_t> near;
+  int moves = 0;
+  const Neighbour* before = nullptr;
+  for (std::uint32_t body = 0; body < bodies; ++body) {
+    neighbours.replace(body, near);
+    near.push_back(body);
+    moves += neighbours.of(0).data() != before;
+    before = neighbours.of(0).data();
+  }
+  EXPECT_TRUE(neighbours.is_sound(bodies));
+  EXPECT_LT(moves, 100);
+  EXPECT_LT(heap_bytes(neighbours), std::size_t{2} * bodies * bodies * sizeof(Neighbour));
+}
+
+/// What long lists leave behind when they move serves others.
+TEST(Neighbours, that_come_and_go_take_no_more_memory) {
+  constexpr std::uint32_t bodies = 400;
+  Neighbours neighbours;
+  neighbours.make_room(bodies);
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t body = 0; body < bodies; ++body) all.push_back(body);
+  Random random(5);
+  std::size_t most = 0;
+  for (int round = 0; round < 2000; ++round) {
+    const auto body = static_cast<std::uint32_t>(random.bits() % bodies);
+    std::vector<std::uint32_t> found;
+    const double part = random.uniform();
+    for (const std::uint32_t other : all)
+      if (other != body && random.uniform() < part) found.push_back(other);
+    neighbours.replace(body, found);
+    most = std::max(most, heap_bytes(neighbours));
+  }
+  EXPECT_TRUE(neighbours.is_sound(bodies));
+  EXPECT_LT(most, std::size_t{2} * bodies * bodies * sizeof(Neighbour));
 }
 
 /// 0 - 1, 0 - 2, 1 - 2, and 3 alone; 0 watches 1.

@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 
 #include "bench/options.hpp"
+#include "bench/vessels.hpp"
 
 namespace kinesphere::program {
 
@@ -11,6 +12,7 @@ struct BenchCommands {
   BenchOptions paper{.output = "bench-paper", .only = {}};
   BenchOptions speed{.output = "bench-speed", .only = {}};
   BenchOptions gas{.output = "bench-gas", .only = {}};
+  VesselOptions vessels;
 };
 
 /// `commands` must live until the command line has been parsed.

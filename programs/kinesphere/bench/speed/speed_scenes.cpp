@@ -7,6 +7,7 @@
 
 #include "bench/measurement.hpp"
 #include "bench/speed/mixture.hpp"
+#include "bench/vessels.hpp"
 #include "program_error.hpp"
 #include "scene_file.hpp"
 
@@ -107,6 +108,13 @@ class SceneList {
                        .make = [people](Response response) { return make_crowd(people, response); },
                        .rates = {10.0, 30.0, 60.0, 240.0},
                        .floor = true});
+    constexpr double close = 50.0;
+    const VesselParameters vessels{.vessels = fewer(2708), .seconds = shorter(3600.0)};
+    scenes_.push_back({.name = "vessels",
+                       .bodies = vessels.vessels,
+                       .response = Response::pass_through,
+                       .make = [vessels](Response) { return make_vessels(vessels, close); },
+                       .rates = {0.1, 1.0}});
   }
 
   void extremes() {
