@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <utility>
 
@@ -17,6 +18,8 @@
 #include "standard_output.hpp"
 #include "summary.hpp"
 #include "table_file.hpp"
+#include "tracks/approach_files.hpp"
+#include "tracks/approach_plot.hpp"
 #include "tracks/reading_options.hpp"
 #include "tracks/reading_summary.hpp"
 #include "tracks/track_file.hpp"
@@ -32,24 +35,6 @@ double positive(std::string_view option, double value) {
   throw ProgramError(fmt::format("{}: expected a finite number > 0, but got {}", option, value));
 }
 
-Cell time_cell(const TimeScale& times, double time) {
-  std::string text = times.text(time);
-  if (times.is_number()) return DecimalText{std::move(text)};
-  return text;
-}
-
-void write_approaches(TableFile& table, const std::vector<Approach>& approaches, const Recording& recording) {
-  for (const Approach& approach : approaches) {
-    const Cell cells[] = {time_cell(recording.times, approach.begin),
-                          time_cell(recording.times, approach.end),
-                          recording.tracks[approach.first].id,
-                          recording.tracks[approach.second].id,
-                          approach.begins_with_track,
-                          approach.ends_with_track};
-    table.write(cells);
-  }
-}
-
 void add_approaches(Summary& summary, double distance, const std::vector<Approach>& approaches) {
   const auto cut = std::count_if(approaches.begin(), approaches.end(),
                                  [](const Approach& approach) { return approach.ends_with_track; });
@@ -63,15 +48,18 @@ void add_approaches(Summary& summary, double distance, const std::vector<Approac
                                       number(longest->end - longest->begin)));
 }
 
-std::string first_approaches(const std::vector<Approach>& approaches, const Recording& recording) {
+std::string closest_approaches(const std::vector<Approach>& approaches, const Recording& recording) {
   constexpr std::size_t shown = 10;
-  std::string text = fmt::format("\n{:>24}  {:>24}  {:>10}  {}\n", "begin", "end", "duration", "ids");
-  for (std::size_t k = 0; k < std::min(shown, approaches.size()); ++k) {
+  std::string text = fmt::format("\n{:>24}  {:>12}  {:>14}  {:>12}    {}\n", "closest at", "distance",
+                                 "relative speed", "duration", "ids");
+  for (const std::size_t k : closest_of(approaches, shown)) {
     const Approach& approach = approaches[k];
-    text += fmt::format("{}{:>23}  {:>24}{}{:>10.6f}  {} {}\n", approach.begins_with_track ? "<" : " ",
-                        recording.times.text(approach.begin, 6), recording.times.text(approach.end, 6),
-                        approach.ends_with_track ? "> " : "  ", approach.end - approach.begin,
-                        recording.tracks[approach.first].id, recording.tracks[approach.second].id);
+    const ClosestApproach& closest = approach.closest;
+    text += fmt::format("{:>24}  {:>12}  {:>14}  {}{:>11}{}  {} {}\n", recording.times.text(closest.time, 6),
+                        number(closest.distance), number(closest.relative_speed),
+                        approach.begins_with_track ? "<" : " ", number(approach.end - approach.begin),
+                        approach.ends_with_track ? "> " : "  ", recording.tracks[approach.first].id,
+                        recording.tracks[approach.second].id);
   }
   text += "< close from a track's first sample on, > close until a track's last sample\n";
   if (approaches.size() > shown) {
@@ -88,6 +76,41 @@ ComparisonProgress shown(const TracksOptions& options, const Scene& scene) {
   return [=, start = scene.world.start_time](double part) { progress->show(start + part * span); };
 }
 
+/// All that is written besides the summary. Files are opened before the work begins.
+class TracksFiles {
+ public:
+  explicit TracksFiles(const TracksOptions& options) {
+    const OutputPath outputs[] = {
+        {"--contacts", options.contacts}, {"--pairs", options.pairs}, {"--plot", options.plot}};
+    check_outputs(outputs, options.files);
+    if (!options.plot.empty() && std::filesystem::path(options.plot).extension() != ".svg")
+      throw ProgramError(fmt::format("{}: expected a name that ends in .svg", options.plot));
+    if (!options.contacts.empty()) contacts_.emplace(options.contacts);
+    if (!options.pairs.empty()) pairs_.emplace(options.pairs, pair_columns());
+    if (!options.plot.empty()) plot_.emplace(options.plot);
+  }
+
+  void check(const Recording& recording) const {
+    if (contacts_) contacts_->check(recording);
+  }
+  void write(const Recording& recording, const Scene& scene, const std::vector<Approach>& approaches,
+             double distance) {
+    if (contacts_) contacts_->write(approaches, recording);
+    if (pairs_) write_pairs(*pairs_, pairs_in(approaches, recording), recording);
+    if (plot_) plot_->write(plot_of(recording, scene, approaches, distance));
+  }
+  void commit() {
+    if (contacts_) contacts_->commit();
+    if (pairs_) pairs_->commit();
+    if (plot_) plot_->commit();
+  }
+
+ private:
+  std::optional<ApproachFile> contacts_;
+  std::optional<TableFile> pairs_;
+  std::optional<OutputFile> plot_;
+};
+
 }  // namespace
 
 CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
@@ -99,7 +122,15 @@ CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
       ->add_option("--tolerance", options.tolerance,
                    "Tolerance of that distance; when not given a millionth of it, or 1e-12 of the extent")
       ->check(finite_number());
-  command->add_option("--contacts", options.contacts, "Write every approach to this .csv or .jsonl file")
+  command
+      ->add_option(
+          "--contacts", options.contacts,
+          "Write every approach to this .csv, .jsonl or (where positions are on the earth) .geojson file")
+      ->type_name("FILE");
+  command
+      ->add_option("--pairs", options.pairs, "Write a line for each pair of ids to this .csv or .jsonl file")
+      ->type_name("FILE");
+  command->add_option("--plot", options.plot, "Draw a map and the closest approaches into this .svg file")
       ->type_name("FILE");
   add_reading_options(*command, options.files, options.reading);
   command->add_flag("--verify", options.verify, "Compare with the exact oracle on the same curves");
@@ -109,14 +140,9 @@ CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
 
 int tracks(const TracksOptions& options) {
   const double distance = positive("--distance", options.distance);
-  const OutputPath outputs[] = {{"--contacts", options.contacts}};
-  check_outputs(outputs, options.files);
-  std::optional<TableFile> table;
-  if (!options.contacts.empty()) {
-    table.emplace(options.contacts, std::vector<std::string>{"begin", "end", "first", "second",
-                                                             "begins_with_track", "ends_with_track"});
-  }
+  TracksFiles files(options);
   const Recording recording = read_tracks(options.files, options.reading);
+  files.check(recording);
   const TrackScene scene_and_notes = scene_of(
       recording,
       {.distance = distance, .tolerance = options.tolerance, .interpolation = options.reading.interpolation});
@@ -137,8 +163,9 @@ int tracks(const TracksOptions& options) {
   const std::chrono::duration<double> real_time = std::chrono::steady_clock::now() - started;
   progress.reset();
 
-  const std::vector<Approach> approaches = approaches_in(scene, events);
-  if (table) write_approaches(*table, approaches, recording);
+  std::vector<Approach> approaches = approaches_in(scene, events);
+  find_closest(*scene.motion, approaches);
+  files.write(recording, scene, approaches, distance);
   Summary summary;
   add_recording(summary, options.files, recording, scene_and_notes);
   summary.space();
@@ -159,10 +186,10 @@ int tracks(const TracksOptions& options) {
   add_speed(summary, result.simulated_time, real_time.count());
   if (!options.quiet) {
     print("{}", summary.text());
-    if (options.contacts.empty() && !approaches.empty()) print("{}", first_approaches(approaches, recording));
+    if (!approaches.empty()) print("{}", closest_approaches(approaches, recording));
   }
-  // Last: what a full disk does to the file must not take the summary with it.
-  if (table) table->commit();
+  // Last: what a full disk does to a file must not take the summary with it.
+  files.commit();
   return exit_code;
 }
 

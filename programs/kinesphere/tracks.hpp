@@ -15,7 +15,7 @@ struct TracksOptions {
   double distance = 0.0;
   std::optional<double> tolerance;
   TrackOptions reading;
-  std::string contacts;
+  std::string contacts, pairs, plot;  ///< files to write; empty for none
   bool verify = false;
   bool quiet = false;
 };

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace kinesphere {
 namespace {
@@ -37,6 +39,12 @@ struct Piece {
   double gap(double s) const {
     const Vec3 at = centre[0] + (centre[1] + (centre[2] + centre[3] * s) * s) * s;
     return is_pair ? norm(at) - radius : dot(wall.normal, at) - wall.offset - radius;
+  }
+
+  /// Half the derivative of the squared distance.
+  double slope(double s) const {
+    const Vec3 at = centre[0] + (centre[1] + (centre[2] + centre[3] * s) * s) * s;
+    return dot(at, centre[1] + (centre[2] * 2.0 + centre[3] * (3.0 * s)) * s);
   }
 
   /// A polynomial over [0, 1] that is positive where, on the way from s = lower to s = upper, the gap is
@@ -130,6 +138,60 @@ class RootSearch {
   double sign_;
 };
 
+/// Finds where the gap of a pair is least, piece after piece: parts that cannot hold a lesser one than is
+/// known are left out, and parts where the squared distance is monotone or convex are not divided further.
+class LeastSearch {
+ public:
+  void visit(const Piece& piece) {
+    piece_ = &piece;
+    const double duration = piece.end - piece.begin;
+    offer(0.0);
+    offer(duration);
+    search(0.0, duration, 0);
+  }
+  GapCourse::Least least() const { return least_; }
+
+ private:
+  static constexpr int max_depth = 60;
+
+  void offer(double s) {
+    const double gap = piece_->gap(s);
+    if (gap < least_.gap) least_ = {std::min(piece_->begin + s, piece_->end), gap};
+  }
+
+  void search(double lower, double upper, int depth) {
+    double error = 0.0;
+    const Coefficients c = to_bernstein(piece_->above(-piece_->radius, lower, upper, error));
+    const double distance = least_.gap + piece_->radius;
+    if (*std::min_element(c.begin(), c.end()) + error >= distance * distance) return;
+    bool rises = true, falls = true, is_convex = true;
+    for (std::size_t i = 0; i < degree; ++i) {
+      rises = rises && c[i + 1] >= c[i];
+      falls = falls && c[i] >= c[i + 1];
+      is_convex = is_convex && (i == 0 || c[i + 1] - c[i] >= c[i] - c[i - 1]);
+    }
+    if (rises || falls) return;  // the ends have been offered
+    if (is_convex) return offer(bottom(lower, upper));
+    const double middle = 0.5 * (lower + upper);
+    offer(middle);
+    if (depth == max_depth) return;
+    search(lower, middle, depth + 1);
+    search(middle, upper, depth + 1);
+  }
+
+  /// Where the slope, which rises, changes its sign.
+  double bottom(double lower, double upper) const {
+    for (;;) {
+      const double middle = 0.5 * (lower + upper);
+      if (middle <= lower || middle >= upper) return upper;
+      (piece_->slope(middle) < 0.0 ? lower : upper) = middle;
+    }
+  }
+
+  const Piece* piece_ = nullptr;
+  GapCourse::Least least_{0.0, std::numeric_limits<double>::infinity()};
+};
+
 /// The coefficients of a segment's position in powers of t - begin, for a later begin.
 std::array<Vec3, 4> position_from(const Segment& segment, double begin) {
   const State state = segment.state_at(begin);
@@ -150,8 +212,9 @@ double GapCourse::gap_at(double t) const {
   return norm(at - segment_at(*b_, t).state_at(t).position) - radius_;
 }
 
-std::optional<double> GapCourse::first_time(LevelCrossing crossing, double level, double from,
-                                            double to) const {
+/// Visits the pieces of [from, to] on which both motions are one cubic, until `visit` returns true.
+template <class Visit>
+void GapCourse::for_each_piece(double from, double to, const Visit& visit) const {
   const auto index_at = [&](const Trajectory& trajectory) {
     return static_cast<std::size_t>(&segment_at(trajectory, from) - trajectory.data());
   };
@@ -171,11 +234,31 @@ std::optional<double> GapCourse::first_time(LevelCrossing crossing, double level
       for (std::size_t k = 0; k < 4; ++k) piece.centre[k] -= other[k];
       if (end >= b_end && ib + 1 < b_->size()) ++ib;
     }
-    if (const auto s = RootSearch(piece, crossing, level).first()) return std::min(begin + *s, end);
-    if (end >= to) return std::nullopt;
+    if (visit(piece) || end >= to) return;
     if (end >= a_end && ia + 1 < a_->size()) ++ia;
     begin = end;
   }
+}
+
+std::optional<double> GapCourse::first_time(LevelCrossing crossing, double level, double from,
+                                            double to) const {
+  std::optional<double> time;
+  for_each_piece(from, to, [&](const Piece& piece) {
+    if (const auto s = RootSearch(piece, crossing, level).first())
+      time = std::min(piece.begin + *s, piece.end);
+    return time.has_value();
+  });
+  return time;
+}
+
+GapCourse::Least GapCourse::least(double from, double to) const {
+  assert(b_ != nullptr);
+  LeastSearch search;
+  for_each_piece(from, to, [&](const Piece& piece) {
+    search.visit(piece);
+    return false;
+  });
+  return search.least();
 }
 
 }  // namespace kinesphere

@@ -29,7 +29,18 @@ class GapCourse {
   /// The first time in [from, to] at which the gap is at most (falls_to) or at least (rises_to) `level`.
   std::optional<double> first_time(LevelCrossing crossing, double level, double from, double to) const;
 
+  struct Least {
+    double time;
+    double gap;
+  };
+  /// Where the gap of two bodies is least in [from, to]: the least value to within rounding, and the earliest
+  /// found of the times that have it.
+  Least least(double from, double to) const;
+
  private:
+  template <class Visit>
+  void for_each_piece(double from, double to, const Visit& visit) const;
+
   const Trajectory* a_;
   const Trajectory* b_ = nullptr;
   HalfSpace wall_;

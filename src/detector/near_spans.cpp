@@ -143,7 +143,8 @@ class Search {
     for (auto one = enclosed_.begin(); one != enclosed_.end(); ++one)
       for (auto other = one + 1; other != enclosed_.end() && other->box.lower[axis] <= one->box.upper[axis];
            ++other)
-        if (overlap(one->box, other->box)) near_.push_back(std::minmax(one->body, other->body));
+        if (overlap(one->box, other->box))
+          near_.emplace_back(std::min(one->body, other->body), std::max(one->body, other->body));
     std::sort(near_.begin(), near_.end());
   }
 

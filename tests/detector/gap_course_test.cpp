@@ -156,6 +156,50 @@ TEST(GapCourse, AgreesWithDenseSamples) {
   EXPECT_GT(found, 200);
 }
 
+TEST(GapCourse, LeastIsWhereTwoPassEachOther) {
+  const Trajectory a = straight({-10, 1, 0}, {2, 0, 0});
+  const Trajectory b = straight({10, -2, 0}, {-3, 0, 0});
+  const auto passing = GapCourse(a, b, 0.5).least(0.0, 10.0);
+  EXPECT_NEAR(passing.time, 4.0, 1e-7);  // a square root of rounding: the gap is flat there
+  EXPECT_NEAR(passing.gap, 2.5, 1e-14);
+  const auto before = GapCourse(a, b, 0.5).least(1.0, 3.0);
+  EXPECT_EQ(before.time, 3.0);
+  EXPECT_NEAR(before.gap, std::sqrt(9.0 + 25.0) - 0.5, 1e-14);
+  const auto at_once = GapCourse(a, b, 0.5).least(7.0, 7.0);
+  EXPECT_EQ(at_once.time, 7.0);
+}
+
+TEST(GapCourse, LeastIsAsDeepAsTwoRadiiWhereCentresMeet) {
+  const Trajectory a = straight({-10, 0, 0}, {2, 0, 0});
+  const Trajectory b = straight({10, 0, 0}, {-3, 0, 0});
+  const auto least = GapCourse(a, b, 0.5).least(0.0, 10.0);
+  EXPECT_NEAR(least.time, 4.0, 1e-14);
+  EXPECT_NEAR(least.gap, -0.5, 1e-14);
+}
+
+TEST(GapCourse, LeastIsNoneOfDenseSamplesLess) {
+  Random random(17);
+  int inside = 0;
+  for (int round = 0; round < 300; ++round) {
+    SCOPED_TRACE(round);
+    const Trajectory a = random_trajectory(random, 6, round % 2 == 0);
+    const Trajectory b = random_trajectory(random, 4, round % 3 == 0);
+    const double last = std::min(a.back().end, b.back().end);
+    const double from = 0.5 * last * random.uniform();
+    const double to = random.uniform(from, last);
+    const GapCourse gap(a, b, random.uniform(0.0, 3.0));
+    const auto least = gap.least(from, to);
+    EXPECT_LE(from, least.time);
+    EXPECT_LE(least.time, to);
+    EXPECT_NEAR(gap.gap_at(least.time), least.gap, 1e-12);
+    inside += from < least.time && least.time < to;
+    constexpr int samples = 2000;
+    for (int k = 0; k <= samples; ++k)
+      EXPECT_GE(gap.gap_at(from + (to - from) * k / samples), least.gap - 1e-12);
+  }
+  EXPECT_GT(inside, 40);
+}
+
 TEST(PairTable, HasOneValueForEachPairAndKeepsItWhenItGrows) {
   PairTable<int> table;
   table.resize(5);

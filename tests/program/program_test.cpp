@@ -1,5 +1,6 @@
 // The program as a person meets it: exit codes, one clear line for what is wrong, files that are whole.
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "kinesphere/version.hpp"
@@ -199,13 +200,15 @@ TEST_F(ProgramTest, FindsApproachesInTracks) {
   ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
   const auto rows = rows_of(read_text(path("a.csv")));
   ASSERT_EQ(rows.size(), 4u);
-  EXPECT_EQ(rows[0], (std::vector<std::string>{"begin", "end", "first", "second", "begins_with_track",
-                                               "ends_with_track"}));
+  EXPECT_EQ(rows[0],
+            (std::vector<std::string>{"begin", "end", "first", "second", "begins_with_track",
+                                      "ends_with_track", "closest_time", "distance", "first_x", "first_y",
+                                      "first_z", "second_x", "second_y", "second_z", "relative_speed"}));
   const auto expect_row = [&](std::size_t row, double begin, double end,
                               const std::vector<std::string>& others) {
     EXPECT_NEAR(std::stod(rows[row][0]), begin, 1e-7);
     EXPECT_NEAR(std::stod(rows[row][1]), end, 1e-7);
-    EXPECT_EQ(std::vector<std::string>(rows[row].begin() + 2, rows[row].end()), others);
+    EXPECT_EQ(std::vector<std::string>(rows[row].begin() + 2, rows[row].begin() + 6), others);
   };
   expect_row(1, 0.0, std::sqrt(3.0), {"ann", "cy", "true", "false"});
   expect_row(2, 4.0, 6.0, {"ann", "bob", "false", "false"});
@@ -215,10 +218,90 @@ TEST_F(ProgramTest, FindsApproachesInTracks) {
   }
 }
 
-TEST_F(ProgramTest, ShowsTheFirstApproaches) {
+TEST_F(ProgramTest, ShowsTheClosestApproaches) {
   const ProgramRun result = run("tracks " + write("t.csv", meeting) + " --distance 2");
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_NE(result.out.find("ann bob"), std::string::npos) << result.out;
+  const auto closest = result.out.find("ann bob");
+  EXPECT_NE(closest, std::string::npos) << result.out;
+  EXPECT_LT(closest, result.out.find("ann cy")) << result.out;
+}
+
+TEST_F(ProgramTest, TellsWhereTracksCameClosest) {
+  run("tracks " + write("t.csv", meeting) + " --distance 2 --contacts " + path("a.csv"));
+  const auto rows = rows_of(read_text(path("a.csv")));
+  ASSERT_EQ(rows.size(), 4u);
+  const auto numbers = [&](std::size_t row) {
+    std::vector<double> values;
+    for (std::size_t column = 6; column < rows[row].size(); ++column)
+      values.push_back(rows[row][column].empty() ? -1.0 : std::stod(rows[row][column]));
+    return values;
+  };
+  // Time, distance, places without z, and relative speed.
+  const auto expect_near = [](const std::vector<double>& found, const std::vector<double>& expected) {
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expected[k], 1e-9) << k;
+  };
+  expect_near(numbers(1), {0, 1, 0, 0, -1, 0, 1, -1, 1});
+  expect_near(numbers(2), {5, 0, 5, 0, -1, 5, 0, -1, 2});
+  expect_near(numbers(3), {10, 1, 0, 0, -1, 0, 1, -1, 1});
+}
+
+TEST_F(ProgramTest, SumsUpPairsOfTracks) {
+  const std::string twice =
+      "id,time,x,y\na,0,0,0\na,10,0,0\na,20,0,0\nb,0,-5,1\nb,10,5,1\nb,20,-5,1\nc,0,0,1.5\nc,20,0,1.5\n";
+  const ProgramRun result =
+      run("tracks " + write("t.csv", twice) + " --interpolate linear --max-gap 100 --distance 1.2 --pairs " +
+          path("p.csv"));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto rows = rows_of(read_text(path("p.csv")));
+  ASSERT_EQ(rows.size(), 3u) << read_text(path("p.csv"));
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"first", "second", "approaches", "duration", "least_distance",
+                                               "closest_time"}));
+  EXPECT_EQ(rows[1][0] + rows[1][1], "bc");  // the closest first
+  EXPECT_NEAR(std::stod(rows[1][4]), 0.5, 1e-9);
+  EXPECT_EQ(rows[2][0] + rows[2][1], "ab");
+  EXPECT_EQ(rows[2][2], "2");
+  EXPECT_NEAR(std::stod(rows[2][3]), 4.0 * std::sqrt(1.2 * 1.2 - 1.0), 1e-5);
+  EXPECT_NEAR(std::stod(rows[2][4]), 1.0, 1e-9);
+}
+
+TEST_F(ProgramTest, WritesApproachesOnAMap) {
+  const std::string ships =
+      "id,time,lon,lat\na,0,8.00,54.0\na,600,8.02,54.0\nb,0,8.02,54.0001\nb,600,8.00,54.0001\n";
+  const ProgramRun result = run("tracks " + write("s.csv", ships) +
+                                " --from lonlat --distance 100 --contacts " + path("a.geojson"));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto map = nlohmann::json::parse(read_text(path("a.geojson")));
+  EXPECT_EQ(map["type"], "FeatureCollection");
+  ASSERT_EQ(map["features"].size(), 1u);
+  const auto& feature = map["features"][0];
+  EXPECT_EQ(feature["geometry"]["type"], "MultiPoint");
+  EXPECT_NEAR(feature["geometry"]["coordinates"][0][0].get<double>(), 8.01, 1e-6);
+  EXPECT_NEAR(feature["geometry"]["coordinates"][1][1].get<double>(), 54.0001, 1e-7);
+  EXPECT_EQ(feature["properties"]["first"], "a");
+  EXPECT_NEAR(feature["properties"]["closest_time"].get<double>(), 300.0, 1e-3);
+  EXPECT_NEAR(feature["properties"]["distance"].get<double>(), 11.13, 0.02);
+  expect_wrong_input("tracks " + write("t.csv", meeting) + " --distance 2 --contacts " + path("b.geojson"),
+                     {"b.geojson", "--from lonlat"});
+}
+
+TEST_F(ProgramTest, DrawsApproaches) {
+  const std::string file = write("t.csv", meeting);
+  ASSERT_EQ(run("tracks " + file + " --distance 2 --quiet --plot " + path("a.svg")).exit_code, 0);
+  const std::string svg = read_text(path("a.svg"));
+  EXPECT_TRUE(svg.starts_with("<svg ")) << svg;
+  EXPECT_TRUE(svg.ends_with("</svg>\n"));
+  for (const char* text : {"3 tracks, 3 approaches", "time from the closest approach (s)", "ann and bob: "})
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(svg.find("inf"), std::string::npos);
+  // Nobody near, and nobody who moves.
+  const std::string still = write("u.csv", "id,time,x,y\na,0,1,1\na,1,1,1\n");
+  ASSERT_EQ(run("tracks " + still + " --distance 2 --quiet --plot " + path("b.svg")).exit_code, 0);
+  EXPECT_NE(read_text(path("b.svg")).find("No approaches."), std::string::npos);
+  expect_wrong_input("tracks " + file + " --distance 2 --plot " + path("a.png"), {"a.png", ".svg"});
+  expect_wrong_input(
+      "tracks " + file + " --distance 2 --plot " + path("c.svg") + " --contacts " + path("c.svg"), {"c.svg"});
 }
 
 TEST_F(ProgramTest, RefusesWrongTracks) {

@@ -1,0 +1,160 @@
+#include "tracks/approach_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "program_error.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+Cell time_cell(const TimeScale& times, double time) {
+  std::string text = times.text(time);
+  if (times.is_number()) return DecimalText{std::move(text)};
+  return text;
+}
+
+std::vector<std::string> approach_columns() {
+  return {"begin",           "end",          "first",    "second",   "begins_with_track",
+          "ends_with_track", "closest_time", "distance", "first_x",  "first_y",
+          "first_z",         "second_x",     "second_y", "second_z", "relative_speed"};
+}
+
+/// x, y and z as in the file; no z where there is none.
+void add_position(std::vector<Cell>& cells, const Vec3& local, const Recording& recording) {
+  const Vec3 position = recording.coordinates.as_in_file(local);
+  cells.insert(cells.end(), {position.x, position.y});
+  cells.push_back(recording.is_plane ? Cell() : Cell(position.z));
+}
+
+bool ends_in_geojson(const std::string& path) {
+  return std::filesystem::path(path).extension() == ".geojson";
+}
+
+nlohmann::ordered_json time_json(const TimeScale& times, double time) {
+  const std::string text = times.text(time);
+  return times.is_number() ? nlohmann::ordered_json::parse(text) : nlohmann::ordered_json(text);
+}
+
+/// RFC 7946: longitude, latitude.
+nlohmann::ordered_json point_on_map(const Recording& recording, const Vec3& local) {
+  const Vec3 place = recording.coordinates.geographic(local).value();
+  nlohmann::ordered_json point{place.x, place.y};
+  if (!recording.is_plane) point.push_back(place.z);
+  return point;
+}
+
+}  // namespace
+
+ApproachFile::ApproachFile(const std::string& path) {
+  if (ends_in_geojson(path)) {
+    geojson_.emplace(path);
+    return;
+  }
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending != ".csv" && ending != ".jsonl")
+    throw ProgramError(fmt::format("{}: expected a name that ends in .csv, .jsonl or .geojson", path));
+  table_.emplace(path, approach_columns());
+}
+
+void ApproachFile::check(const Recording& recording) const {
+  if (!geojson_) return;
+  const Vec3& somewhere = recording.tracks.front().samples.front().position;
+  if (recording.coordinates.geographic(somewhere)) return;
+  throw ProgramError(fmt::format(
+      "{}: expected longitudes and latitudes for a .geojson file (--from lonlat, or --from utm with "
+      "its zone), but positions are plain coordinates: write .csv or .jsonl",
+      geojson_->path()));
+}
+
+void ApproachFile::write(const std::vector<Approach>& approaches, const Recording& recording) {
+  if (geojson_) return write_geojson(approaches, recording);
+  for (const Approach& approach : approaches) {
+    const ClosestApproach& closest = approach.closest;
+    std::vector<Cell> cells{time_cell(recording.times, approach.begin),
+                            time_cell(recording.times, approach.end),
+                            recording.tracks[approach.first].id,
+                            recording.tracks[approach.second].id,
+                            approach.begins_with_track,
+                            approach.ends_with_track,
+                            time_cell(recording.times, closest.time),
+                            closest.distance};
+    add_position(cells, closest.first, recording);
+    add_position(cells, closest.second, recording);
+    cells.emplace_back(closest.relative_speed);
+    table_->write(cells);
+  }
+}
+
+void ApproachFile::write_geojson(const std::vector<Approach>& approaches, const Recording& recording) {
+  geojson_->write("{\"type\": \"FeatureCollection\", \"features\": [");
+  const char* separator = "\n";
+  for (const Approach& approach : approaches) {
+    const ClosestApproach& closest = approach.closest;
+    const nlohmann::ordered_json feature{
+        {"type", "Feature"},
+        {"geometry",
+         {{"type", "MultiPoint"},
+          {"coordinates",
+           {point_on_map(recording, closest.first), point_on_map(recording, closest.second)}}}},
+        {"properties",
+         {{"first", recording.tracks[approach.first].id},
+          {"second", recording.tracks[approach.second].id},
+          {"begin", time_json(recording.times, approach.begin)},
+          {"end", time_json(recording.times, approach.end)},
+          {"begins_with_track", approach.begins_with_track},
+          {"ends_with_track", approach.ends_with_track},
+          {"closest_time", time_json(recording.times, closest.time)},
+          {"distance", closest.distance},
+          {"relative_speed", closest.relative_speed}}}};
+    geojson_->write(separator);
+    geojson_->write(feature.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    separator = ",\n";
+  }
+  geojson_->write("\n]}\n");
+}
+
+void ApproachFile::commit() {
+  if (table_) table_->commit();
+  if (geojson_) geojson_->commit();
+}
+
+std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const Recording& recording) {
+  std::vector<PairSummary> pairs;
+  std::map<std::pair<std::string, std::string>, std::size_t> known;
+  for (const Approach& approach : approaches) {
+    const std::string& first = recording.tracks[approach.first].id;
+    const std::string& second = recording.tracks[approach.second].id;
+    const auto [at, is_new] = known.try_emplace(std::minmax(first, second), pairs.size());
+    if (is_new) pairs.push_back({.first = first, .second = second, .closest = approach.closest});
+    PairSummary& pair = pairs[at->second];
+    ++pair.approaches;
+    pair.duration += approach.end - approach.begin;
+    if (approach.closest.distance < pair.closest.distance) pair.closest = approach.closest;
+  }
+  std::stable_sort(pairs.begin(), pairs.end(), [](const PairSummary& a, const PairSummary& b) {
+    return a.closest.distance < b.closest.distance;
+  });
+  return pairs;
+}
+
+std::vector<std::string> pair_columns() {
+  return {"first", "second", "approaches", "duration", "least_distance", "closest_time"};
+}
+
+void write_pairs(TableFile& table, const std::vector<PairSummary>& pairs, const Recording& recording) {
+  for (const PairSummary& pair : pairs) {
+    const Cell cells[] = {
+        pair.first,    pair.second,           pair.approaches,
+        pair.duration, pair.closest.distance, time_cell(recording.times, pair.closest.time)};
+    table.write(cells);
+  }
+}
+
+}  // namespace kinesphere::program

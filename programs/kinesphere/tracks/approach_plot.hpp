@@ -1,0 +1,19 @@
+// A picture of the approaches: a map of the tracks, and how the distance of the closest pairs changed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "approaches.hpp"
+#include "tracks/recording.hpp"
+
+namespace kinesphere::program {
+
+/// An SVG picture, 1000 by 520 pixels. `distance` is what counts as an approach.
+std::string plot_of(const Recording& recording, const Scene& scene, const std::vector<Approach>& approaches,
+                    double distance);
+
+/// Round numbers from `low` to `high`, about `wanted` of them: multiples of 1, 2 or 5 times a power of ten.
+std::vector<double> ticks(double low, double high, int wanted);
+
+}  // namespace kinesphere::program
