@@ -268,7 +268,8 @@ bool World::Engine::shorten_way(std::uint32_t number, std::span<const std::uint3
 /// a whole crowd may come. Such a box ends now.
 void World::Engine::shrink_boxes(const std::vector<std::uint32_t>& crowded) {
   for (const std::uint32_t number : crowded) {
-    if (!bodies_[number].present() || marks_[number].dirty) continue;
+    const Body& body = bodies_[number];
+    if (!body.present() || body.is_resting() || marks_[number].dirty) continue;
     partners_.clear();
     for (const Neighbour& one : neighbours_.of(number)) partners_.push_back(one.partner);
     if (!shorten_way(number, partners_)) continue;
