@@ -32,11 +32,11 @@ int main() {
     motion.set_velocity(body.index, time, velocity).value();
     world.set_velocity(body, velocity).value();
   };
-  while (auto event = world.advance(10.0, motion.probe()).value()) {
-    if (event->kind != EventKind::contact_begin && event->kind != EventKind::wall_begin) continue;
-    const Bounce after = bounce(*event, 1.0, 1.0, 1.0);
-    set_velocity(event->first, event->time, after.first_velocity);
-    if (event->second != no_body) set_velocity(event->second, event->time, after.second_velocity);
+  for (const Event& event : world.events(10.0, motion.probe())) {
+    if (event.kind != EventKind::contact_begin && event.kind != EventKind::wall_begin) continue;
+    const Bounce after = bounce(event, 1.0, 1.0, 1.0);
+    set_velocity(event.first, event.time, after.first_velocity);
+    if (event.second != no_body) set_velocity(event.second, event.time, after.second_velocity);
   }
 
   const Counters& counters = world.counters();

@@ -52,12 +52,12 @@ int main() {
                               .value();
     shots[bullet] = {now, muzzle};
 
-    while (auto event = world.advance(now + 0.01, probe).value()) {
-      if (event->kind != EventKind::contact_begin) continue;
-      const bool first_is_bullet = shots.count(event->first) != 0;
-      const BodyId hit = first_is_bullet ? event->second : event->first;
+    for (const Event& event : world.events(now + 0.01, probe)) {
+      if (event.kind != EventKind::contact_begin) continue;
+      const bool first_is_bullet = shots.count(event.first) != 0;
+      const BodyId hit = first_is_bullet ? event.second : event.first;
       ++(round < 50 ? hits_before : hits_after)[name[hit]];
-      world.remove(first_is_bullet ? event->first : event->second).value();
+      world.remove(first_is_bullet ? event.first : event.second).value();
     }
   }
 

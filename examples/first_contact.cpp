@@ -24,9 +24,9 @@ int main() {
                                      : State{{-20, 1.5, 0}, {0, 0, 0}};
   };
 
-  while (auto event = world.advance(30.0, probe).value())
-    std::printf("%9.6f s  %-13s  gap %.1e, closing at %.3f\n", event->time, name_of(event->kind).data(),
-                event->gap, event->approach_speed);
+  for (const Event& event : world.events(30.0, probe))
+    std::printf("%9.6f s  %-13s  gap %.1e, closing at %.3f\n", event.time, name_of(event.kind).data(),
+                event.gap, event.approach_speed);
   std::printf("%llu probes in 30 s\n", static_cast<unsigned long long>(world.counters().probes));
   return world.contains(hovering) ? 0 : 1;
 }

@@ -53,11 +53,11 @@ int main() {
       frames.set_velocity(ball.index, time, bounced).value();
       world.set_velocity(ball, bounced).value();
     };
-    while (auto event = world.advance(frames.latest_time(), frames.probe()).value()) {
-      if (event->kind != EventKind::contact_begin && event->kind != EventKind::wall_begin) continue;
-      const Bounce after = bounce(*event, 1.0, 1.0, 0.8);
-      set_velocity(event->first, event->time, after.first_velocity);
-      if (event->second != no_body) set_velocity(event->second, event->time, after.second_velocity);
+    for (const Event& event : world.events(frames.latest_time(), frames.probe())) {
+      if (event.kind != EventKind::contact_begin && event.kind != EventKind::wall_begin) continue;
+      const Bounce after = bounce(event, 1.0, 1.0, 0.8);
+      set_velocity(event.first, event.time, after.first_velocity);
+      if (event.second != no_body) set_velocity(event.second, event.time, after.second_velocity);
     }
     position = frames.latest();
 

@@ -28,10 +28,8 @@ int seen_by_steps(const std::vector<State>& bullets, double rate) {
 int main() {
   World world = World::create({}).value();
   // A zone: it senses, and nothing bounces off it. It does not move, so nobody has to say where it is.
-  constexpr SensorClass light_barrier = 1;
-  world.set_sensor(light_barrier, {.distances = {0.0}}).value();
   const Vec3 half{0.5 * thickness, 10, 10};
-  world.add_fixed({.shape = Box{-half, half}, .solid = false, .sensor_class = light_barrier}).value();
+  const BodyId barrier = world.add_zone(Box{-half, half}).value();
 
   Random random(1);
   std::vector<State> bullets;
@@ -54,9 +52,10 @@ int main() {
   };
 
   int entered = 0, left = 0;
-  while (const auto event = world.advance(seconds, probe).value()) {
-    if (event->kind == EventKind::sensor_enter) ++entered;
-    if (event->kind == EventKind::sensor_leave) ++left;
+  for (const Event& event : world.events(seconds, probe)) {
+    if (event.sensor() != barrier) continue;
+    if (event.kind == EventKind::sensor_enter) ++entered;
+    if (event.kind == EventKind::sensor_leave) ++left;
   }
   std::printf("of %d bullets\n", bullet_count);
   for (const double rate : {60.0, 240.0, 1000.0})

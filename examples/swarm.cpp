@@ -51,8 +51,8 @@ int main() {
       }
       drones.steer(id.index, now, wish * std::min(1.0, agility / norm(wish))).value();
     }
-    while (auto event = world.advance(now + tick, drones.probe()).value())
-      std::printf("%s at %.3f\n", name_of(event->kind).data(), event->time);
+    for (const Event& event : world.events(now + tick, drones.probe()))
+      std::printf("%s at %.3f\n", name_of(event.kind).data(), event.time);
   }
 
   const Counters& counters = world.counters();

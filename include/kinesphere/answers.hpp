@@ -6,11 +6,12 @@
 //   EarliestApproach near = world.earliest_approach(drone, 50.0).value();
 //   // nothing comes within 50 of the drone before near.time, and near.partner may be the first that does
 //
-// An answer holds as long as bodies keep their promises and the caller changes nothing: a kick or a new body
-// voids it. It follows from what the world knows already, reports and recorded facts, and so it is a lower
-// bound of the truth. The calls that take a Probe ask for the states that limit the answer first: it is then
-// as late as fresh reports allow. Those states are reports like any other. They are checked, a broken promise
-// comes as a bound_violation event of the next advance(), and later events may move within their tolerances.
+// An answer holds as long as bodies keep their promises and the caller changes nothing: a velocity that is
+// set or a new body voids it. It follows from what the world knows already, reports and recorded facts, and
+// so it is a lower bound of the truth. The calls that take a Probe ask for the states that limit the answer
+// first: it is then as late as fresh reports allow. Those states are reports like any other. They are
+// checked, a broken promise comes as a bound_violation event of the next advance(), and later events may move
+// within their tolerances.
 //
 // Where space repeats, all images count, and the distance of two bodies is that of their nearest images. Two
 // that move relative to each other are then certified at most until they may have come two boxes nearer.

@@ -18,8 +18,9 @@ struct State {
   friend constexpr bool operator==(const State&, const State&) = default;
 };
 
-/// A sphere and its promise: between kicks its acceleration differs from `planned_acceleration`
-/// by at most `acceleration_limit`. Lengths, times and so on may be in any consistent units.
+/// A sphere, and what it promises about its motion: between the changes of which the world is told
+/// (World::set_velocity, teleport and so on) its acceleration differs from `planned_acceleration` by at most
+/// `acceleration_limit`. Lengths, times and so on may be in any consistent units.
 struct BodyDefinition {
   /// Radius r >= 0 (length).
   double radius = 1.0;

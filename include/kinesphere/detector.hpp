@@ -32,7 +32,7 @@ class Detector {
   /// Adds body number `body` at the current time, with its state there in `definition`.
   virtual Result<void> add(std::uint32_t body, const BodyDefinition& definition) = 0;
   virtual Result<void> remove(std::uint32_t body) = 0;
-  /// The motion has been kicked already.
+  /// From the current time on the body has this velocity. The caller has set it in the motion already.
   virtual Result<void> set_velocity(std::uint32_t body, const Vec3& velocity) = 0;
   virtual Result<std::optional<Event>> advance(double until) = 0;
   virtual double time() const = 0;

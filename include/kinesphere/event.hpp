@@ -44,6 +44,9 @@ constexpr bool is_of_sensor(EventKind kind) {
 enum class Wall : std::uint8_t { none, x_lower, x_upper, y_lower, y_upper, z_lower, z_upper };
 inline constexpr int wall_count = 6;
 
+/// Which of the two bodies of a sensor event senses the other at its distance.
+enum class Senses : std::uint8_t { neither, first, second, both };
+
 /// "contact_begin" and so on: the names used in logs, summaries and messages.
 std::string_view name_of(EventKind kind);
 /// "x_lower" and so on; "none" for Wall::none.
@@ -65,6 +68,9 @@ struct Event {
   /// between walls has: an answer that gives back any speed would go on for ever. After 256 the Zeno guard
   /// moves time on by its least step.
   bool jammed = false;
+  /// sensor_enter: whose sensor it is. A sensor_leave says the same as the sensor_enter before it, whatever
+  /// sensors and classes have become since.
+  Senses senses = Senses::neither;
   /// States at `time`. Those of a wall or of no_body are zero; that of a fixed body is one point of its
   /// shape, at rest. Where space repeats, the first is in the box, and the second in the image that is
   /// nearest to it, inside the box or not: the vector from one to the other is the one that a virial needs.
@@ -86,6 +92,28 @@ struct Event {
   double velocity_excess = 0.0;
   /// sensor_enter and sensor_leave: the sensor distance that has been crossed (length).
   double distance = 0.0;
+  /// BodyDefinition::user_data of the two, of a body that has been removed as well; 0 for none.
+  std::uint64_t first_user_data = 0;
+  std::uint64_t second_user_data = 0;
+
+  /// sensor_enter and sensor_leave: the body that senses, and the one that it senses. Where both sense each
+  /// other, `first` counts as the sensor. no_body, with user data 0, for other events.
+  constexpr BodyId sensor() const {
+    if (senses == Senses::neither) return no_body;
+    return senses == Senses::second ? second : first;
+  }
+  constexpr BodyId visitor() const {
+    if (senses == Senses::neither) return no_body;
+    return senses == Senses::second ? first : second;
+  }
+  constexpr std::uint64_t sensor_user_data() const {
+    if (senses == Senses::neither) return 0;
+    return senses == Senses::second ? second_user_data : first_user_data;
+  }
+  constexpr std::uint64_t visitor_user_data() const {
+    if (senses == Senses::neither) return 0;
+    return senses == Senses::second ? first_user_data : second_user_data;
+  }
 };
 
 }  // namespace kinesphere

@@ -67,18 +67,19 @@ class Probe {
   }
 
  private:
+  static constexpr std::size_t inside_size = 2 * sizeof(void*);
   union Target {
     void* object;
     Function function;
-    alignas(void*) std::byte inside[2 * sizeof(void*)];
+    alignas(void*) std::byte inside[inside_size];
   };
   using Call = void (*)(const Target&, std::span<const BodyId>, double, std::span<State>);
 
   /// Copies of what changes when it is called would not share it.
   template <class Callable>
   static constexpr bool fits_inside =
-      std::is_trivially_copyable_v<Callable> && sizeof(Callable) <= sizeof(Target) &&
-      alignof(Callable) <= alignof(Target) &&
+      std::is_trivially_copyable_v<Callable> && sizeof(Callable) <= inside_size &&
+      alignof(Callable) <= alignof(void*) &&
       std::is_invocable_v<const Callable&, std::span<const BodyId>, double, std::span<State>>;
 
   template <class Callable>

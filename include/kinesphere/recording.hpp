@@ -1,7 +1,7 @@
 // Recordings: all that went into a world and came out of it, so that it can be gone through again.
 //
 //   world.start_recording().value();
-//   // ... advance, kick, add, ask: as ever
+//   // ... advance, change and ask the world as ever
 //   std::vector<std::byte> recording = world.stop_recording().value();
 //
 //   Replay replay = Replay::open(recording).value();

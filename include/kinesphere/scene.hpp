@@ -74,7 +74,7 @@ struct SimulationResult {
 /// Runs a scene under a detector that `make` creates: adds and removes bodies when their time comes, answers
 /// contacts as the scene's response says. Errors: not_finite, time_backwards or out_of_range for times that
 /// cannot be, for more bodies than the motion has and for turns of none; unsupported where bodies are to
-/// bounce whose motion cannot be kicked; those of the detector.
+/// bounce whose motion cannot be changed; those of the detector.
 Result<SimulationResult> simulate(const Scene& scene, const DetectorMaker& make,
                                   const SimulationObserver& observer = {});
 

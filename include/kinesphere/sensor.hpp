@@ -24,6 +24,9 @@ struct Sensor {
 /// All bodies of a class have the same sensor: World::set_sensor.
 using SensorClass = std::uint8_t;
 
+/// The class of zones (World::add_zone). No other body should be in it.
+inline constexpr SensorClass zone_class = 255;
+
 /// Another body within a sensor distance.
 struct Sensed {
   BodyId body = no_body;

@@ -20,9 +20,9 @@ struct UnitCosts {
 };
 
 /// Measures them on this machine, for trees of as many bodies as `motion` has and for reports of it at
-/// `time`, before which nobody may be kicked. Takes about 0.1 s. What is chosen by these costs differs from
-/// run to run; with PaperOptions that is the order of work, so probes and counters, but no contact beyond its
-/// promise.
+/// `time`, before which no velocity may have been set. Takes about 0.1 s. What is chosen by these costs
+/// differs from run to run; with PaperOptions that is the order of work, so probes and counters, but no
+/// contact beyond its promise.
 UnitCosts calibrate_unit_costs(const Motion& motion, double time);
 
 }  // namespace kinesphere

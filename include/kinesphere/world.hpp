@@ -1,6 +1,6 @@
 // The world: moving spheres with unknown trajectories, and every contact among them, in time order.
 //
-//   #include <kinesphere/world.hpp>
+//   #include <kinesphere/kinesphere.hpp>
 //   using namespace kinesphere;
 //
 //   World world = World::create({.box = Box{{0, 0, 0}, {100, 100, 100}}}).value();
@@ -11,19 +11,19 @@
 //   auto probe = [&](std::span<const BodyId> ids, double time, std::span<State> states) {
 //     for (std::size_t k = 0; k < ids.size(); ++k) states[k] = my_simulation.state(ids[k], time);
 //   };
-//   while (auto event = world.advance(60.0, probe).value()) {
-//     if (event->kind == EventKind::contact_begin) {
+//   for (const Event& event : world.events(60.0, probe)) {
+//     if (event.kind == EventKind::contact_begin) {
 //       Vec3 bounced = ...;
-//       my_simulation.set_velocity(event->first, event->time, bounced);
-//       world.set_velocity(event->first, bounced).value();
+//       my_simulation.set_velocity(event.first, event.time, bounced);
+//       world.set_velocity(event.first, bounced).value();
 //     }
 //   }
 //   // now world.time() == 60
 //
-// The caller moves the bodies and the world watches them: it asks the probe for the state of a body
-// only when that can matter, and stops at each event. At each stop, also between the events of one instant,
-// bodies may be kicked, added, removed and changed in any way. The guarantee: as long as bodies keep their
-// promises (BodyDefinition), no two of them overlap by more than the contact tolerance unreported.
+// The caller moves the bodies and the world watches them: it asks the probe for the state of a body only when
+// that can matter, and stops at each event. At each stop, also between the events of one instant, bodies may
+// be added, removed and changed in any way. The guarantee: as long as bodies move within the limits that
+// they have promised (BodyDefinition), no two of them overlap by more than the contact tolerance unreported.
 // docs/guarantee.md has the proof.
 #pragma once
 
@@ -42,6 +42,7 @@
 #include "kinesphere/bound.hpp"
 #include "kinesphere/counters.hpp"
 #include "kinesphere/event.hpp"
+#include "kinesphere/event_range.hpp"
 #include "kinesphere/filter.hpp"
 #include "kinesphere/inspection.hpp"
 #include "kinesphere/probe.hpp"
@@ -53,17 +54,17 @@
 
 namespace kinesphere {
 
-/// Where a body's promise stands now.
+/// What the world knows of a body now.
 struct BodyView {
   BodyDefinition definition{};  ///< with the state of the last report
   Bound bound{};                ///< since the last report
-  Box box{};                    ///< which holds the body until box_end
+  Box box{};                    ///< contains the body until box_end
   double box_end;
   /// Where space repeats: how many boxes the body has gone beyond the first one. definition.position, which
   /// is in the first, plus the size of the box times this is on the path from where the caller last placed
   /// the body (add, teleport, enable) to here.
   std::array<std::int64_t, 3> image{};
-  bool enabled;  ///< a disabled body has no bound and no box: they are what they were
+  bool enabled;  ///< while it is false, bound and box are stale
   /// It never moves: shape_of() tells its shape. Its state is that of one point of it, and box_end is
   /// infinite.
   bool fixed;
@@ -81,10 +82,28 @@ struct AuditFinding {
 
 class Recorder;
 
+/// Errors. Every call checks what it is handed, in every build type, and a call that returns an error has
+/// changed nothing. Besides the errors that stand at a call,
+///   - a call that names a body may return unknown_body, stale_body (the body has been removed) or
+///     foreign_body (the id is one of another world);
+///   - a call that changes the world or could probe, and every other call marked with probe_in_progress
+///   below,
+///     returns that inside this world's own probe, and filter_in_progress inside its own pair filter;
+///   - a call that takes a Probe may return null_probe and, for a bad answer, not_finite or out_of_range;
+///   - a world that has been moved from answers every call with moved_from, or throws BadResult where a call
+///     returns no Result.
+///
+/// Threads. One thread at a time may use a world; const calls may run at the same time as other const calls
+/// of the same world, as long as its pair filter may be called so. Different worlds, clones too, are
+/// independent.
+///
+/// Lifetimes. References that a world gives out (definition(), counters(), sensor()) are good as long as the
+/// world lives and is not assigned to; what they refer to changes as the world goes on. sensor() is good
+/// until the next set_sensor(). The spans of a probe are good during its call. All else is a copy.
 class World {
  public:
   /// Errors: not_finite or out_of_range, naming the field.
-  static Result<World> create(const WorldDefinition& definition);
+  [[nodiscard]] static Result<World> create(const WorldDefinition& definition);
 
   /// Of a world that has been moved from all calls fail with moved_from; those that do not return a Result
   /// throw BadResult. It may be assigned to and destroyed. A world that is moved from, assigned to or
@@ -94,9 +113,11 @@ class World {
   World& operator=(World&&) noexcept;
   ~World();
 
-  /// Adds a body at the current time. Errors: not_finite; out_of_range (a negative radius, limit or
-  /// error; a number beyond limits.hpp); outside_domain; overlapping. Cost: O(1) here (a grid search where overlaps are not
-  /// allowed), a grid search at the next advance.
+  /// Adds a body at the current time. Errors: not_finite; out_of_range (a negative radius, limit or error; a
+  /// number beyond limits.hpp; where space
+  /// repeats, a radius or sensor distance for which the box is too small); outside_domain; overlapping;
+  /// probe_in_progress. Cost: O(1) here (a grid search where overlaps are not allowed), a grid search at the
+  /// next advance.
   Result<BodyId> add(const BodyDefinition& body);
   /// Makes room for this many bodies in all, as std::vector::reserve() does: adding them takes less time and
   /// memory then, and nothing else changes. Errors: probe_in_progress; out_of_range (more than 2^32 - 1).
@@ -109,18 +130,23 @@ class World {
   /// out of the box of the world. Errors: not_finite; out_of_range (a coordinate, offset or radius beyond
   /// limits.hpp, a negative radius, a box without lower <= upper, a triangle thinner than 2^-20
   /// of its longest side, a normal whose length differs from 1 by more than 10^-6: the world makes it 1);
-  /// unsupported (all but balls where space repeats, a triangle in two dimensions); overlapping. Cost: O(1)
-  /// here (a grid search where overlaps are not allowed), a grid search at the next advance.
+  /// unsupported (all but balls where space repeats, a triangle in two dimensions); overlapping;
+  /// probe_in_progress. Cost: O(1) here (a grid search where overlaps are not allowed), a grid search at the
+  /// next advance.
   Result<BodyId> add_fixed(const FixedDefinition& body);
+  /// Adds a zone: a fixed body that touches nobody and tells who comes in and goes, by sensor_enter and
+  /// sensor_leave at distance 0. It belongs to the sensor class zone_class (255), which gets that distance
+  /// with the first zone if it has none; set_sensor(zone_class, ...) gives all zones other distances or
+  /// another mask, set_filter one of them another filter. Errors and cost: as add_fixed().
+  Result<BodyId> add_zone(const Shape& shape, std::uint64_t user_data = 0);
   /// Adds all of them or, on an error (as above, naming the one), none.
   Result<std::vector<BodyId>> add_fixed_all(std::span<const FixedDefinition> bodies);
   /// The shape of a fixed body as the world keeps it; of any other a ball at its last report.
-  /// Errors: unknown_body, stale_body.
   Result<Shape> shape_of(BodyId body) const;
 
   /// Removes a body. Its contacts end: the end events come at the next advance, with its state as its last
-  /// report predicts it (ContactMode::impacts has no ends).
-  /// Errors: unknown_body, stale_body. Cost: O(log n + contacts).
+  /// report predicts it (ContactMode::impacts has no ends). Errors: probe_in_progress. Cost: O(log n +
+  /// contacts).
   Result<void> remove(BodyId body);
   /// Removes all of them or, on an error (as above, naming the one; a body that is named twice is stale the
   /// second time), none.
@@ -129,31 +155,31 @@ class World {
   /// Tells the world that the velocity of this body is `velocity` from the current time on; the probe
   /// must answer accordingly, or a bound_violation says by how much it does not. Everything certified about
   /// the body so far is void. If it has not been probed at this very time (both bodies of a contact have) the
-  /// next advance does so first. Errors: unknown_body, stale_body, disabled_body, fixed_body, not_finite,
-  /// out_of_range.
-  /// Cost: O(1) here, a grid search at the next advance.
+  /// next advance does so first. Errors: disabled_body; fixed_body; not_finite; out_of_range (beyond 1e100,
+  /// or z other than 0 in two dimensions); probe_in_progress. Cost: O(1) here, a grid search at the next
+  /// advance.
   Result<void> set_velocity(BodyId body, const Vec3& velocity);
 
   // Further changes. A contact that one of them certainly ends is reported as ended at the next advance,
-  // before all other events, with the states from before the change; one that goes on through it goes on
-  // without events; an overlap that it creates begins at once. Each costs O(log n + contacts) here (and a
-  // grid search where overlaps are not allowed: then what add() refuses is refused here too) and a grid
-  // search at the next advance, which first probes the body if its last report is older than the change.
-  // Errors of all: unknown_body, stale_body, probe_in_progress, and as add() for what they set.
+  // before all other events, with the states from before the change; a contact that survives emits nothing;
+  // an overlap that a change creates begins at once. Each costs O(log n + contacts) here (and a grid search
+  // where overlaps are not allowed: then what add() refuses is refused here too) and a grid search at the
+  // next advance, which first probes the body if its last report is older than the change. Errors of all:
+  // probe_in_progress, and as add() for what they set.
 
   /// The body is in another state from the current time on. ContactMode::impacts: its next approach to
-  /// anything is a new contact, as after a kick. Errors: disabled_body, fixed_body.
+  /// anything is a new contact, as after set_velocity(). Errors: disabled_body, fixed_body.
   Result<void> teleport(BodyId body, const State& state);
   /// Errors: fixed_body.
   Result<void> set_radius(BodyId body, double radius);
-  /// From the current time on the body promises this. Errors: fixed_body.
-  Result<void> set_motion_limits(BodyId body, const MotionLimits& promise);
+  /// From the current time on the body moves within these limits. Errors: fixed_body.
+  Result<void> set_motion_limits(BodyId body, const MotionLimits& limits);
 
   /// A disabled body touches nobody and is never probed. It keeps its id, and all but its state may be set.
   /// Its contacts end as in remove(). Errors: disabled_body.
   Result<void> disable(BodyId body);
-  /// It is back, in this state at the current time; a fixed body is back where it was, and its state is not
-  /// looked at. Errors: enabled_body.
+  /// The body is back, in this state at the current time. A fixed body is back where it was, and `state` is
+  /// ignored. Errors: enabled_body.
   Result<void> enable(BodyId body, const State& state);
 
   /// The body stays exactly where it is from now on, until it is woken: while it rests it is not probed, its
@@ -176,54 +202,61 @@ class World {
   /// Contacts that the filter does not let pass end; overlaps that it newly lets pass begin at once, also
   /// where overlaps are not allowed.
   Result<void> set_filter(BodyId body, const Filter& filter);
-  /// A predicate of one's own, asked about pairs whose filters let them touch; an empty one lets all touch.
-  /// It is asked when a body looks for its neighbours, by audit(), by whatever looks for certain overlaps
-  /// (about the id that a new body is going to have), and about the contacts of a body by the two calls
-  /// below; between those its answers are taken to stay as they are. It must not throw and must be symmetric.
-  /// Of this world it may read what is kept of bodies: body(), bodies(), user_data(), shape_of(), contains(),
+  /// A predicate of your own, asked about pairs whose filters let them touch; an empty one lets all touch.
+  /// The world asks it when a body looks for its neighbours, in audit(), when it looks for certain overlaps
+  /// (then about the id that a new body is going to have), and about the contacts of a body in the two calls
+  /// below. Between those calls its answers must not change. It must not throw and must be symmetric. Of this
+  /// world it may read what is kept of bodies: body(), bodies(), user_data(), shape_of(), contains(),
   /// touching(), sensed(), sensor(), time(), size(), definition() and counters(). All other calls, which
   /// would change the world or ask the filter again, fail inside it with filter_in_progress, and audit()
-  /// finds that it was called there. Errors: probe_in_progress, filter_in_progress. Cost: all bodies search
-  /// again at the next advance.
+  /// finds that it was called there. Cost: all bodies search again at the next advance.
   Result<void> set_pair_filter(PairFilter filter);
   /// Tells the world that the pair filter's answers about this body have changed.
   Result<void> refilter(BodyId body);
 
   /// From now on the body touches others, or does not (BodyDefinition::solid).
   Result<void> set_solid(BodyId body, bool solid);
-  /// From now on all bodies of this class have this sensor; without it they sense nothing. Sensor distances
-  /// that no longer count are left, and those that newly do are entered, in events at the next advance.
-  /// Errors: probe_in_progress; not_finite or out_of_range for a distance that is negative or beyond
-  /// limits.hpp or, where space repeats, so large that a body has no room for it, which is named.
-  /// Cost: O(n) here, and each body of the class searches again at the next advance.
+  /// From now on all bodies of this class have this sensor; without it they sense nothing. Where two bodies
+  /// are within a distance that no longer counts, the next advance tells a sensor_leave; where they are
+  /// within one that newly counts, a sensor_enter. Errors: probe_in_progress; not_finite or out_of_range for
+  /// a distance that is negative or beyond limits.hpp or, where space repeats, so large that a
+  /// body has no room for it, which is named. Cost: O(n) here, and each body of the class searches again at
+  /// the next advance.
   Result<void> set_sensor(SensorClass sensor_class, const Sensor& sensor);
   Result<void> set_sensor_class(BodyId body, SensorClass sensor_class);
   const Sensor& sensor(SensorClass sensor_class) const;
 
   Result<void> set_user_data(BodyId body, std::uint64_t data);
-  /// Errors: unknown_body, stale_body.
   Result<std::uint64_t> user_data(BodyId body) const;
+
+  /// All events up to time `until`, for a range-for that goes through them:
+  ///   for (const Event& event : world.events(60.0, probe)) ...
+  /// The world goes on as the loop does, one advance() for each event. When the loop has run to its end,
+  /// time() == until; when it is left early, time() is that of the last event. Bodies may be changed inside
+  /// the loop. The errors of advance() are thrown as BadResult.
+  [[nodiscard]] EventRange events(double until, Probe probe);
 
   /// Goes on to the next event, at most to time `until`. Returns the event, with time() at its time, or
   /// nothing, with time() == until. Events come in the order of (time, kind, first, second, wall, distance);
-  /// those that a kick causes at the same instant follow in a new round of that order, and contacts that
-  /// other changes have ended come first.
-  /// Errors: time_backwards, not_finite or out_of_range (limits.hpp) for `until`; not_finite or out_of_range
-  /// naming the body when the probe answers with such a state: that answer is dropped, time() is when it was
-  /// asked for, no event or fact is lost, and the call may be repeated. The same holds when the probe throws.
-  Result<std::optional<Event>> advance(double until, Probe probe);
+  /// those that a new velocity causes at the same instant follow in a new round of that order, and contacts
+  /// that other changes have ended come first.
+  /// Errors: time_backwards or not_finite for `until`; probe_in_progress; null_probe; not_finite or
+  /// out_of_range naming the body when the probe answers with such a state: that answer is dropped, time() is
+  /// when it was asked for, no event or fact is lost, and the call may be repeated. The same holds when the
+  /// probe throws.
+  [[nodiscard]] Result<std::optional<Event>> advance(double until, Probe probe);
 
   double time() const;
   std::size_t size() const;
   const WorldDefinition& definition() const;
+  /// Whether the id is one of this world whose body has not been removed.
   bool contains(BodyId body) const;
-  /// Errors: unknown_body, stale_body.
   Result<BodyView> body(BodyId id) const;
   /// The living bodies, disabled ones too, by index.
   std::vector<BodyId> bodies() const;
   const Counters& counters() const;
 
-  // What the events so far add up to. Errors: unknown_body, stale_body.
+  // What the events so far add up to.
 
   /// Whom the body touches, in the order in which the contacts began.
   Result<std::vector<BodyId>> touching(BodyId body) const;
@@ -250,15 +283,15 @@ class World {
   /// world it does no more than say so.
   std::optional<AuditFinding> audit() const;
 
-  // Certificates as answers (answers.hpp). All of them fail with probe_in_progress inside a probe. With a
-  // Probe also as advance() does: not_finite or out_of_range for a bad answer, which is dropped.
+  // Certificates as answers (answers.hpp). Errors of all: probe_in_progress. With a Probe also as advance():
+  // null_probe; not_finite or out_of_range for a bad answer, which is dropped.
 
-  /// The two do not begin to touch before this. Errors: unknown_body, stale_body; out_of_range for the same
-  /// body twice. Cost: O(watches of both); with a probe at most two states.
+  /// The two do not begin to touch before this. Errors: out_of_range for the same body twice. Cost: O(watches
+  /// of both); with a probe at most two states.
   Result<SafeTime> safe_until(BodyId first, BodyId second) const;
   Result<SafeTime> safe_until(BodyId first, BodyId second, Probe probe);
-  /// The body begins to touch no other and no wall before this. Errors: unknown_body, stale_body. Cost: O(n),
-  /// for most bodies a comparison; with a probe that again for each state that limits the answer.
+  /// The body begins to touch no other and no wall before this. Cost: O(n), for most bodies a comparison;
+  /// with a probe that again for each state that limits the answer.
   Result<SafeTime> safe_until(BodyId body) const;
   Result<SafeTime> safe_until(BodyId body, Probe probe);
   /// Nothing begins to touch before this. Cost: O(n) in a crowd, a grid of its own; O(n^2) where the first
@@ -268,11 +301,11 @@ class World {
   /// As safe_until(body), naming what limits the answer: the partner or wall that may come first.
   Result<EarliestContact> earliest_contact(BodyId body) const;
   Result<EarliestContact> earliest_contact(BodyId body, Probe probe);
-  /// The surfaces of the two do not come within `distance` (length, 0 to 2^43 contact tolerances) of each
-  /// other before this. It is about where the bodies are and nothing else: filters and solid do not count.
-  /// Errors: as safe_until(first, second); not_finite or out_of_range for `distance`. Of two fixed bodies
-  /// that are not both balls nothing is known: the answer is now. Cost: O(1); with a probe at most two
-  /// states.
+  /// The surfaces of the two do not come within `distance` (length >= 0, at most that of queries in
+  /// limits.hpp) of each other before this. It is about where the bodies are and nothing else: filters and
+  /// solid do not count. Errors: as safe_until(first, second); not_finite or out_of_range for `distance`. Of
+  /// two fixed bodies that are not both balls nothing is known: the answer is now. Cost: O(1); with a probe
+  /// at most two states.
   Result<SafeSeparation> safe_until(BodyId first, BodyId second, double distance) const;
   Result<SafeSeparation> safe_until(BodyId first, BodyId second, double distance, Probe probe);
   /// The same for a body and all others that its filter and the pair filter let it meet (also those that are
@@ -289,7 +322,8 @@ class World {
 
   // Queries at the current time (queries.hpp). Errors: probe_in_progress; not_finite or out_of_range for
   // points and lengths beyond limits.hpp, and for negative lengths; with a Probe
-  // also as above. Cost: a grid search, what it finds, and the bodies added or kicked since the last advance.
+  // also as above. Cost: a grid search, what it finds, and the bodies added or changed since the last
+  // advance.
 
   /// The bodies that may overlap a sphere, by index. With a probe: one state for each that is in doubt.
   Result<std::vector<Found>> overlapping(const Vec3& centre, double radius) const;
@@ -302,10 +336,11 @@ class World {
   /// of them probed. Cost: grid searches of doubling size.
   Result<std::vector<Near>> nearest(const Vec3& point, std::size_t count) const;
   Result<std::vector<Near>> nearest(const Vec3& point, std::size_t count, Probe probe);
-  /// All bodies that may be the first on the way from `origin` along `direction` (of any length > 0), by lower limit of that way: empty when there certainly is none within `length`. A single body
-  /// that is certainly the first is marked so. With a probe all of them are probed. Walls do not count. Where
-  /// space repeats the length may be at most 64 boxes, and a sphere's radius half a box (out_of_range). Cost:
-  /// at most 64 grid searches along the way.
+  /// All bodies that may be the first on the way from `origin` along `direction` (of any length > 0), by
+  /// lower limit of that way: empty when there certainly is none within `length`. A single body that is
+  /// certainly the first is marked so. With a probe all of them are probed. Walls do not count. Where space
+  /// repeats the length may be at most 64 boxes, and a sphere's radius half a box (out_of_range). Cost: at
+  /// most 64 grid searches along the way.
   Result<std::vector<Hit>> ray_cast(const Vec3& origin, const Vec3& direction, double length) const;
   Result<std::vector<Hit>> ray_cast(const Vec3& origin, const Vec3& direction, double length, Probe probe);
   /// The same for a sphere of this radius.

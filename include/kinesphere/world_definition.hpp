@@ -12,8 +12,9 @@ namespace kinesphere {
 enum class ContactMode {
   /// Each contact has a begin and an end.
   begin_and_end,
-  /// For bodies that bounce: a begin whenever two bodies touch and approach, and no ends. Once a kick
-  /// has turned them apart the next approach is a new contact, however small the gap was in between.
+  /// For bodies that bounce: a begin whenever two bodies touch and approach, and no ends. Once
+  /// set_velocity() has turned them apart, the next approach is a new contact, however small the gap was in
+  /// between.
   impacts,
 };
 

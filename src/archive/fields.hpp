@@ -103,10 +103,11 @@ void transfer(Self& self, Archive& archive) {
 
 template <Some<Event> Self, class Archive>
 void transfer(Self& self, Archive& archive) {
-  auto& [kind, time, first, second, wall, repeated, jammed, first_state, second_state, point, normal, gap,
-         approach_speed, position_excess, velocity_excess, distance] = self;
-  archive(kind, time, first, second, wall, repeated, jammed, first_state, second_state, point, normal, gap,
-          approach_speed, position_excess, velocity_excess, distance);
+  auto& [kind, time, first, second, wall, repeated, jammed, senses, first_state, second_state, point, normal,
+         gap, approach_speed, position_excess, velocity_excess, distance, first_user_data, second_user_data] =
+      self;
+  archive(kind, time, first, second, wall, repeated, jammed, senses, first_state, second_state, point, normal,
+          gap, approach_speed, position_excess, velocity_excess, distance, first_user_data, second_user_data);
 }
 
 template <Some<Axes> Self, class Archive>

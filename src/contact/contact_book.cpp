@@ -5,6 +5,12 @@
 #include <tuple>
 
 namespace kinesphere {
+namespace {
+
+/// For one that was read.
+bool is_sound(Senses senses) { return senses <= Senses::both; }
+
+}  // namespace
 
 void ContactBook::add(std::uint32_t body, double largest_acceleration) {
   if (body >= entries_.size()) entries_.resize(body + 1);
@@ -19,6 +25,13 @@ bool ContactBook::touch(std::uint32_t a, std::uint32_t b) const {
   return std::find(partners.begin(), partners.end(), b) != partners.end();
 }
 
+/// What the sensor_enter of the same two and the same distance told.
+Senses ContactBook::senses_of(const Event& leave) const {
+  for (const Crossing& crossing : crossings_of(leave.first.index, leave.second.index))
+    if (crossing.distance == leave.distance) return crossing.senses;
+  return Senses::neither;
+}
+
 /// Of the bodies, or of the body and the wall, that the event names: their contact or a sensor distance.
 void ContactBook::set_touching(const Event& contact, bool touching) {
   const std::uint32_t a = contact.first.index;
@@ -28,8 +41,8 @@ void ContactBook::set_touching(const Event& contact, bool touching) {
     const std::uint8_t bit = wall_bit(contact.wall);
     set = static_cast<std::uint8_t>(touching ? set | bit : set & ~bit);
   } else if (is_of_sensor(contact.kind)) {
-    const Crossing of_a{b, contact.distance};
-    const Crossing of_b{a, contact.distance};
+    const Crossing of_a{b, contact.distance, contact.senses};
+    const Crossing of_b{a, contact.distance, contact.senses};
     if (touching) {
       crossings_.add(a, of_a);
       crossings_.add(b, of_b);
@@ -125,8 +138,8 @@ void ContactBook::note_contact(std::uint32_t body, double time) {
 bool ContactBook::contacts_are_sound(const std::optional<Box>& box) const {
   // A contact as a crossing of its own.
   constexpr double contact = -1.0;
-  std::vector<std::tuple<std::uint32_t, std::uint32_t, double>> there;
-  std::vector<std::tuple<std::uint32_t, std::uint32_t, double>> back;
+  std::vector<std::tuple<std::uint32_t, std::uint32_t, double, Senses>> there;
+  std::vector<std::tuple<std::uint32_t, std::uint32_t, double, Senses>> back;
   for (std::uint32_t body = 0; body < entries_.size(); ++body) {
     const Entry& entry = entries_[body];
     if (std::isnan(entry.last_contact) || !(entry.zeno_interval.value() >= 0.0)) return false;
@@ -135,13 +148,13 @@ bool ContactBook::contacts_are_sound(const std::optional<Box>& box) const {
       if (box && stands(*box, wall)) standing = static_cast<std::uint8_t>(standing | wall_bit(wall));
     if ((entry.walls & ~standing) != 0) return false;
     for (const std::uint32_t partner : partners_of(body)) {
-      there.emplace_back(body, partner, contact);
-      back.emplace_back(partner, body, contact);
+      there.emplace_back(body, partner, contact, Senses::neither);
+      back.emplace_back(partner, body, contact, Senses::neither);
     }
     for (const Crossing& crossing : crossings_of(body)) {
-      if (!(crossing.distance >= 0.0)) return false;
-      there.emplace_back(body, crossing.partner, crossing.distance);
-      back.emplace_back(crossing.partner, body, crossing.distance);
+      if (!(crossing.distance >= 0.0) || !kinesphere::is_sound(crossing.senses)) return false;
+      there.emplace_back(body, crossing.partner, crossing.distance, crossing.senses);
+      back.emplace_back(crossing.partner, body, crossing.distance, crossing.senses);
     }
   }
   const auto impossible = [](const auto& pair) { return std::get<0>(pair) == std::get<1>(pair); };
@@ -158,6 +171,7 @@ bool ContactBook::is_sound(std::size_t bodies, double time, const std::optional<
     const bool wall = event.second == no_body && event.wall != Wall::none &&
                       static_cast<int>(event.wall) <= wall_count && box && stands(*box, event.wall);
     if (event.time != time || !is_known(event.first)) return false;
+    if (!kinesphere::is_sound(event.senses)) return false;
     switch (event.kind) {
       case EventKind::bound_violation:
       case EventKind::woken:

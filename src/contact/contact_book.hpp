@@ -80,6 +80,7 @@ class ContactBook {
       found.push_back(
           contact_event(EventKind::sensor_leave, time, sphere(body), sphere(crossing.partner), space_));
       found.back().distance = crossing.distance;
+      found.back().senses = crossing.senses;
     }
     for (const Event& event : found)
       if (ends(event)) end(event);
@@ -114,9 +115,10 @@ class ContactBook {
   bool is_quiet() const { return ended_.empty() && pending_.empty(); }
   /// The next event that still holds after what the caller did at the ones before it; first of all the ends
   /// that the caller brought about, which stay as they were then. `is_there(id)` tells whether a body has not
-  /// gone, `sphere(number)` gives it as it is now.
-  template <class IsThere, class SphereNow>
-  std::optional<Event> deliver(IsThere is_there, SphereNow sphere, const std::optional<Box>& box) {
+  /// gone, `sphere(number)` gives it as it is now, `senses_in(event)` tells whose sensor the two enter.
+  template <class IsThere, class SphereNow, class SensesIn>
+  std::optional<Event> deliver(IsThere is_there, SphereNow sphere, SensesIn senses_in,
+                               const std::optional<Box>& box) {
     std::optional<Event> event;
     if (!ended_.empty()) {
       event = ended_.extract(ended_.begin()).value();
@@ -127,6 +129,8 @@ class ContactBook {
       const bool alone = event->second == no_body;
       if (is_there(event->first) && (alone || is_there(event->second))) {
         const Sphere first = sphere(event->first.index);
+        if (event->kind == EventKind::sensor_enter) event->senses = senses_in(*event);
+        if (event->kind == EventKind::sensor_leave) event->senses = senses_of(*event);
         if (take_effect(*event, first, alone ? first : sphere(event->second.index), box)) return event;
       } else if (!begins(event->kind) && event->kind != EventKind::zeno_guard) {
         return event;
@@ -134,6 +138,13 @@ class ContactBook {
     }
     event.reset();
     return event;
+  }
+
+  /// The same where nothing is sensed.
+  template <class IsThere, class SphereNow>
+  std::optional<Event> deliver(IsThere is_there, SphereNow sphere, const std::optional<Box>& box) {
+    return deliver(
+        is_there, sphere, [](const Event&) { return Senses::neither; }, box);
   }
 
   /// Pairs (a body and itself: its walls) whose contact has been changed by a delivered event, so that
@@ -192,6 +203,7 @@ class ContactBook {
   }
 
   void set_touching(const Event& contact, bool touching);
+  Senses senses_of(const Event& leave) const;
   void end(const Event& contact);
   bool take_effect(Event& event, const Sphere& first, const Sphere& second, const std::optional<Box>& box);
   bool still_begins(const Event& now, const Sphere& first, const Sphere& second) const;

@@ -42,6 +42,8 @@ void describe_surface(Event& event, const Sphere& sphere, const Sphere& surface)
 void describe_as_seen(Event& event, const Sphere& first, const Sphere& second) {
   event.first_state = first.state;
   event.second_state = second.state;
+  event.first_user_data = first.user_data;
+  event.second_user_data = second.user_data;
   if (first.shape || second.shape) {
     describe_surface(event, first.shape ? second : first, first.shape ? first : second);
   } else {
@@ -84,6 +86,7 @@ Event wall_event(EventKind kind, double time, const Sphere& sphere, const Box& b
 void describe(Event& event, const Sphere& sphere, const Box& box) {
   const HalfSpace inside = half_space(box, event.wall);
   event.first_state = sphere.state;
+  event.first_user_data = sphere.user_data;
   event.normal = -inside.normal;
   const double distance = dot(inside.normal, sphere.state.position) - inside.offset;
   event.gap = distance - sphere.radius;
@@ -110,10 +113,11 @@ double approach_error(const Event& event, const Sphere& first, const Sphere& sec
   return approach_error(event, event.gap + (first.shape ? second : first).radius);
 }
 
-Event violation_event(double time, BodyId body, const State& report, const BrokenPromise& broken) {
-  Event event{.kind = EventKind::bound_violation, .time = time, .first = body};
-  event.first_state = report;
-  event.point = report.position;
+Event violation_event(double time, const Sphere& sphere, const BrokenPromise& broken) {
+  Event event{.kind = EventKind::bound_violation, .time = time, .first = sphere.id};
+  event.first_state = sphere.state;
+  event.first_user_data = sphere.user_data;
+  event.point = sphere.state.position;
   event.position_excess = broken.position_excess;
   event.velocity_excess = broken.velocity_excess;
   return event;

@@ -15,6 +15,7 @@ struct Sphere {
   double radius;
   State state;
   const Shape* shape = nullptr;  ///< of a fixed body that is no ball: then that counts, not the radius
+  std::uint64_t user_data = 0;
 };
 
 /// Event::first is the one with the smaller id, whichever comes first here.
@@ -31,8 +32,8 @@ void describe(Event& event, const Sphere& sphere, const Box& box);
 /// roundings do to positions and velocities: a few units in the last place each.
 double approach_error(const Event& event, double arm);
 double approach_error(const Event& event, const Sphere& first, const Sphere& second);
-/// A bound_violation.
-Event violation_event(double time, BodyId body, const State& report, const BrokenPromise& broken);
+/// A bound_violation of the sphere, whose state is the report.
+Event violation_event(double time, const Sphere& sphere, const BrokenPromise& broken);
 
 /// The walls of a world as a box, from -infinity to +infinity on axes that have none; nothing where no axis
 /// has any.

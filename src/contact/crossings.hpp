@@ -10,6 +10,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "kinesphere/event.hpp"
+
 namespace kinesphere {
 
 class HeapCounter;
@@ -22,11 +24,13 @@ inline bool is_farther(double a, double b) { return a > b || (std::isnan(b) && !
 struct Crossing {
   std::uint32_t partner;
   double distance;
+  /// As the sensor_enter told; "first" is the body with the smaller index.
+  Senses senses = Senses::neither;
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [whom, how_far] = self;
-    archive(whom, how_far);
+    auto& [whom, how_far, who_senses] = self;
+    archive(whom, how_far, who_senses);
   }
   friend bool operator==(const Crossing&, const Crossing&) = default;
   /// By partner, and of each from the outermost distance inward: the last one is the next to be left.

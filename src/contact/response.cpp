@@ -6,33 +6,48 @@
 namespace kinesphere {
 namespace {
 
-/// The two leave each other with `kept` times their approach speed, or with none where they are jammed.
-Bounce rebound(const Event& contact, double first_mass, double second_mass, double kept) {
-  if (contact.jammed) kept = 0.0;
-  const Vec3 change = contact.normal * ((1.0 + kept) * contact.approach_speed);
+/// The part of the change of velocity that a body takes: the limit of other / (own + other). Two bodies that
+/// both have no mass take half of it each, two of infinite mass all of it.
+double share(double own, double other) {
+  own = own < 0.0 ? 0.0 : own;
+  other = other < 0.0 ? 0.0 : other;
+  if (std::isinf(other)) return 1.0;
+  if (own == 0.0 && other == 0.0) return 0.5;
+  const double mass = own + other;
+  return std::isinf(mass) && std::isfinite(own) ? 0.5 * other / (0.5 * own + 0.5 * other) : other / mass;
+}
+
+/// The speed at which the two approach and that at which they leave each other, `kept` times as large or,
+/// where they are jammed, zero.
+double both_speeds(const Event& contact, double kept) {
+  return (1.0 + (contact.jammed ? 0.0 : kept)) * contact.approach_speed;
+}
+
+/// Their relative velocity along the normal changes by this speed.
+Bounce rebound(const Event& contact, double first_mass, double second_mass, double speed) {
+  const Vec3 change = contact.normal * speed;
   if (contact.second == no_body) return {contact.first_state.velocity - change, {}};
-  const double mass = first_mass + second_mass;
-  // The lighter of a finite and an infinite mass takes all of the change.
-  const auto share_of = [mass](double other) {
-    return std::isinf(mass) ? (std::isinf(other) ? 1.0 : 0.0) : other / mass;
-  };
-  return {contact.first_state.velocity - change * share_of(second_mass),
-          contact.second_state.velocity + change * share_of(first_mass)};
+  return {contact.first_state.velocity - change * share(first_mass, second_mass),
+          contact.second_state.velocity + change * share(second_mass, first_mass)};
 }
 
 }  // namespace
 
 Bounce bounce(const Event& contact, double first_mass, double second_mass, double restitution) {
-  return rebound(contact, first_mass, second_mass, contact.repeated ? 1.0 : restitution);
+  return rebound(contact, first_mass, second_mass,
+                 both_speeds(contact, contact.repeated ? 1.0 : restitution));
 }
 
 Bounce settle(const Event& contact, double first_mass, double second_mass, double restitution,
               double resting_speed) {
   const double approach = contact.approach_speed;
-  if (!(approach > 0.0)) return rebound(contact, first_mass, second_mass, restitution);
+  if (!(approach > 0.0)) return rebound(contact, first_mass, second_mass, both_speeds(contact, restitution));
   const bool gains = contact.repeated && restitution < 1.0;
   const double least = gains ? resting_speed : std::min(resting_speed, approach);
-  return rebound(contact, first_mass, second_mass, std::max(restitution, least / approach));
+  const double kept = std::max(restitution, least / approach);
+  // Of the least approach speeds the quotient overflows.
+  const bool overflows = std::isinf(kept) && !contact.jammed;
+  return rebound(contact, first_mass, second_mass, overflows ? approach + least : both_speeds(contact, kept));
 }
 
 double least_resting_speed(double contact_tolerance, double acceleration) {

@@ -42,11 +42,13 @@ std::optional<double> SensorTable::next_inward(const Sensing& a, const Sensing& 
   return largest;
 }
 
+bool SensorTable::senses_one_way(const Sensing& watcher, const Sensing& watched, double distance) const {
+  const Distances all = distances_at(watcher, watched);
+  return std::binary_search(all.begin(), all.end(), distance, is_farther);
+}
+
 bool SensorTable::senses(const Sensing& a, const Sensing& b, double distance) const {
-  const auto among = [distance](Distances all) {
-    return std::binary_search(all.begin(), all.end(), distance, is_farther);
-  };
-  return among(distances_at(a, b)) || among(distances_at(b, a));
+  return senses_one_way(a, b, distance) || senses_one_way(b, a, distance);
 }
 
 void SensorTable::sort() {

@@ -42,6 +42,8 @@ class SensorTable {
   /// sensors senses, or both are the same, and the outermost distances are crossed, which they are unless a
   /// sensor has just been changed; otherwise O(number of distances).
   std::optional<double> next_inward(const Sensing& a, const Sensing& b, Crossings::List crossed) const;
+  /// Whether the watcher senses the other at this distance. Cost: O(log of the number of distances).
+  bool senses_one_way(const Sensing& watcher, const Sensing& watched, double distance) const;
   /// Whether one of the two senses the other at this distance. Cost: O(log of the number of distances).
   bool senses(const Sensing& a, const Sensing& b, double distance) const;
 

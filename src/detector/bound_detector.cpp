@@ -120,7 +120,7 @@ void BoundDetector::probe(std::uint32_t number) {
   const auto broken = broken_promise(before, body.bound, body.definition.radius, body.kicked_to,
                                      definition_.contact_tolerance);
   if (!broken) return;
-  book_.announce(violation_event(time_, {number, 0}, state, *broken));
+  book_.announce(violation_event(time_, {.id = {number, 0}, .state = state}, *broken));
   begin_new_course(number);
 }
 

@@ -10,7 +10,8 @@ namespace kinesphere {
 namespace {
 
 bool is_sound(const Event& event) {
-  return static_cast<int>(event.kind) < event_kind_count && static_cast<int>(event.wall) <= wall_count;
+  return static_cast<int>(event.kind) < event_kind_count && static_cast<int>(event.wall) <= wall_count &&
+         event.senses <= Senses::both;
 }
 
 /// What was asked for has an end, and an outcome that there can be.

@@ -8,7 +8,8 @@ Sphere World::Engine::sphere(std::uint32_t number) const {
   Sphere sphere{id_of(number),
                 bound.radius,
                 {bound.centre_at(time_), bound.velocity_at(time_)},
-                shapes_.empty() ? nullptr : extent(number).shape};
+                shapes_.empty() ? nullptr : extent(number).shape,
+                bodies_[number].user_data};
   if (space_.repeats()) sphere.state.position = space_.wrapped(sphere.state.position).position;
   return sphere;
 }
@@ -21,10 +22,21 @@ Event World::Engine::wall_contact(EventKind kind, std::uint32_t number, Wall wal
   return wall_event(kind, time_, sphere(number), *walls_, wall);
 }
 
+/// Who senses the other at the distance of this event now.
+Senses World::Engine::senses_in(const Event& event) const {
+  const Sensing first = sensing_of(event.first.index);
+  const Sensing second = sensing_of(event.second.index);
+  const bool by_first = sensors_.senses_one_way(first, second, event.distance);
+  const bool by_second = sensors_.senses_one_way(second, first, event.distance);
+  if (by_first && by_second) return Senses::both;
+  return by_first ? Senses::first : by_second ? Senses::second : Senses::neither;
+}
+
 std::optional<Event> World::Engine::deliver() {
   std::optional<Event> event =
       book_.deliver([this](BodyId id) { return id == id_of(id.index) && bodies_[id.index].present(); },
-                    [this](std::uint32_t number) { return sphere(number); }, walls_);
+                    [this](std::uint32_t number) { return sphere(number); },
+                    [this](const Event& enter) { return senses_in(enter); }, walls_);
   if (!event) return event;
   // Of events that a snapshot held, ids have lost their tags.
   event->first.world = tag_;

@@ -327,6 +327,7 @@ class World::Engine {
   Sphere sphere(std::uint32_t number) const;
   Event contact(EventKind kind, std::uint32_t a, std::uint32_t b) const;
   Event wall_contact(EventKind kind, std::uint32_t number, Wall wall) const;
+  Senses senses_in(const Event& event) const;
   std::optional<Event> deliver();
 
   // snapshot.cpp.

@@ -92,9 +92,9 @@ void World::Engine::apply_report(std::uint32_t number, const State& answer) {
       broken_promise(before, body.bound, body.radius, kicked_to, definition_.contact_tolerance);
   if (body.is_resting()) stand_still(body);
   if (!broken) return;
-  const Event violation = violation_event(time_, id_of(number),
-                                          {space_.wrapped(state.position).position, state.velocity}, *broken);
-  book_.announce(violation);
+  Sphere reported = sphere(number);
+  reported.state = {space_.wrapped(state.position).position, state.velocity};
+  book_.announce(violation_event(time_, reported, *broken));
   void_facts(number);
 }
 

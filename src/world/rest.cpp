@@ -63,7 +63,8 @@ void World::Engine::rouse(std::uint32_t number) {
               .time = time_,
               .first = now.id,
               .first_state = {now.state.position, {}},
-              .point = now.state.position});
+              .point = now.state.position,
+              .first_user_data = now.user_data});
 }
 
 /// The body, if it rests, and all resting bodies in touch with it, with those, and so on.

@@ -263,6 +263,10 @@ Result<std::optional<Event>> World::advance(double until, Probe probe) {
   return timing_ ? timed_advance(until, probe) : recorded_advance(until, probe);
 }
 
+EventRange World::events(double until, Probe probe) { return {*this, until, std::move(probe)}; }
+
+void EventRange::go_on() { event_ = world_->advance(until_, probe_).value(); }
+
 Result<std::optional<Event>> World::recorded_advance(double until, const Probe& probe) {
   if (!recorder_) return changeable().advance(until, probe);
   Recorder::Listener listener(*recorder_, *this, probe, until);

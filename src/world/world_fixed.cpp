@@ -12,6 +12,21 @@ Result<BodyId> World::add_fixed(const FixedDefinition& body) {
   return changing(step::AddFixed{*kept}).add_fixed(*kept);
 }
 
+Result<BodyId> World::add_zone(const Shape& shape, std::uint64_t user_data) {
+  const Check check(*this, "add_zone");
+  if (auto idle = check.idle(); !idle) return idle.error();
+  const auto kept =
+      check.new_fixed({.shape = shape, .solid = false, .sensor_class = zone_class, .user_data = user_data},
+                      engine_->next_id());
+  if (!kept) return kept.error();
+  if (engine_->sensors().of(zone_class).distances.empty()) {
+    Sensor touch = engine_->sensors().of(zone_class);
+    touch.distances = {0.0};
+    changing(step::SetSensor{zone_class, touch}).set_sensor(zone_class, touch);
+  }
+  return changing(step::AddFixed{*kept}).add_fixed(*kept);
+}
+
 Result<std::vector<BodyId>> World::add_fixed_all(std::span<const FixedDefinition> bodies) {
   if (auto idle = Check(*this, "add_fixed_all").idle(); !idle) return idle.error();
   std::vector<FixedDefinition> kept;

@@ -53,6 +53,39 @@ TEST(Bounce, EqualMassesSwapAndAHeavyOneStays) {
   EXPECT_EQ(other_way.second_velocity.x, 4.0);
 }
 
+TEST(Bounce, OfMassesThatAreNoneIsTheLimitOfSmallOnes) {
+  const Event event = contact_event(EventKind::contact_begin, 0.0, {{0, 0}, 1, {{}, {2, 0, 0}}},
+                                    {{1, 0}, 1, {{2, 0, 0}, {}}});
+  for (const double none : {0.0, -0.0, -3.0, -infinity}) {
+    const Bounce light = bounce(event, none, 1.0, 1.0);
+    EXPECT_EQ(light.first_velocity, (Vec3{-2, 0, 0})) << none;
+    EXPECT_EQ(light.second_velocity, Vec3()) << none;
+    const Bounce both = bounce(event, none, none, 1.0);
+    EXPECT_EQ(both.first_velocity, Vec3()) << none;
+    EXPECT_EQ(both.second_velocity, (Vec3{2, 0, 0})) << none;
+    const Bounce settled = settle(event, none, none, 0.5, 0.1);
+    EXPECT_EQ(settled.first_velocity, (Vec3{0.5, 0, 0})) << none;
+  }
+  const Bounce huge = bounce(event, 1.5e308, 1e308, 1.0);
+  EXPECT_NEAR(huge.first_velocity.x, 2.0 - 4.0 * 0.4, 1e-12);
+  EXPECT_NEAR(huge.second_velocity.x, 4.0 * 0.6, 1e-12);
+}
+
+TEST(Bounce, OfTheLeastApproachIsFinite) {
+  Event event = contact_event(EventKind::contact_begin, 0.0, {{0, 0}, 1, {{}, {0, 0, 0}}},
+                              {{1, 0}, 1, {{2, 0, 0}, {}}});
+  event.approach_speed = 5e-324;
+  event.repeated = true;  // otherwise nothing is gained
+  const Bounce after = settle(event, 1.0, 1.0, 0.5, 0.1);
+  EXPECT_NEAR(after.second_velocity.x - after.first_velocity.x, 0.1, 1e-12);
+}
+
+TEST(Bounce, OfANaNIsNaN) {
+  const Event event = contact_event(EventKind::contact_begin, 0.0, {{0, 0}, 1, {{}, {2, 0, 0}}},
+                                    {{1, 0}, 1, {{2, 0, 0}, {}}});
+  EXPECT_FALSE(is_finite(bounce(event, std::numeric_limits<double>::quiet_NaN(), 1.0, 1.0).first_velocity));
+}
+
 TEST(Bounce, OffAWallReflects) {
   const Event event = wall_event(EventKind::wall_begin, 0.0, {{0, 0}, 1, {{9, 5, 5}, {3, 1, -2}}},
                                  Box{{0, 0, 0}, {10, 10, 10}}, Wall::x_upper);

@@ -27,6 +27,8 @@ TEST(ForeignId, IsRefusedByEveryCallThatTakesOne) {
   refused(world.set_motion_limits(id, {}), "set_motion_limits");
   refused(world.disable(id), "disable");
   refused(world.enable(id, {}), "enable");
+  refused(world.rest(id), "rest");
+  refused(world.wake(id), "wake");
   refused(world.set_filter(id, {}), "set_filter");
   refused(world.refilter(id), "refilter");
   refused(world.set_solid(id, true), "set_solid");

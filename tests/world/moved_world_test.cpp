@@ -34,6 +34,9 @@ TEST(MovedFromWorld, AnswersEveryCallWithAnError) {
   refused(world.set_motion_limits(id, {}), "set_motion_limits");
   refused(world.disable(id), "disable");
   refused(world.enable(id, {}), "enable");
+  refused(world.rest(id), "rest");
+  refused(world.wake(id), "wake");
+  refused(world.add_zone({}), "add_zone");
   refused(world.set_filter(id, {}), "set_filter");
   refused(world.set_pair_filter({}), "set_pair_filter");
   refused(world.refilter(id), "refilter");
@@ -141,6 +144,7 @@ TEST(WorldInItsOwnPairFilterDeathTest, StopsTheProgramWhenItGoes) {
   EXPECT_DEATH(
       {
         auto world = std::make_unique<World>(busy_world());
+        world->add({.position = {11, 0, 0}}).value();
         world
             ->set_pair_filter([&](BodyId, BodyId) {
               world.reset();

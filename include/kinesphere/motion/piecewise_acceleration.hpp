@@ -50,7 +50,7 @@ class PiecewiseAcceleration : public Motion {
   }
 
   /// The acceleration during what is left of interval k, for a body in `state` at the beginning of that: at
-  /// the beginning of the interval, or later if the body was kicked in it. Must depend on nothing but the
+  /// the beginning of the interval, or later if the body was changed in it. Must depend on nothing but the
   /// arguments and what changes only together with restart().
   virtual Vec3 acceleration(std::uint32_t body, std::int64_t k, const State& state) const = 0;
 
@@ -65,7 +65,7 @@ class PiecewiseAcceleration : public Motion {
   BodyDefinition definition_with(std::uint32_t body, double t, const std::vector<double>& limits) const;
 
  private:
-  /// All answers are found by walking from piece to piece, from the last kick on, so they are the same
+  /// All answers are found by walking from piece to piece, from the last change on, so they are the same
   /// whichever piece is remembered.
   struct Course {
     double since;  ///< time of the last change; infinite once the body has been removed

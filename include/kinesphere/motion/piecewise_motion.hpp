@@ -11,7 +11,7 @@
 
 namespace kinesphere {
 
-/// Each body follows a smooth trajectory of its own and cannot be kicked. After its last time it coasts on
+/// Each body follows a smooth trajectory of its own and cannot be changed. After its last time it coasts on
 /// with the velocity it had there. Before its first time it comes in on a straight line with the velocity it
 /// has there; only in that part trajectory() and state() may differ by a rounding.
 class PiecewiseMotion : public Motion {

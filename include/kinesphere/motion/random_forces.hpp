@@ -22,7 +22,7 @@ struct RandomForcesDefinition {
 };
 
 /// During each interval a body has a constant acceleration, drawn uniformly from the ball of radius A. The
-/// draw depends on nothing but (seed, body, interval), so a kick leaves the force as it is.
+/// draw depends on nothing but (seed, body, interval), so set_velocity() leaves the force as it is.
 class RandomForces final : public PiecewiseAcceleration {
  public:
   /// Errors: not_finite or out_of_range, naming the field and the body.

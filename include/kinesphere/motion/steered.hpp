@@ -22,8 +22,8 @@ struct SteeredDefinition {
 };
 
 /// Each body keeps its acceleration, at first zero, until it is steered again. Steering leaves position and
-/// velocity as they are, so the world need not hear of it; a kick leaves the acceleration as it is. States
-/// before the last change of a body are forgotten.
+/// velocity as they are, so the world need not hear of it; set_velocity() leaves the acceleration as it is.
+/// States before the last change of a body are forgotten.
 class Steered final : public PiecewiseAcceleration {
  public:
   /// Errors: not_finite or out_of_range, naming the field and the body.
@@ -34,7 +34,7 @@ class Steered final : public PiecewiseAcceleration {
   Result<std::uint32_t> add(double t, const State& state, double acceleration_limit);
 
   /// Sets the acceleration of a body from t on. Errors: unknown_body; stale_body; not_finite; out_of_range
-  /// when it is longer than the body's limit; time_backwards when t lies before the last steer or kick of the
+  /// when it is longer than the body's limit; time_backwards when t lies before the last change of the
   /// body.
   Result<void> steer(std::uint32_t body, double t, const Vec3& acceleration);
 

@@ -33,7 +33,7 @@ struct VelocityFieldDefinition {
   std::vector<State> start;
   /// A >= 0 (length / time^2), by body.
   std::vector<double> acceleration_limits;
-  /// > 0 (time): bodies look at the field at its multiples, and when they have been kicked.
+  /// > 0 (time): bodies look at the field at its multiples, and when their velocity is set.
   double interval = 0.1;
   /// > 0 (time): in which a body would reach the velocity of the field, if its limit lets it. Less than half
   /// the interval makes it overshoot more and more.
