@@ -40,8 +40,7 @@ Result<std::span<const std::byte>> Envelope::open(std::span<const std::byte> byt
   const auto summed = bytes.first(bytes.size() - checksum_size);
   std::uint64_t expected = 0;
   ByteReader(bytes.last(checksum_size))(expected);
-  if (checksum(summed) != expected)
-    return refusal("must be undamaged, but its checksum is wrong");
+  if (checksum(summed) != expected) return refusal("must be undamaged, but its checksum is wrong");
   return summed.subspan(header_size);
 }
 
