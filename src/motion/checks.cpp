@@ -9,10 +9,11 @@ namespace kinesphere {
 std::optional<Error> wrong_body(std::string_view call, const Motion& motion, std::uint32_t body) {
   if (motion.contains(body)) return std::nullopt;
   const BodyId id{body, 0};
-  const std::string start = std::string(call) + ": body: " + text_of(id);
+  // Not as an id is worded: the largest number is that of no_body.
+  const std::string start = std::string(call) + ": body: body " + text_of(std::size_t{body});
   if (body < motion.size()) return Error{ErrorCode::stale_body, "body", id, start + " has been removed"};
   return Error{ErrorCode::unknown_body, "body", id,
-               start + " is none of this motion, whose bodies are fewer than " + text_of(motion.size() + 1)};
+               start + " is none of this motion, whose numbers are less than " + text_of(motion.size())};
 }
 
 std::optional<Error> wrong_time(std::string_view call, BodyId body, std::string_view argument, double time,

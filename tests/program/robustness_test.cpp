@@ -142,7 +142,7 @@ TEST_F(ProgramTest, LooksAtItsOutputsBeforeItBegins) {
   const std::string scene = "run " + write("s.json", small_scene) + " --seconds 1e9 ";
   const std::string tracks = "tracks " + write("t.csv", "no table") + " --distance 1 ";
   for (const std::string& command : {scene, tracks}) {
-    expect_wrong_input(command + "--contacts " + path("c.txt"), {"c.txt", ".csv or .jsonl"});
+    expect_wrong_input(command + "--contacts " + path("c.txt"), {"c.txt", "ends in .csv"});
     expect_wrong_input(command + "--contacts " + path("none/c.csv"), {"none/c.csv", "No such file"});
   }
   expect_wrong_input(scene + "--record " + path("none/r.kin"), {"none/r.kin", "No such file"});
