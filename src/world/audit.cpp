@@ -245,7 +245,10 @@ class World::Engine::Audit {
       if (room < -(slack_of_gaps() + gap.uncertainty(time))) return time;
       if (time >= last) break;
       const double speed = gap.largest_speed(time, end);
-      time = std::min(last, time + std::max(least_step, room > 0.0 ? room / speed : 0.0));
+      const double next = std::min(last, time + std::max(least_step, room > 0.0 ? room / speed : 0.0));
+      // Where times are too coarse for a step nothing more can be told.
+      if (!(next > time)) break;
+      time = next;
     }
     return std::nullopt;
   }

@@ -73,15 +73,14 @@ TEST(WrongFixedBody, HasToLieInThePlane) {
   EXPECT_EQ(world.size(), 0u);
 }
 
-/// bounce() and settle() have no errors to give: the kick that follows has to refuse what they make of
-/// numbers that are none.
-TEST(WrongBounce, IsRefusedByTheKickThatFollows) {
+/// bounce() and settle() have no errors to give: the call that sets the velocity has to refuse what they make
+/// of numbers that are none.
+TEST(WrongBounce, IsRefusedWhereTheVelocityIsSet) {
   World world = World::create({}).value();
   const BodyId id = world.add({}).value();
   const Event contact{.second = {1, 0}, .normal = {1, 0, 0}, .approach_speed = 1};
   for (const Bounce& wrong :
-       {bounce(contact, 0, 0, 1), bounce(contact, nan, 1, 1), bounce(contact, -1, 1, 1),
-        bounce(contact, 1, 1, nan), settle(contact, 0, 0, 1, 1), settle(contact, 1, 1, nan, 1)})
+       {bounce(contact, nan, 1, 1), bounce(contact, 1, 1, nan), settle(contact, 1, 1, nan, 1)})
     expect_error(world.set_velocity(id, wrong.first_velocity), ErrorCode::not_finite, "velocity",
                  "set_velocity", id);
   EXPECT_TRUE(std::isnan(least_resting_speed(-1, 1)));

@@ -78,8 +78,7 @@ TEST_F(WrongUse, 06_AnIdOfABodyThatNeverWas) {
 }
 
 TEST_F(WrongUse, 07_NoBody) {
-  expect_error(world.set_velocity(no_body, {}), ErrorCode::unknown_body, "body",
-               "set_velocity: body 4294967295 (no_body)");
+  expect_error(world.set_velocity(no_body, {}), ErrorCode::unknown_body, "body", "set_velocity: no_body");
 }
 
 TEST_F(WrongUse, 08_AnIdOfABodyThatHasGone) {
@@ -221,7 +220,12 @@ TEST_F(WrongUse, 33_AMotionAskedAboutABodyThatItDoesNotHave) {
   world.add({.position = {0, 5, 5}, .velocity = {0, 0, 1}}).value();
   expect_error(motion.set_velocity(1000000, 0.0, {}), ErrorCode::unknown_body, "body",
                "set_velocity:", BodyId{1000000, 0});
-  expect_error(world.advance(20.0, motion.probe()), ErrorCode::unknown_body, "body", "");
+  try {
+    (void)world.advance(20.0, motion.probe());
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const BadResult& thrown) {
+    EXPECT_EQ(thrown.error().code, ErrorCode::unknown_body) << thrown.what();
+  }
 }
 
 // Bodies that cannot do what is asked.
