@@ -111,7 +111,7 @@ TEST_F(SceneFileTest, PointsToTheFieldThatMakesNoScene) {
 }
 
 TEST(SceneFile, ExamplesAreScenes) {
-  const auto folder = std::filesystem::path(__FILE__).parent_path() / "../../examples/scenes";
+  const auto folder = std::filesystem::path(KINESPHERE_EXAMPLE_SCENES);
   int scenes = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     SCOPED_TRACE(entry.path());

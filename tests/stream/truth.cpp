@@ -189,6 +189,7 @@ double Truth::exact_gap(const Contact& contact) const {
   WideVec way = exact::operator-(place(at(contact.second)), centre);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const Wide period = definition_.periodic[static_cast<int>(axis)] ? Wide(world_size) : Wide(0);
+    if (period > 0) way[axis] -= Wide(std::round(double(way[axis] / period))) * period;
     while (period > 0 && way[axis] > period / 2) way[axis] -= period;
     while (period > 0 && way[axis] < -period / 2) way[axis] += period;
   }
