@@ -96,9 +96,9 @@ Range from(const Point& centre, const Triangle& triangle) {
   return range;
 }
 
-Long size_of(const HalfSpace& solid) { return std::abs(solid.offset); }
-Long size_of(const Box& box) { return Long(norm_one(box.lower)) + norm_one(box.upper); }
-Long size_of(const Triangle& t) { return Long(norm_one(t.a)) + norm_one(t.b) + norm_one(t.c); }
+Long magnitude_of(const HalfSpace& solid) { return std::abs(solid.offset); }
+Long magnitude_of(const Box& box) { return Long(norm_one(box.lower)) + norm_one(box.upper); }
+Long magnitude_of(const Triangle& t) { return Long(norm_one(t.a)) + norm_one(t.b) + norm_one(t.c); }
 
 double rounded_down(Long value) {
   const double rounded = static_cast<double>(value);
@@ -133,7 +133,7 @@ PlainGap::Limits PlainGap::distance(double time) const {
         [&]<class Solid>(const Solid& solid) {
           if constexpr (!std::is_same_v<Solid, Ball>) {
             range = from(at, solid);
-            size += size_of(solid);
+            size += magnitude_of(solid);
           }
         },
         *shape_);

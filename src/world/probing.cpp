@@ -8,9 +8,9 @@
 namespace kinesphere {
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_said = std::numeric_limits<double>::quiet_NaN();
 /// A probe that forgets to answer is told so.
-constexpr State unanswered{{nothing, nothing, nothing}, {nothing, nothing, nothing}};
+constexpr State unanswered{{not_said, not_said, not_said}, {not_said, not_said, not_said}};
 
 /// Resets the flag even if the probe throws.
 class WhileTrue {
