@@ -10,16 +10,26 @@
 namespace kinesphere::stream {
 namespace {
 
-/// Of a shape that is no ball.
-SurfacePoint nearest_on(const Shape& shape, const Vec3& point) {
+using exact::Wide;
+using exact::WideVec;
+
+/// From the surface of a shape that is no ball: signed, and by other formulas than the library's.
+Wide distance_from(const Shape& shape, const WideVec& point) {
   return std::visit(
-      [&]<class Solid>(const Solid& solid) -> SurfacePoint {
+      [&]<class Solid>(const Solid& solid) -> Wide {
         if constexpr (std::is_same_v<Solid, Ball>)
           throw Disagreement("a ball has no surface of its own");
         else
-          return nearest_point(solid, point);
+          return exact::distance(solid, point);
       },
       shape);
+}
+
+WideVec place_at(const TrueBody& body, double time) {
+  const Segment& path = body.path.front();
+  const Wide s = Wide(time) - Wide(path.begin);
+  return exact::moved(exact::moved(exact::wide(path.position), exact::wide(path.velocity), s),
+                      exact::wide(path.acceleration), s * s / 2);
 }
 
 std::string text_of(BodyId id) { return std::to_string(id.index) + "." + std::to_string(id.generation); }
@@ -163,7 +173,8 @@ double Truth::gap_at(const Contact& contact, double time) const {
   const Vec3 centre = mover(contact).path.front().state_at(time).position;
   const double extent = this->extent(contact);
   if (const auto half = inside(contact)) return dot(half->normal, centre) - half->offset - extent;
-  if (const Shape* solid = shape(contact)) return nearest_on(*solid, centre).distance - extent;
+  if (const Shape* solid = shape(contact))
+    return static_cast<double>(distance_from(*solid, exact::wide(centre)) - extent);
   const Vec3 other = at(contact.second).path.front().state_at(time).position;
   return norm(other + shift_to_nearest(other, centre) - centre) - extent;
 }
@@ -171,22 +182,11 @@ double Truth::gap_at(const Contact& contact, double time) const {
 double Truth::gap(const Contact& contact) const { return gap_at(contact, time_); }
 
 double Truth::exact_gap(const Contact& contact) const {
-  using exact::Wide;
-  using exact::WideVec;
-  const auto place = [this](const TrueBody& body) {
-    const Segment& path = body.path.front();
-    const Wide s = Wide(time_) - Wide(path.begin);
-    return exact::moved(exact::moved(exact::wide(path.position), exact::wide(path.velocity), s),
-                        exact::wide(path.acceleration), s * s / 2);
-  };
-  const WideVec centre = place(mover(contact));
+  const WideVec centre = place_at(mover(contact), time_);
   const Wide extent = Wide(mover(contact).definition.radius) + Wide(contact.sensed.value_or(0.0));
   if (const auto half = inside(contact)) return double(exact::distance(*half, centre) - extent);
-  if (const Shape* solid = shape(contact)) {
-    if (const auto* box = std::get_if<Box>(solid)) return double(exact::distance(*box, centre) - extent);
-    return double(exact::distance(std::get<Triangle>(*solid), centre) - extent);
-  }
-  WideVec way = exact::operator-(place(at(contact.second)), centre);
+  if (const Shape* solid = shape(contact)) return double(distance_from(*solid, centre) - extent);
+  WideVec way = exact::operator-(place_at(at(contact.second), time_), centre);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const Wide period = definition_.periodic[static_cast<int>(axis)] ? Wide(world_size) : Wide(0);
     if (period > 0) way[axis] -= Wide(std::round(double(way[axis] / period))) * period;
@@ -198,7 +198,7 @@ double Truth::exact_gap(const Contact& contact) const {
 
 double Truth::distance(BodyId id, const Vec3& point) const {
   const TrueBody& body = at(id);
-  if (body.shape) return nearest_on(*body.shape, point).distance;
+  if (body.shape) return static_cast<double>(distance_from(*body.shape, exact::wide(point)));
   const Vec3 centre = state(id).position;
   return norm(centre + shift_to_nearest(centre, point) - point) - body.definition.radius;
 }
@@ -211,8 +211,8 @@ GapLimits Truth::limits(const Extent& a, const Extent& b) const {
   });
 }
 
-/// Of the first body to the second in its nearest image; of a body before a wall or a shape, along the
-/// normal.
+/// Of the first body to the second in its nearest image; of a body before a wall, along the normal. Of a body
+/// before another shape there is no position.
 Truth::Relative Truth::relative(const Contact& contact) const {
   const TrueBody& body = mover(contact);
   const auto [position, velocity] = body.path.front().state_at(time_);
@@ -221,16 +221,25 @@ Truth::Relative Truth::relative(const Contact& contact) const {
     const Vec3 n = half->normal;
     return {n * (dot(n, position) - half->offset), n * dot(n, velocity), n * dot(n, acceleration)};
   }
-  if (const Shape* solid = shape(contact))
-    return {-nearest_on(*solid, position).normal, -velocity, -acceleration};
+  if (shape(contact) != nullptr) return {{}, -velocity, -acceleration};
   const State second = state(contact.second);
   return {second.position + shift_to_nearest(second.position, position) - position,
           second.velocity - velocity, at(contact.second).path.front().acceleration - acceleration};
 }
 
+/// Of a shape: how much nearer the body is after a way so short that only quadruple precision can tell.
+double Truth::approach_to_shape(const Contact& contact) const {
+  const Wide moment = 0x1p-40;
+  const WideVec centre = place_at(mover(contact), time_);
+  const WideVec next = exact::moved(centre, exact::wide(state(mover(contact).id).velocity), moment);
+  const Shape& solid = *shape(contact);
+  return static_cast<double>((distance_from(solid, centre) - distance_from(solid, next)) / moment);
+}
+
 double Truth::approach_speed(const Contact& contact) const {
   const auto [x, v, g] = relative(contact);
   if (const auto half = inside(contact)) return -dot(half->normal, v);
+  if (shape(contact) != nullptr) return approach_to_shape(contact);
   const double distance = norm(x);
   return distance > 0.0 ? -dot(x, v) / distance : -norm(v);
 }

@@ -121,6 +121,7 @@ class Truth {
   const Shape* shape(const Contact& contact) const;
   std::optional<HalfSpace> inside(const Contact& contact) const;
   Relative relative(const Contact& contact) const;
+  double approach_to_shape(const Contact& contact) const;
   double extent(const Contact& contact) const;
   bool meets(const Contact& contact) const;
   bool senses(BodyId a, BodyId b, double distance) const;
