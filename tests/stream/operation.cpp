@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/needles.hpp"
+
 namespace kinesphere::stream {
 namespace {
 
@@ -25,6 +27,17 @@ void move_far(WorldDefinition& world) {
 }
 
 }  // namespace
+
+double Operation::radius() const {
+  switch (byte(6) % 16) {
+    case 1:
+      return 1.5 * fraction(6);
+    case 2:
+      return 0.0;
+    default:
+      return 0.5 * fraction(6);
+  }
+}
 
 MotionLimits Operation::motion_limits() const {
   MotionLimits promise;
@@ -69,12 +82,24 @@ Shape Operation::shape(bool flat) const {
     case 1:
       return Box{at, at + edges};
     case 2:
+      if (!flat && byte(7) / 4 % 4 == 3) return needle();
       if (!flat && edges.x > 0.1 && edges.y > 0.1)
         return Triangle{at, at + Vec3{edges.x, 0, edges.z}, at + Vec3{0, edges.y, -edges.z}};
       return Box{at, at + 0.5 * edges};
     default:
       return Ball{at, radius()};
   }
+}
+
+/// Through the position, a sixteenth to four times as long as the world, and as thin as a world allows or not
+/// quite so.
+Triangle Operation::needle() const {
+  Random random = this->random();
+  const Needle needle = random_needle(random, 0.0);
+  const double scale = world_size * std::exp2(random.uniform(-4.0, 2.0)) / needle.length;
+  const Vec3 to = position() - needle.point(random) * scale;
+  const auto& [a, b, c] = needle.triangle;
+  return {to + a * scale, to + b * scale, to + c * scale};
 }
 
 Random Operation::random() const {

@@ -45,7 +45,8 @@ struct Operation {
   // Each number takes the same bytes in every operation.
   Vec3 position() const { return Vec3{fraction(0), fraction(1), fraction(2)} * world_size; }
   Vec3 velocity() const { return {speed(3), speed(4), speed(5)}; }
-  double radius() const { return byte(6) % 16 == 1 ? 1.5 * fraction(6) : 0.5 * fraction(6); }
+  /// One in sixteen is a point, one is large.
+  double radius() const;
   MotionLimits motion_limits() const;
   /// An acceleration within a promise.
   Vec3 acceleration(const MotionLimits& promise) const {
@@ -57,12 +58,13 @@ struct Operation {
   SensorClass sensor_class() const { return static_cast<SensorClass>(byte(9) / 8 % sensor_classes); }
   /// Without the distances beyond `reach`.
   Sensor sensor(double reach) const;
-  /// In a plane it is not a triangle.
+  /// In a plane it is not a triangle. One in sixteen is a needle, a triangle that is long and thin.
   Shape shape(bool flat) const;
   /// Draws that belong to this operation.
   Random random() const;
 
  private:
+  Triangle needle() const;
   double speed(std::size_t k) const { return (byte(k) - 128) / 32.0; }
 };
 
