@@ -77,7 +77,9 @@ class World::Engine {
   void set_sensor_class(BodyId id, SensorClass sensor_class);
   // rest.cpp: bodies that rest until something wakes them.
   void rest(BodyId id);
-  void wake_up(BodyId id) { wake_island(id.index); }
+  void wake_up(BodyId id) {
+    if (bodies_[id.index].is_resting()) wake_island(id.index);
+  }
   void set_user_data(BodyId id, std::uint64_t data) { bodies_[id.index].user_data = data; }
 
   double time() const { return time_; }

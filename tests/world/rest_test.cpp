@@ -165,6 +165,18 @@ TEST(Rest, IsSeenInTheViewWithTheLimitsOfTheBody) {
   EXPECT_EQ(p.run(12.0).size(), 1u);
 }
 
+TEST(Rest, GoesOnBesideABodyThatIsAwakeAndIsWoken) {
+  Rested p;
+  const BodyId below = p.ball({0, 0, 0});
+  const BodyId above = p.ball({0, 0, 2});
+  p.run(0.0);
+  p.rest(above);
+  p.run(1.0);
+  p.world.wake(below).value();
+  EXPECT_TRUE(p.resting(above));
+  EXPECT_TRUE(p.run(2.0).empty());
+}
+
 TEST(Rest, AsksOnceWhereABodyIsWhoseReportIsOld) {
   Rested p;
   const BodyId id = p.ball({}, {1, 0, 0});
