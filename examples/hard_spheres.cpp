@@ -19,7 +19,8 @@ int main() {
   Random random(1);
   Vec3 drift;
   for (int k = 0; k < count; ++k) {
-    const Vec3 place{0.5 + k % side, 0.5 + k / side % side, 0.5 + k / side / side};
+    const int x = k % side, y = k / side % side, z = k / side / side;
+    const Vec3 place{0.5 + x, 0.5 + y, 0.5 + z};
     start.push_back({place * (length / side), random.point_in_ball()});
     drift += start.back().velocity / count;
   }

@@ -14,10 +14,11 @@ int main() {
   const SensorClass airspace = 1;
 
   // What the tower does not know: where the drones really are, and where they are going to.
-  std::vector<State> start;
+  std::vector<State> start(200);
   Random random(200);
-  for (int k = 0; k < 200; ++k)
-    start.push_back({{120.0 * (k % 15), 120.0 * (k / 15), 100}, 12 * random.point_in_ball()});
+  for (int row = 0; row < 10; ++row)
+    for (int k = 0; k < 20; ++k)
+      start[20 * row + k] = {{120.0 * k, 120.0 * row, 100}, 12 * random.point_in_ball()};
   RandomForces drones =
       RandomForces::create(
           {.start = start, .acceleration_limits = std::vector(start.size(), agility), .interval = 3})

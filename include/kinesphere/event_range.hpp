@@ -23,7 +23,6 @@ class [[nodiscard]] EventRange {
  public:
   class Iterator {
    public:
-    using iterator_concept = std::input_iterator_tag;
     using iterator_category = std::input_iterator_tag;
     using value_type = Event;
     using difference_type = std::ptrdiff_t;

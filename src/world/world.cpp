@@ -182,13 +182,13 @@ Result<void> World::set_radius(BodyId body, double radius) {
   return valid;
 }
 
-Result<void> World::set_motion_limits(BodyId body, const MotionLimits& promise) {
+Result<void> World::set_motion_limits(BodyId body, const MotionLimits& limits) {
   auto valid = Check(*this, "set_motion_limits").moving(body);
   if (!valid) return valid;
-  const BodyDefinition changed = with_motion_limits(engine_->definition_of(body.index), promise);
+  const BodyDefinition changed = with_motion_limits(engine_->definition_of(body.index), limits);
   valid = check_promise(changed, body, engine_->definition(), "set_motion_limits");
   if (valid) valid = Check(*this, "set_motion_limits").growth(changed, body, "position_error");
-  if (valid) changing(step::SetMotionLimits{body, promise}).set_motion_limits(body, promise);
+  if (valid) changing(step::SetMotionLimits{body, limits}).set_motion_limits(body, limits);
   return valid;
 }
 

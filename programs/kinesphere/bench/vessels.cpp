@@ -117,7 +117,8 @@ class Coast {
   Course moored(std::uint32_t harbour) {
     constexpr std::uint32_t row = 20;
     const std::uint32_t berth = berths_[harbour]++;
-    const Place place{berth_width * (berth % row), pier_distance * static_cast<double>(berth / row)};
+    const std::uint32_t pier = berth / row;
+    const Place place{berth_width * (berth % row), pier_distance * pier};
     return {.middle = harbours_[harbour] + place, .interval = still_interval};
   }
 

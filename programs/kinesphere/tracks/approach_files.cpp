@@ -93,7 +93,7 @@ void ApproachFile::write(const std::vector<Approach>& approaches, const Recordin
 }
 
 void ApproachFile::write_geojson(const std::vector<Approach>& approaches, const Recording& recording) {
-  geojson_->write("{\"type\": \"FeatureCollection\", \"features\": [");
+  geojson_->write(R"({"type": "FeatureCollection", "features": [)");
   const char* separator = "\n";
   for (const Approach& approach : approaches) {
     const ClosestApproach& closest = approach.closest;

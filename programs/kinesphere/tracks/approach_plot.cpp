@@ -170,7 +170,7 @@ class Picture {
         panel.left, panel.top, panel.width, panel.height);
     for (std::uint32_t track = 0; track < recording_.tracks.size(); ++track)
       svg += polyline(course(track, view, panel),
-                      "fill=\"none\" stroke=\"#7a8793\" stroke-width=\"0.7\" stroke-opacity=\"0.5\"");
+                      R"(fill="none" stroke="#7a8793" stroke-width="0.7" stroke-opacity="0.5")");
     svg += marks(view, panel);
     return svg + "</g>\n";
   }
@@ -265,7 +265,7 @@ class Picture {
         const double time = std::min(to, from + (to - from) * step / curve_points);
         points.push_back({panel.x(time - approach.closest.time), panel.y(distance_at(approach, time))});
       }
-      svg += polyline(points, fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"2\"", colours[k]));
+      svg += polyline(points, fmt::format(R"(fill="none" stroke="{}" stroke-width="2")", colours[k]));
       svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"{}\"/>\n", panel.x(0.0),
                          panel.y(approach.closest.distance), colours[k]);
     }
@@ -281,7 +281,7 @@ class Picture {
     if (closest_.empty()) return text_at(590, 390, "No approaches.");
     svg += text_at(590, 382, "Ids, least distance and when", "font-weight=\"bold\"");
     svg += text_at(80, 512, "Each dot is an approach; rings are around the closest.",
-                   "fill=\"#444\" font-size=\"11\"");
+                   R"(fill="#444" font-size="11")");
     double y = 402;
     for (std::size_t k = 0; k < closest_.size(); ++k, y += 19) {
       const Approach& approach = approaches_[closest_[k]];

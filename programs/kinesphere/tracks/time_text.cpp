@@ -91,7 +91,7 @@ std::optional<FileTime> read_clock(Reader& reader, bool extended) {
       time.fraction = fraction_of(digits);
     }
   }
-  if (*hour == 24 && (time.whole > 24 * 3600 || time.fraction > 0)) return std::nullopt;
+  if (*hour == 24 && (time.whole > std::int64_t{24} * 3600 || time.fraction > 0)) return std::nullopt;
   return with_sign(false, time);
 }
 
