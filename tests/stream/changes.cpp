@@ -136,7 +136,7 @@ void Player::remove(const Operation& operation) {
   const auto id = any(operation);
   if (!id || truth_.ids().size() < 3) return;
   const auto before = told_.before(world_, *id);
-  accepted(on_world([&](World& world) { return world.remove(*id); }));
+  accepted(waking(island_of(*id), [&](World& world) { return world.remove(*id); }));
   leave(*id, before);
 }
 
@@ -148,13 +148,17 @@ void Player::remove_all(const Operation& operation) {
   ids = {ids.begin() + static_cast<std::ptrdiff_t>(from),
          ids.begin() + static_cast<std::ptrdiff_t>(from + count)};
   std::vector<std::vector<Before>> before;
-  for (const BodyId id : ids) before.push_back(told_.before(world_, id));
-  accepted(on_world([&](World& world) { return world.remove_all(ids); }));
+  Island island;
+  for (const BodyId id : ids) {
+    before.push_back(told_.before(world_, id));
+    island.join(island_of(id));
+  }
+  accepted(waking(island, [&](World& world) { return world.remove_all(ids); }));
   for (std::size_t k = 0; k < ids.size(); ++k) leave(ids[k], before[k]);
 }
 
 void Player::set_velocity(BodyId id, const Vec3& velocity) {
-  accepted(on_world([&](World& world) { return world.set_velocity(id, velocity); }));
+  accepted(waking(island_if_resting(id), [&](World& world) { return world.set_velocity(id, velocity); }));
   truth_.move(id, {truth_.state(id).position, velocity});
   told_.kicked(id);
   changed();
@@ -162,7 +166,8 @@ void Player::set_velocity(BodyId id, const Vec3& velocity) {
 
 void Player::set_velocity(const Operation& operation) {
   const auto id = any_moving(operation);
-  if (id && truth_.is_present(*id)) set_velocity(*id, truth_.in_space(operation.velocity()));
+  if (!id || !truth_.is_present(*id)) return;
+  set_velocity(*id, truth_.in_space(operation.velocity()));
 }
 
 /// Bodies that have strayed far are sent back.
@@ -185,7 +190,7 @@ void Player::teleport(BodyId id, const State& state) {
   const auto before = told_.before(world_, id);
   const BodyDefinition& body = truth_.at(id).definition;
   const bool room = has_room(id, {bound_of(body, state, truth_.time())}, body);
-  const auto done = on_world([&](World& world) { return world.teleport(id, state); });
+  const auto done = waking(island_of(id), [&](World& world) { return world.teleport(id, state); });
   require(static_cast<bool>(done) == room, "teleport: overlaps are refused wrongly");
   if (!done) return require(done.error().code == ErrorCode::overlapping, "teleport: a wrong reason");
   truth_.move(id, state);
@@ -222,7 +227,8 @@ void Player::set_radius(const Operation& operation) {
   const double radius = this->radius(operation);
   const auto before = truth_.is_present(*id) ? told_.before(world_, *id) : std::vector<Before>();
   const bool strict = !truth_.definition().allow_overlap;
-  const auto done = on_world([&](World& world) { return world.set_radius(*id, radius); });
+  const Island island = truth_.is_present(*id) ? island_of(*id) : Island{};
+  const auto done = waking(island, [&](World& world) { return world.set_radius(*id, radius); });
   if (!done) {
     require(strict && radius > truth_.at(*id).definition.radius, "set_radius: refused without a reason");
     require(done.error().code == ErrorCode::overlapping || done.error().code == ErrorCode::outside_domain,
@@ -244,7 +250,8 @@ void Player::set_motion_limits(const Operation& operation) {
   if (!id) return;
   const MotionLimits promise = limits(operation);
   const auto before = truth_.is_present(*id) ? told_.before(world_, *id) : std::vector<Before>();
-  accepted(on_world([&](World& world) { return world.set_motion_limits(*id, promise); }));
+  accepted(
+      waking(island_if_resting(*id), [&](World& world) { return world.set_motion_limits(*id, promise); }));
   truth_.at(*id).definition = with_motion_limits(truth_.at(*id).definition, promise);
   truth_.steer(*id, acceleration(operation, promise));
   if (!truth_.is_present(*id)) return;
@@ -256,7 +263,7 @@ void Player::turn_off(const Operation& operation) {
   const auto id = any(operation);
   if (!id || !truth_.is_present(*id)) return;
   const auto before = told_.before(world_, *id);
-  accepted(on_world([&](World& world) { return world.disable(*id); }));
+  accepted(waking(island_of(*id), [&](World& world) { return world.disable(*id); }));
   told_.gone(before);
   truth_.at(*id).enabled = false;
   changed();

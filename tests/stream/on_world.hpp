@@ -34,4 +34,12 @@ auto Player::on_world(Call call) {
   return result;
 }
 
+/// The same, where the call wakes this island if it is not refused.
+template <class Call>
+auto Player::waking(const Island& island, Call call) {
+  auto result = on_world(call);
+  if (result) check_woken(island);
+  return result;
+}
+
 }  // namespace kinesphere::stream

@@ -9,7 +9,7 @@
 
 namespace kinesphere::stream {
 
-const std::array<Player::Kind, 26> Player::kinds{{
+const std::array<Player::Kind, 28> Player::kinds{{
     {"advance", 64, &Player::advance},
     {"advance to the next event", 22, &Player::advance_to_next},
     {"advance with a bad probe", 4, &Player::advance_with_bad_probe},
@@ -35,7 +35,9 @@ const std::array<Player::Kind, 26> Player::kinds{{
     {"enable", 9, &Player::turn_on},
     {"restore or clone", 9, &Player::restore},
     {"ask", 6, &Player::ask},
-    {"call wrongly", 6, &Player::call_wrongly},
+    {"call wrongly", 2, &Player::call_wrongly},
+    {"rest", 3, &Player::rest},
+    {"wake", 1, &Player::wake},
 }};
 
 namespace {
@@ -99,6 +101,7 @@ void Player::check_body(BodyId id) const {
               found.acceleration_limit == expected.acceleration_limit &&
               found.planned_acceleration == expected.planned_acceleration,
           "a body's definition is not what was set");
+  require(view.resting == body.resting, "a body has come to rest or is awake without a reason");
   if (!body.enabled) return;
   const Vec3 centre = view.bound.centre_at(truth_.time());
   const Vec3 position = truth_.state(id).position;
@@ -135,6 +138,8 @@ Player::Answers Player::probe() {
     for (std::size_t k = 0; k < ids.size(); ++k) {
       require(truth_.is_present(ids[k]), "a probe of a body that is not there");
       require(!truth_.at(ids[k]).fixed, "a probe of a body that never moves");
+      require(!truth_.at(ids[k]).resting || time == truth_.at(ids[k]).rested_at,
+              "a probe of a body that rests");
       states[k] = truth_.at(ids[k]).path.front().state_at(time);
     }
   };
@@ -144,21 +149,29 @@ std::optional<Event> Player::next_event(double until) {
   auto result = on_world([&](World& world) { return world.advance(until, probe()); });
   asked_at_ = world_.time();
   if (!result) throw Disagreement("advance: " + result.error().message);
-  told_.move_on_to(world_.time());
+  move_on();
   if (*result) {
     hear(**result);
   } else {
     told_.settle_ends();
+    require(woken_.empty(), "nobody is told that a body has woken");
     require(world_.time() == until, "no event, and yet the time is not what was asked for");
   }
   return *result;
 }
 
+void Player::move_on() {
+  require(woken_.empty() || world_.time() == truth_.time(), "nobody is told in time that a body has woken");
+  told_.move_on_to(world_.time());
+}
+
 void Player::hear(const Event& event) {
   ++events_;
   require(event.time == world_.time(), "an event of another time");
+  if (event.kind == EventKind::woken) return hear_woken(event);
   check_order(event);
   told_.hear(event);
+  wake_by(event);
 }
 
 /// Events of one instant come in order. After a change the ends that it brought about come first, though
@@ -232,7 +245,7 @@ void Player::advance_with_bad_probe(const Operation& operation) {
     }
   });
   asked_at_ = world_.time();
-  told_.move_on_to(world_.time());
+  move_on();
   if (!result) {
     const ErrorCode code = result.error().code;
     require(code == ErrorCode::not_finite || code == ErrorCode::out_of_range,

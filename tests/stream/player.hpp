@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,7 @@ class Player {
     int weight;
     void (Player::*perform)(const Operation&);
   };
-  static const std::array<Kind, 26> kinds;
+  static const std::array<Kind, 28> kinds;
   static const Kind& kind_of(std::uint8_t code);
 
   // The operations. Those without a body to be done to do nothing.
@@ -61,6 +62,8 @@ class Player {
   void restore(const Operation& operation);
   void ask(const Operation& operation);
   void call_wrongly(const Operation& operation);
+  void rest(const Operation& operation);
+  void wake(const Operation& operation);
 
   // player.cpp
   template <class Call>
@@ -69,6 +72,7 @@ class Player {
   Answers probe();
   std::optional<Event> next_event(double until);
   void answer(const Event& event, const Operation& operation);
+  void move_on();
   void hear(const Event& event);
   void check_order(const Event& event);
   void check_all() const;
@@ -76,6 +80,22 @@ class Player {
   std::optional<BodyId> any(const Operation& operation) const;
   std::optional<BodyId> any_moving(const Operation& operation) const;
   Operation about(BodyId id, Operation operation) const;
+
+  // rest.cpp
+  struct Island {
+    std::vector<BodyId> has_to_wake, may_wake;
+    void join(const Island& other);
+  };
+  bool in_touch(BodyId id, BodyId resting, bool certainly) const;
+  std::vector<BodyId> resting_with(BodyId id, bool certainly) const;
+  Island island_of(BodyId id) const;
+  Island island_if_resting(BodyId id) const;
+  void check_woken(const Island& island);
+  void hear_woken(const Event& event);
+  void wake_by(const Event& event);
+  void rest(BodyId id);
+  template <class Call>
+  auto waking(const Island& island, Call call);
 
   // changes.cpp
   BodyDefinition new_body(const Operation& operation) const;
@@ -106,6 +126,7 @@ class Player {
   World world_;
   std::optional<World> twin_;  ///< has to go on as the world does
   std::vector<BodyId> removed_;
+  std::set<BodyId> woken_;  ///< at this instant, and not told yet
   std::size_t events_ = 0;
   std::optional<Event> last_event_;
   int rounds_ = 0;        ///< of events in order that may begin at this instant

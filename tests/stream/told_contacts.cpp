@@ -27,7 +27,6 @@ bool is_end(const Event& event) {
 }  // namespace
 
 ToldContacts::ToldContacts(const WorldDefinition& definition, Truth& truth)
-    // Far below the tolerance, above rounding.
     : rule_(definition),
       truth_(truth),
       rounding_(1e-12 + (definition.box ? 0x1p-50 * norm_one(definition.box->lower) : 0.0)),

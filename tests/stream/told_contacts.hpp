@@ -43,6 +43,9 @@ class ToldContacts {
   void teleported(BodyId id) { kicked(id); }
   void appeared(BodyId id);
 
+  /// Far below the tolerance, above rounding.
+  double slack() const { return slack_; }
+
   /// What the world says that the body touches and senses is what its events have told.
   void check_account(const World& world, BodyId id) const;
 

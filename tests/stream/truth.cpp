@@ -95,8 +95,27 @@ void Truth::move(BodyId id, const State& state) {
 }
 
 void Truth::steer(BodyId id, const Vec3& acceleration) {
+  if (at(id).resting) {
+    at(id).on_waking = acceleration;
+    return;
+  }
   restart(id);
   at(id).path.front().acceleration = acceleration;
+}
+
+void Truth::rest(BodyId id) {
+  restart(id);
+  TrueBody& body = at(id);
+  Segment& path = body.path.front();
+  body.resting = true;
+  body.rested_at = time_;
+  body.on_waking = path.acceleration;
+  path.velocity = path.acceleration = {};
+}
+
+void Truth::wake(BodyId id) {
+  at(id).resting = false;
+  steer(id, at(id).on_waking);
 }
 
 std::vector<BodyId> Truth::ids() const {

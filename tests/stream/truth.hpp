@@ -47,7 +47,10 @@ struct TrueBody {
   bool alive = false;
   bool enabled = false;
   bool fixed = false;
-  std::optional<Shape> shape{};                                    ///< of a fixed body that is no ball
+  bool resting = false;          ///< stays where it is, without velocity or acceleration
+  double rested_at = 0.0;        ///< the time at which it was told to rest
+  Vec3 on_waking{};              ///< the acceleration that it has when it wakes
+  std::optional<Shape> shape{};  ///< of a fixed body that is no ball
   double last_contact = -std::numeric_limits<double>::infinity();  ///< as events told
 
   bool present() const { return alive && enabled; }
@@ -74,7 +77,10 @@ class Truth {
   void add_fixed(BodyId id, const BodyDefinition& body, const Shape& shape);
   void remove(BodyId id);
   void move(BodyId id, const State& state);
+  /// A resting body gets the acceleration when it wakes.
   void steer(BodyId id, const Vec3& acceleration);
+  void rest(BodyId id);
+  void wake(BodyId id);
 
   const std::vector<TrueBody>& bodies() const { return bodies_; }
   TrueBody& at(BodyId id) { return bodies_[id.index]; }
