@@ -167,6 +167,7 @@ void Player::set_velocity(BodyId id, const Vec3& velocity) {
 void Player::set_velocity(const Operation& operation) {
   const auto id = any_moving(operation);
   if (!id || !truth_.is_present(*id)) return;
+  if (operation.byte(7) % 16 == 15) sprint(*id, operation);
   set_velocity(*id, truth_.in_space(operation.velocity()));
 }
 

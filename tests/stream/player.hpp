@@ -97,6 +97,10 @@ class Player {
   template <class Call>
   auto waking(const Island& island, Call call);
 
+  // sprint.cpp
+  void sprint(BodyId id, const Operation& operation) const;
+  void check_touching(const World& world, BodyId id, const Vec3& place) const;
+
   // changes.cpp
   BodyDefinition new_body(const Operation& operation) const;
   double radius(const Operation& operation) const;

@@ -1,0 +1,88 @@
+// Bodies that are faster than single precision can square, in a clone of the world.
+//
+// Such a body may leave all that a world takes in the least step of time. So the clone has to stay clean,
+// must come to an end, and may refuse only what is out of range; and where the body ends in another one, they
+// touch.
+#include <algorithm>
+#include <cmath>
+
+#include "number/infinity.hpp"
+#include "stream/player.hpp"
+
+namespace kinesphere::stream {
+namespace {
+
+constexpr int most_events = 20000;
+
+void require_clean(const World& world) {
+  if (const auto finding = world.audit())
+    throw Disagreement("audit of a sprint: " + finding->where + ": " + finding->what);
+}
+
+/// False if the probe's answers went out of range.
+bool goes_on(World& world, double until, Probe probe) {
+  for (int count = 0; count < most_events; ++count) {
+    const auto event = world.advance(until, probe);
+    if (!event) {
+      require(event.error().code == ErrorCode::out_of_range, "a sprint is refused for a wrong reason");
+      return false;
+    }
+    if (!*event) return true;
+    if (count % 64 == 0) require_clean(world);
+  }
+  throw Disagreement("a sprint does not come to an end");
+}
+
+}  // namespace
+
+/// At `place`, where it has come.
+void Player::check_touching(const World& world, BodyId id, const Vec3& place) const {
+  if (truth_.definition().contacts == ContactMode::impacts) return;
+  const BodyDefinition& body = truth_.at(id).definition;
+  const double deep = -truth_.definition().contact_tolerance - told_.slack();
+  const std::vector<BodyId> touching = world.touching(id).value();
+  for (const BodyId other : truth_.ids()) {
+    if (other == id || !truth_.is_present(other) || !truth_.may_touch(id, body, other)) continue;
+    require(truth_.distance(other, place) - body.radius >= deep ||
+                std::find(touching.begin(), touching.end(), other) != touching.end(),
+            "a sprint ends in a body untold");
+  }
+}
+
+void Player::sprint(BodyId id, const Operation& operation) const {
+  if (truth_.definition().periodic.any()) return;
+  World world = world_.clone().value();
+  if (truth_.has_pair_filter) give_pair_filter(world);
+  Random random = operation.random();
+  const double speed = std::pow(10.0, random.uniform(14.0, 60.0));
+  const Vec3 velocity = truth_.in_space(random.unit_vector()) * speed;
+  const double start = truth_.time();
+  const State before = truth_.state(id);
+  bool fast = true;
+  const auto state_of = [&](BodyId body, double time) -> State {
+    if (body != id) return truth_.at(body).path.front().state_at(time);
+    return fast ? State{before.position + velocity * (time - start), velocity}
+                : State{before.position, Vec3{}};
+  };
+  const auto probe = [&](std::span<const BodyId> ids, double time, std::span<State> states) {
+    for (std::size_t k = 0; k < ids.size(); ++k) states[k] = state_of(ids[k], time);
+  };
+  world.set_velocity(id, velocity).value();
+  require_clean(world);
+  bool in_range = goes_on(world, start, probe);
+  require_clean(world);
+  const double least = std::nextafter(start, infinity);
+  const double end = std::max(least, start + world_size * random.uniform() / speed);
+  in_range = in_range && goes_on(world, end, probe);
+  if (in_range) {
+    require_clean(world);
+    check_touching(world, id, state_of(id, end).position);
+  }
+  fast = false;
+  if (!world.teleport(id, {before.position, {}})) return;
+  require_clean(world);
+  require(goes_on(world, world.time() + 1e-3, probe), "a sprint is not over");
+  require_clean(world);
+}
+
+}  // namespace kinesphere::stream
