@@ -16,9 +16,10 @@ int main() {
   // What the tower does not know: where the drones really are, and where they are going to.
   std::vector<State> start(200);
   Random random(200);
-  for (int row = 0; row < 10; ++row)
-    for (int k = 0; k < 20; ++k)
-      start[20 * row + k] = {{120.0 * k, 120.0 * row, 100}, 12 * random.point_in_ball()};
+  for (std::uint32_t k = 0; k < start.size(); ++k) {
+    const std::uint32_t row = k / 20, column = k % 20;
+    start[k] = {{120.0 * column, 120.0 * row, 100}, 12 * random.point_in_ball()};
+  }
   RandomForces drones =
       RandomForces::create(
           {.start = start, .acceleration_limits = std::vector(start.size(), agility), .interval = 3})
