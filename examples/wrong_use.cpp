@@ -72,7 +72,7 @@ int main() {
   refused(w.stop_recording(), not_recording);               refused(motion.set_velocity(9, 0, {}), unknown_body);
   thrown([&] { return w.body(gone)->enabled; }, stale_body); thrown([&] { return motion.state(9, 0); }, unknown_body);
   thrown([&] { return w.add({.radius = -1}).value(); }, out_of_range);
-  const World taken = std::move(w);                         thrown([&] { return w.time(); }, moved_from);
+  const World taken = std::move(w);                         thrown([&] { return w.time(); }, moved_from);  // NOLINT(bugprone-use-after-move)
   // clang-format on
   std::printf("%d ways, %d unnoticed\n", ways, unnoticed);
   return ways == 45 && unnoticed == 0 ? 0 : 1;
