@@ -155,9 +155,9 @@ class World {
   /// Tells the world that the velocity of this body is `velocity` from the current time on; the probe
   /// must answer accordingly, or a bound_violation says by how much it does not. Everything certified about
   /// the body so far is void. If it has not been probed at this very time (both bodies of a contact have) the
-  /// next advance does so first. Errors: disabled_body; fixed_body; not_finite; out_of_range (beyond 1e100,
-  /// or z other than 0 in two dimensions); probe_in_progress. Cost: O(1) here, a grid search at the next
-  /// advance.
+  /// next advance does so first. Errors: disabled_body; fixed_body; not_finite; out_of_range (beyond
+  /// limits.hpp, or z other than 0 in two dimensions); probe_in_progress. Cost: O(1) here, a grid search at
+  /// the next advance.
   Result<void> set_velocity(BodyId body, const Vec3& velocity);
 
   // Further changes. A contact that one of them certainly ends is reported as ended at the next advance,

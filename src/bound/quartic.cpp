@@ -72,7 +72,7 @@ RealRoots real_roots(const Quartic& c) {
   return roots;
 }
 
-/// The time that is `d` after `from`, unless that is beyond the until.
+/// The time that is `d` after `from`, unless that is after `until`.
 double time_after(double from, double d, double until) {
   const double time = from + d;
   return time <= until ? time : infinity;

@@ -81,7 +81,7 @@ class Crossings {
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
     archive(self.lists_);
-    // Snapshots of earlier versions have them in another order.
+    // Bytes that were read may have them in any order.
     if constexpr (!std::is_const_v<Self> && !std::same_as<Archive, HeapCounter>)
       for (std::vector<Crossing>& list : self.lists_) std::sort(list.begin(), list.end());
   }

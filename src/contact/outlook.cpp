@@ -61,7 +61,7 @@ Verdict Outlook<Partner>::judge(const Event& current, const Promise& promise) co
   }
   if (rule_.is_deep(gap)) {
     const double surfaces = separation(rule_.surface_gap());
-    // What is known of the meeting ends at its until.
+    // The meeting was looked for no further than this, so no more is known.
     if (surfaces <= horizons_.meeting) time = std::min(time, surfaces);
   }
   verdict.next_look = std::max(time, just_after(now_));

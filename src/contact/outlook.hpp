@@ -97,7 +97,7 @@ extern template class Outlook<HalfSpace>;
 extern template class Outlook<Box>;
 extern template class Outlook<Triangle>;
 
-/// The walls of the box to which the body may come as near as the tolerance before the until: the box,
+/// The walls of the box to which the body may come as near as the tolerance before `until`: the box,
 /// without end on all other axes. A quick test; it may name some too many.
 Box walls_in_reach(const ContactRule& rule, const Bound& bound, const Box& box, double now, double until);
 

@@ -39,24 +39,30 @@ BodyDefinition ball(const Vec3& position, const Vec3& velocity, double radius = 
   return {.radius = radius, .acceleration_limit = 0.15, .position = position, .velocity = velocity};
 }
 
-TEST(PhantomImpacts, OfTwoBallsThatSlidePastEachOther) {
+/// The most of so many trials.
+template <class Trial>
+std::size_t most_impacts(std::uint64_t trials, Trial impacts_in) {
   std::size_t most = 0;
-  for (std::uint64_t trial = 0; trial < 2000; ++trial) {
+  for (std::uint64_t trial = 0; trial < trials; ++trial) most = std::max(most, impacts_in(trial));
+  return most;
+}
+
+TEST(PhantomImpacts, OfTwoBallsThatSlidePastEachOther) {
+  const std::size_t most = most_impacts(2000, [](std::uint64_t trial) {
     Random random(trial);
     Surroundings p({.contact_tolerance = eps, .contacts = ContactMode::impacts});
     const Vec3 n = random.unit_vector();
     const Vec3 v = random.point_in_ball();
     p.add(ball({}, v), Vec3{});
     p.add(ball(2.0 * n, v + sideways(random, n, 0.5)), Vec3{});
-    most = std::max(most, impacts(p, 1e-3));
-  }
+    return impacts(p, 1e-3);
+  });
   EXPECT_LE(most, 2u);
 }
 
 /// Of all sizes, far from the origin, and fast ones that go the same way.
 TEST(PhantomImpacts, OfTwoBallsAnywhere) {
-  std::size_t most = 0;
-  for (std::uint64_t trial = 0; trial < 2000; ++trial) {
+  const std::size_t most = most_impacts(2000, [](std::uint64_t trial) {
     Random random = Random::at(seed, trial, 0);
     Surroundings p({.contact_tolerance = eps, .contacts = ContactMode::impacts});
     const Vec3 n = random.unit_vector();
@@ -66,14 +72,13 @@ TEST(PhantomImpacts, OfTwoBallsAnywhere) {
     const double second = std::pow(10.0, random.uniform(-5.0, 1.0));
     p.add(ball(place, v, first), Vec3{});
     p.add(ball(place + (first + second) * n, v + sideways(random, n, 0.5), second), Vec3{});
-    most = std::max(most, impacts(p, 1e-3));
-  }
+    return impacts(p, 1e-3);
+  });
   EXPECT_LE(most, 2u);
 }
 
 TEST(PhantomImpacts, OfTwoBallsWhereSpaceRepeats) {
-  std::size_t most = 0;
-  for (std::uint64_t trial = 0; trial < 1000; ++trial) {
+  const std::size_t most = most_impacts(1000, [](std::uint64_t trial) {
     Random random = Random::at(seed, trial, 1);
     Surroundings p({.box = Box{{0, 0, 0}, {20, 20, 20}},
                     .periodic = {true, true, true},
@@ -85,28 +90,26 @@ TEST(PhantomImpacts, OfTwoBallsWhereSpaceRepeats) {
     const Vec3 place{random.bits() % 2 == 0 ? 0.5 : 19.5, 10, 10};
     p.add(ball(place, v), Vec3{});
     p.add(ball(place + 2.0 * n, v + sideways(random, n, 0.5)), Vec3{});
-    most = std::max(most, impacts(p, 1e-3));
-  }
+    return impacts(p, 1e-3);
+  });
   EXPECT_LE(most, 2u);
 }
 
 TEST(PhantomImpacts, OfABallAtAWall) {
-  std::size_t most = 0;
-  for (std::uint64_t trial = 0; trial < 1000; ++trial) {
+  const std::size_t most = most_impacts(1000, [](std::uint64_t trial) {
     Random random = Random::at(seed, trial, 2);
     Surroundings p(
         {.box = Box{{0, 0, 0}, {20, 20, 20}}, .contact_tolerance = eps, .contacts = ContactMode::impacts});
     // As a body has it that was thrown back by a wall and turned from elsewhere.
     const double rounding = random.uniform(-1e-15, 1e-15);
     p.add(ball({1.0, 10, 10}, {rounding, random.uniform(0.5, 2.0), random.uniform(-1.0, 1.0)}), Vec3{});
-    most = std::max(most, impacts(p, 1e-3));
-  }
+    return impacts(p, 1e-3);
+  });
   EXPECT_LE(most, 2u);
 }
 
 TEST(PhantomImpacts, OfABallAtAFixedShape) {
-  std::size_t most = 0;
-  for (std::uint64_t trial = 0; trial < 4000; ++trial) {
+  const std::size_t most = most_impacts(4000, [](std::uint64_t trial) {
     Random random = Random::at(seed, trial, 3);
     Surroundings p({.contact_tolerance = eps, .contacts = ContactMode::impacts});
     const Vec3 n = random.unit_vector();
@@ -129,8 +132,8 @@ TEST(PhantomImpacts, OfABallAtAFixedShape) {
         normal = Vec3{std::abs(n.x), std::abs(n.y), 0.0} / std::hypot(n.x, n.y);
     }
     p.add(ball(place + normal, sideways(random, normal, 0.5)), Vec3{});
-    most = std::max(most, impacts(p, 1e-3));
-  }
+    return impacts(p, 1e-3);
+  });
   EXPECT_LE(most, 2u);
 }
 

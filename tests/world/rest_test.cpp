@@ -133,16 +133,22 @@ TEST_P(Modes, EachChangeWakesTheIsland) {
   islands([](Rested& p, BodyId) { p.world.disable({0, 0}).value(); }, true);
 }
 
+struct RestedUponOneThatIsAwake : Rested {
+  RestedUponOneThatIsAwake() {
+    run(0.0);
+    rest(above);
+    run(1.0);
+  }
+
+  BodyId below = ball({0, 0, 0});
+  BodyId above = ball({0, 0, 2});
+};
+
 TEST(Rest, EndsWhenABodyThatIsAwakeLeavesAContact) {
-  Rested p;
-  const BodyId below = p.ball({0, 0, 0});
-  const BodyId above = p.ball({0, 0, 2});
-  p.run(0.0);
-  p.rest(above);
-  p.run(1.0);
-  p.set_velocity(below, {0, 0, -1});
+  RestedUponOneThatIsAwake p;
+  p.set_velocity(p.below, {0, 0, -1});
   const auto events = p.run(2.0);
-  EXPECT_EQ(woken(events), std::set<BodyId>{above});
+  EXPECT_EQ(woken(events), std::set<BodyId>{p.above});
   EXPECT_EQ(of_kind(events, EventKind::contact_end).size(), 1u);
 }
 
@@ -166,14 +172,9 @@ TEST(Rest, IsSeenInTheViewWithTheLimitsOfTheBody) {
 }
 
 TEST(Rest, GoesOnBesideABodyThatIsAwakeAndIsWoken) {
-  Rested p;
-  const BodyId below = p.ball({0, 0, 0});
-  const BodyId above = p.ball({0, 0, 2});
-  p.run(0.0);
-  p.rest(above);
-  p.run(1.0);
-  p.world.wake(below).value();
-  EXPECT_TRUE(p.resting(above));
+  RestedUponOneThatIsAwake p;
+  p.world.wake(p.below).value();
+  EXPECT_TRUE(p.resting(p.above));
   EXPECT_TRUE(p.run(2.0).empty());
 }
 

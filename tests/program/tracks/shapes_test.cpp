@@ -15,6 +15,7 @@
 #include "kinesphere/comparison.hpp"
 #include "kinesphere/random.hpp"
 #include "program/support.hpp"
+#include "program/tracks/simulated_events.hpp"
 #include "tracks/projection.hpp"
 #include "tracks/track_file.hpp"
 #include "tracks/track_scene.hpp"
@@ -50,14 +51,6 @@ struct Original {
   double distance;
   bool has_z() const { return !recording.is_plane; }
 };
-
-std::vector<Event> events_of(const Scene& scene) {
-  std::vector<Event> events;
-  SimulationObserver observer;
-  observer.on_event = [&](const Event& event) { events.push_back(event); };
-  require(simulate(scene, make_world_detector, observer));
-  return events;
-}
 
 /// A shape: the files that tell the rows, and how they are to be read.
 struct Told {

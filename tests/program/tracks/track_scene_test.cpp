@@ -6,6 +6,7 @@
 #include "kinesphere/comparison.hpp"
 #include "kinesphere/random.hpp"
 #include "program/support.hpp"
+#include "program/tracks/simulated_events.hpp"
 #include "tracks/linear_tracks.hpp"
 #include "tracks/reading_summary.hpp"
 #include "tracks/track_file.hpp"
@@ -15,14 +16,6 @@ namespace {
 
 Recording parse(const std::string& text, const TrackOptions& options = {}) {
   return parse_tracks({{"t.csv", text}}, options);
-}
-
-std::vector<Event> events_of(const Scene& scene) {
-  std::vector<Event> events;
-  SimulationObserver observer;
-  observer.on_event = [&](const Event& event) { events.push_back(event); };
-  require(simulate(scene, make_world_detector, observer));
-  return events;
 }
 
 constexpr const char* square = "id,t,x,y\na,0,0,0\na,1,1,0\na,2,1,1\na,3,0,1\nb,0,-0.5,0.5\nb,3,-0.5,0.5\n";
