@@ -31,12 +31,15 @@ Result<void> World::Check::may_ask(const Probe& probe) const {
   return valid;
 }
 
+bool World::Check::is_foreign(BodyId body) const {
+  return body.world != engine_->tag() && body.world != 0 && engine_->tag() != 0;
+}
+
 Result<void> World::Check::known(BodyId body) const {
   if (auto valid = exists(); !valid) return valid;
-  const bool foreign = body.world != engine_->tag() && body.world != 0 && engine_->tag() != 0;
-  if (!foreign && engine_->is_alive(body)) return {};
+  if (is_known(body)) return {};
   const std::string name = text_of(body);
-  if (foreign) return error_about(ErrorCode::foreign_body, body, name + " is one of another world");
+  if (is_foreign(body)) return error_about(ErrorCode::foreign_body, body, name + " is one of another world");
   const auto& table = engine_->table();
   // A free index has the generation that its next body will have.
   if (body.index < table.size() && body.generation < table[body.index].generation)

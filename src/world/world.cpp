@@ -17,13 +17,7 @@
 namespace kinesphere {
 World::World(std::unique_ptr<Engine> engine) : engine_(std::move(engine)) {}
 
-World::World(World&& other) noexcept {
-  other.require_idle("moved from");
-  engine_ = std::move(other.engine_);
-  recorder_ = std::move(other.recorder_);
-  timings_ = other.timings_;
-  timing_ = other.timing_;
-}
+World::World(World&& other) noexcept { *this = std::move(other); }
 
 World& World::operator=(World&& other) noexcept {
   require_idle("assigned to");
@@ -298,7 +292,7 @@ std::optional<AuditFinding> World::audit() const {
 
 bool World::contains(BodyId body) const {
   (void)engine("contains");
-  return static_cast<bool>(Check(*this, "contains").known(body));
+  return Check(*this, "contains").is_known(body);
 }
 
 bool World::recording() const {
