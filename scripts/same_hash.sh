@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # Runs one scene with the library built by both compilers, at several optimisation levels and with sanitizers,
-# and fails unless all of them, and the program given, find the same events bit for bit, and go through a recording
-# of that program without diverging. The same again for a user of each of them who compiles its headers in ways that
-# change rounding, without inlining, so that copies of inline functions are left for the linker to choose from.
-# Usage: same_hash.sh <the program kinesphere> [scene bodies seconds]
+# and fails unless all of them, and the build of tests/same_hash/scene_hash.cpp given, find the same events bit for bit,
+# and go through a recording of that build without diverging. The same again for a user of each of them who compiles its
+# headers in ways that change rounding, without inlining, so that copies of inline functions are left for the linker to
+# choose from.
+# Usage: same_hash.sh <the executable scene_hash>
 set -euo pipefail
 
-program=$(realpath "$1")
-scene=${2:-paper1} bodies=${3:-100} seconds=${4:-2}
+scene_hash=$(realpath "$1")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 # Name, compiler and flags of each build. Many sources are compiled together, which is much faster.
@@ -32,8 +32,8 @@ mkdir -p build/hash
 (cd include && find kinesphere -name '*.hpp' | sort | sed 's/.*/#include <&>/') >build/hash/every_header.cpp
 recording=$(mktemp build/hash/recording-XXXXXX)
 trap 'rm -f "$recording"' EXIT
-expected=$("$program" run "$scene" --bodies "$bodies" --seconds "$seconds" --record "$recording" --hash-only)
-echo "$expected  $program"
+expected=$("$scene_hash" record "$recording")
+echo "$expected  $scene_hash"
 different=0
 for configuration in "${configurations[@]}"; do
   read -r name compiler flags <<<"$configuration"
@@ -48,8 +48,8 @@ for configuration in "${configurations[@]}"; do
     cat "$build/build.log"
     exit 1
   fi
-  hash=$("$build/tests/scene_hash" "$scene" "$bodies" "$seconds")
-  replayed=$("$build/tests/scene_hash" "$recording" || true)
+  hash=$("$build/tests/scene_hash")
+  replayed=$("$build/tests/scene_hash" replay "$recording" || true)
   # g++ can be told to emit every inline function, used or not.
   keep=()
   if [[ $compiler == g++ ]]; then keep=(-fkeep-inline-functions); fi
@@ -58,7 +58,7 @@ for configuration in "${configurations[@]}"; do
   "$compiler" "${flags[@]}" "${foreign_flags[@]}" "${keep[@]}" -Iinclude -I"$build/include" \
     tests/same_hash/scene_hash.cpp build/hash/every_header.cpp "${library[0]}" -Wl,-rpath,"$PWD/$build/src" \
     -o "$build/foreign_user"
-  foreign=$("$build/foreign_user" "$scene" "$bodies" "$seconds")
+  foreign=$("$build/foreign_user")
   echo "$hash  ${replayed:-diverged}  $foreign  $name"
   if [[ $hash != "$expected" || $replayed != "$expected" || $foreign != "$expected" ]]; then
     different=$((different + 1))
@@ -66,6 +66,6 @@ for configuration in "${configurations[@]}"; do
 done
 
 if [[ $different != 0 ]]; then
-  echo "same_hash: $different of ${#configurations[@]} builds find other events than the program, or other ones in its recording" >&2
+  echo "same_hash: $different of ${#configurations[@]} builds find other events, or other ones in the recording" >&2
   exit 1
 fi

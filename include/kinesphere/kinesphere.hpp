@@ -8,6 +8,7 @@
 #include "kinesphere/bound.hpp"
 #include "kinesphere/counters.hpp"
 #include "kinesphere/event.hpp"
+#include "kinesphere/event_hash.hpp"
 #include "kinesphere/event_range.hpp"
 #include "kinesphere/filter.hpp"
 #include "kinesphere/inspection.hpp"

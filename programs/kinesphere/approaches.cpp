@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "detector/gap_course.hpp"
+#include "lab/truth/gap_course.hpp"
 
 namespace kinesphere::program {
 namespace {

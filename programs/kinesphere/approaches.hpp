@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "kinesphere/scene.hpp"
+#include "kinesphere/event.hpp"
+#include "lab/scene/scene.hpp"
 
 namespace kinesphere::program {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "kinesphere/detector_table.hpp"
+#include "lab/detector_table.hpp"
 
 namespace kinesphere::program {
 

@@ -3,7 +3,8 @@
 
 #include <string>
 
-#include "kinesphere/scene.hpp"
+#include "lab/detector/detector.hpp"
+#include "lab/scene/scene.hpp"
 #include "output_file.hpp"
 
 namespace kinesphere::program {

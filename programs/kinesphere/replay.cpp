@@ -9,7 +9,7 @@
 #include <span>
 
 #include "input_file.hpp"
-#include "kinesphere/scene.hpp"
+#include "lab/simulation/recorded_simulation.hpp"
 #include "program_error.hpp"
 #include "standard_output.hpp"
 #include "summary.hpp"

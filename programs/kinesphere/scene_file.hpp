@@ -14,7 +14,8 @@
 #include <string>
 #include <string_view>
 
-#include "kinesphere/scene.hpp"
+#include "lab/scene/make_scene.hpp"
+#include "lab/scene/scene.hpp"
 
 namespace kinesphere::program {
 

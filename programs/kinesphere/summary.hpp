@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "kinesphere/scene.hpp"
+#include "lab/scene/make_scene.hpp"
+#include "lab/simulation/simulate.hpp"
 
 namespace kinesphere::program {
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "approaches.hpp"
-#include "kinesphere/comparison.hpp"
+#include "lab/truth/comparison.hpp"
 #include "output_paths.hpp"
 #include "program_error.hpp"
 #include "progress.hpp"

@@ -4,7 +4,7 @@
 #include <CLI/App.hpp>
 
 #include "detector_options.hpp"
-#include "kinesphere/comparison.hpp"
+#include "lab/truth/comparison.hpp"
 #include "scene_options.hpp"
 #include "summary.hpp"
 

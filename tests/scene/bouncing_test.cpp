@@ -6,10 +6,10 @@
 #include <tuple>
 
 #include "contact/contact_event.hpp"
-#include "detector/gap_course.hpp"
-#include "kinesphere/detector_table.hpp"
+#include "lab/detector_table.hpp"
+#include "lab/simulation/flight.hpp"
+#include "lab/truth/gap_course.hpp"
 #include "scene/differential_scenes.hpp"
-#include "scene/flight.hpp"
 
 namespace kinesphere::testing {
 namespace {

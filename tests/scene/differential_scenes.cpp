@@ -9,6 +9,7 @@
 #include "kinesphere/motion/piecewise_motion.hpp"
 #include "kinesphere/motion/recorded_tracks.hpp"
 #include "kinesphere/random.hpp"
+#include "lab/scene/make_scene.hpp"
 
 namespace kinesphere::testing {
 namespace {

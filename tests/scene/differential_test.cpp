@@ -4,8 +4,8 @@
 #include <string>
 #include <tuple>
 
-#include "kinesphere/comparison.hpp"
-#include "kinesphere/detector_table.hpp"
+#include "lab/detector_table.hpp"
+#include "lab/truth/comparison.hpp"
 #include "scene/differential_scenes.hpp"
 
 namespace kinesphere::testing {

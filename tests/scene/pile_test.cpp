@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <string>
 
-#include "kinesphere/detector_table.hpp"
+#include "lab/detector_table.hpp"
+#include "lab/scene/make_scene.hpp"
 
 namespace kinesphere::testing {
 namespace {

@@ -7,7 +7,9 @@
 #include <limits>
 #include <vector>
 
-#include "kinesphere/scene.hpp"
+#include "lab/detector/detector.hpp"
+#include "lab/scene/scene.hpp"
+#include "lab/simulation/simulate.hpp"
 
 namespace kinesphere::testing {
 

@@ -1,6 +1,6 @@
 // The truth is the same whether every pair is followed all the time or only while its bodies may be near, and
 // the same as the oracle's, which knows nothing of spans.
-#include "scene/true_contacts.hpp"
+#include "lab/truth/true_contacts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,10 @@
 #include <memory>
 #include <utility>
 
-#include "kinesphere/comparison.hpp"
 #include "kinesphere/motion/recorded_tracks.hpp"
 #include "kinesphere/random.hpp"
+#include "lab/truth/comparison.hpp"
+#include "lab/truth/oracle.hpp"
 #include "scene/differential_scenes.hpp"
 
 namespace kinesphere {

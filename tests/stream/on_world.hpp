@@ -1,6 +1,7 @@
 // Calls of the world, made on its twin too while there is one.
 #pragma once
 
+#include "kinesphere/event_hash.hpp"
 #include "stream/player.hpp"
 
 namespace kinesphere::stream {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "kinesphere/scene.hpp"
+#include "lab/scene/scene.hpp"
 #include "stream/operation.hpp"
 #include "stream/told_contacts.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "kinesphere/scene.hpp"
+#include "kinesphere/event_hash.hpp"
 
 namespace kinesphere::stream {
 namespace {

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "contact/contact_rule.hpp"
-#include "detector/pair_table.hpp"
+#include "kinesphere/event_hash.hpp"
 #include "kinesphere/world.hpp"
+#include "lab/truth/pair_table.hpp"
 #include "stream/truth.hpp"
 
 namespace kinesphere::stream {

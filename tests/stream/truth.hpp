@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "contact/contact_event.hpp"
-#include "detector/gap_course.hpp"
 #include "kinesphere/event.hpp"
 #include "kinesphere/motion/trajectory.hpp"
 #include "kinesphere/shape.hpp"
 #include "kinesphere/world_definition.hpp"
+#include "lab/truth/gap_course.hpp"
 #include "stream/operation.hpp"
 #include "world/extent.hpp"
 

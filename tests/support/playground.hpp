@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "kinesphere/event_hash.hpp"
 #include "kinesphere/random.hpp"
-#include "kinesphere/scene.hpp"
 #include "kinesphere/world.hpp"
 
 namespace kinesphere {

@@ -1,7 +1,7 @@
 // Section 3.2: is the cell size that the cost model picks a good one, and are its rates true?
 #include "bench/measurement.hpp"
 #include "bench/sections.hpp"
-#include "detector/event_driven/cost_model.hpp"
+#include "lab/rivals/event_driven/cost_model.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lab/simulation/simulate.hpp"
 #include "program_error.hpp"
 
 namespace kinesphere::program {

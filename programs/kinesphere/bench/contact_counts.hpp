@@ -5,7 +5,8 @@
 #include <map>
 #include <tuple>
 
-#include "kinesphere/scene.hpp"
+#include "lab/detector/detector.hpp"
+#include "lab/scene/scene.hpp"
 
 namespace kinesphere::program {
 

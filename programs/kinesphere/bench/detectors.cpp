@@ -1,7 +1,7 @@
 // The detectors that are compared, by the names they have in the tables.
 #include "bench/detectors.hpp"
 
-#include "kinesphere/detector_table.hpp"
+#include "lab/detector_table.hpp"
 #include "program_error.hpp"
 
 namespace kinesphere::program {

@@ -3,7 +3,9 @@
 
 #include <string>
 
-#include "kinesphere/scene.hpp"
+#include "lab/detector/detector.hpp"
+#include "lab/rivals/rivals.hpp"
+#include "lab/scene/scene.hpp"
 
 namespace kinesphere::program {
 

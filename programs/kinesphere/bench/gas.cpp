@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "bench/measurement.hpp"
+#include "lab/measures/gas_properties.hpp"
 #include "program_error.hpp"
-#include "scene/gas_properties.hpp"
 #include "scene_file.hpp"
 
 namespace kinesphere::program {

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "bench/detectors.hpp"
-#include "kinesphere/scene.hpp"
+#include "lab/scene/make_scene.hpp"
+#include "lab/scene/scene.hpp"
+#include "lab/simulation/simulate.hpp"
 
 namespace kinesphere::program {
 

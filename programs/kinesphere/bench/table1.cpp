@@ -5,6 +5,7 @@
 #include "bench/measurement.hpp"
 #include "bench/published.hpp"
 #include "bench/sections.hpp"
+#include "lab/truth/oracle.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kinesphere/motion/recorded_tracks.hpp"
-#include "kinesphere/scene.hpp"
+#include "lab/scene/scene.hpp"
 
 namespace kinesphere::program {
 

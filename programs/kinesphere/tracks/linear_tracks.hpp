@@ -6,7 +6,7 @@
 
 #include "kinesphere/motion/motion.hpp"
 #include "kinesphere/motion/recorded_tracks.hpp"
-#include "kinesphere/scene.hpp"
+#include "lab/scene/scene.hpp"
 
 namespace kinesphere::program {
 

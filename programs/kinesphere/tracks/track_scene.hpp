@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "kinesphere/scene.hpp"
+#include "lab/scene/scene.hpp"
 #include "tracks/reading_policy.hpp"
 #include "tracks/recording.hpp"
 

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "contact/contact_rule.hpp"
-#include "kinesphere/comparison.hpp"
 #include "kinesphere/random.hpp"
+#include "lab/truth/comparison.hpp"
 #include "program/support.hpp"
 #include "program/tracks/simulated_events.hpp"
 #include "tracks/projection.hpp"

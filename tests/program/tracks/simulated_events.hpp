@@ -3,7 +3,9 @@
 
 #include <vector>
 
-#include "kinesphere/scene.hpp"
+#include "lab/detector/detector.hpp"
+#include "lab/scene/scene.hpp"
+#include "lab/simulation/simulate.hpp"
 #include "program_error.hpp"
 
 namespace kinesphere::program {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "kinesphere/comparison.hpp"
 #include "kinesphere/random.hpp"
+#include "lab/truth/comparison.hpp"
 #include "program/support.hpp"
 #include "program/tracks/simulated_events.hpp"
 #include "tracks/linear_tracks.hpp"

@@ -12,8 +12,8 @@
 #include "bench/speed/transcript.hpp"
 #include "bench/speed/tree_kernels.hpp"
 #include "bench/speed/tuning.hpp"
+#include "lab/measures/probe_floor.hpp"
 #include "program_error.hpp"
-#include "scene/probe_floor.hpp"
 
 namespace kinesphere::program {
 namespace {

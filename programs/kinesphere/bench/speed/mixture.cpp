@@ -9,9 +9,9 @@
 #include "kinesphere/motion/piecewise_acceleration.hpp"
 #include "kinesphere/motion/random_forces.hpp"
 #include "kinesphere/random.hpp"
+#include "lab/scene/placement.hpp"
+#include "lab/scene/relaxation.hpp"
 #include "program_error.hpp"
-#include "scene/placement.hpp"
-#include "scene/relaxation.hpp"
 
 namespace kinesphere::program {
 namespace {

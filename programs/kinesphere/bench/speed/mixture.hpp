@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kinesphere/scene.hpp"
+#include "lab/scene/scene.hpp"
 
 namespace kinesphere::program {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/speed/speed_settings.hpp"
-#include "kinesphere/scene.hpp"
+#include "lab/scene/scene.hpp"
 
 namespace kinesphere::program {
 

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "bench/speed/step_kernel.hpp"
-#include "kinesphere/scene.hpp"
+#include "kinesphere/event.hpp"
+#include "lab/scene/scene.hpp"
 
 namespace kinesphere::program {
 

@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "kinesphere/scene.hpp"
+#include "lab/detector/detector.hpp"
+#include "lab/scene/scene.hpp"
+#include "lab/simulation/simulate.hpp"
 
 namespace kinesphere::program {
 

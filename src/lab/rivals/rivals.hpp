@@ -1,0 +1,76 @@
+// Other ways to find the same contacts, to compare the world with: those of the papers, and fixed steps.
+//
+// Like the world they read their motion through state() alone. They know neither space that repeats nor two
+// dimensions, and answer unsupported.
+#pragma once
+
+#include <memory>
+
+#include "kinesphere/motion/motion.hpp"
+#include "kinesphere/result.hpp"
+#include "kinesphere/world_definition.hpp"
+#include "lab/detector/detector.hpp"
+#include "lab/rivals/event_driven/unit_costs.hpp"
+
+namespace kinesphere {
+
+/// How the paper's detector solves eq 9 for the time of a colliding event.
+enum class MeetingSolver {
+  certified,  ///< Newton steps along the line of centres (earliest_meeting): never late
+  numeric,    ///< the quartic of eq 10, numerically, as the paper did
+  /// Its closed form: may miss contacts, most of all where limits are small. Uses the machine's mathematical
+  /// library, so runs may differ between machines.
+  closed_form,
+};
+
+struct PaperOptions {
+  /// Edge of the finest cells (length), 0 < cell_edge <= 1e200, at least 1024 contact tolerances being used;
+  /// 0: the cost model chooses, and again whenever the bodies have doubled in number. A body crosses about
+  /// speed / cell_edge faces per unit of time, each an event.
+  double cell_edge = 0.0;
+  /// Leave candidates out of the event tree that come after the reset of their body (paper, section 3.3).
+  bool trimming = true;
+  MeetingSolver solver = MeetingSolver::certified;
+  /// What the cost model reckons with.
+  UnitCosts unit_costs = UnitCosts::reference();
+  /// Reckon with costs that are measured at start-up (calibrate_unit_costs) instead. They suit this machine
+  /// better, but two runs may then differ in their probes and in the last digits of their contacts.
+  bool calibrated = false;
+};
+
+/// The paper's algorithm (Kim, Guibas and Shin 2005): hierarchical grids, entering, leaving, resetting and
+/// colliding events. Errors: out_of_range for options.
+Result<std::unique_ptr<Detector>> make_paper_detector(const WorldDefinition& definition, const Motion& motion,
+                                                      const PaperOptions& options = {});
+/// Its ancestor for ballistic spheres (Kim, Guibas and Shin 1998): exact event times, no probes. add()
+/// answers unsupported for a body with a limit or with errors, and for one with a plan of its own.
+Result<std::unique_ptr<Detector>> make_ballistic_detector(const WorldDefinition& definition,
+                                                          const Motion& motion);
+
+struct HubbardOptions {
+  /// How long space-time bounds are built for (time) > 0, each time a rebuild of all, or 0: twice the running
+  /// mean of the time to their first meeting.
+  double interval = 0.0;
+  /// Find all crossings of faces in the interval, and not only those up to the first meeting. The contacts
+  /// are the same, the work is not.
+  bool all_crossings = false;
+};
+
+/// The broad phase of Hubbard (1995): space-time bounds of all bodies, rebuilt after each of their
+/// collisions, and a sweep over time through their faces. Errors: out_of_range for options.
+Result<std::unique_ptr<Detector>> make_hubbard_detector(const WorldDefinition& definition,
+                                                        const Motion& motion,
+                                                        const HubbardOptions& options = {});
+/// The predictor of Hayward and others (1995): a safe interval for every pair, and the urgent ones looked at
+/// first. O(n^2) memory.
+Result<std::unique_ptr<Detector>> make_hayward_detector(const WorldDefinition& definition,
+                                                        const Motion& motion);
+
+enum class FixedStepSearch { grid, all_pairs };
+/// Looks at all bodies every `step` (time) > 0, through a grid or pair by pair: late by up to a step, and
+/// blind in between. Errors: out_of_range for the step.
+Result<std::unique_ptr<Detector>> make_fixed_step_detector(const WorldDefinition& definition,
+                                                           const Motion& motion, double step,
+                                                           FixedStepSearch search = FixedStepSearch::grid);
+
+}  // namespace kinesphere

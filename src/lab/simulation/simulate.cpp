@@ -1,0 +1,180 @@
+// Running a scene under a detector.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <vector>
+
+#include "input/input_check.hpp"
+#include "kinesphere/event_hash.hpp"
+#include "kinesphere/response.hpp"
+#include "lab/detector/detector.hpp"
+#include "lab/scene/scene.hpp"
+#include "lab/scene/scene_check.hpp"
+#include "lab/simulation/simulate.hpp"
+#include "number/infinity.hpp"
+
+namespace kinesphere {
+namespace {
+
+class Simulation {
+ public:
+  Simulation(const Scene& scene, Motion& motion, Detector& detector, const SimulationObserver& observer)
+      : scene_(scene), motion_(motion), detector_(detector), observer_(observer) {
+    for (std::uint32_t number = 0; number < scene.bodies.size(); ++number) {
+      const SceneBody& body = scene.bodies[number];
+      if (body.appears > scene.end_time || body.vanishes <= scene.world.start_time) continue;
+      changes_.push_back({std::max(body.appears, scene.world.start_time), Change::appears, number, nullptr});
+      if (body.vanishes <= scene.end_time)
+        changes_.push_back({body.vanishes, Change::vanishes, number, nullptr});
+      result_.body_time +=
+          std::min(body.vanishes, scene.end_time) - std::max(body.appears, scene.world.start_time);
+    }
+    for (const SceneTurn& turn : scene.turns) {
+      const SceneBody& body = scene.bodies[turn.body];
+      if (std::max(body.appears, scene.world.start_time) < turn.time && turn.time < body.vanishes &&
+          turn.time < scene.end_time)
+        changes_.push_back({turn.time, Change::turns, turn.body, &turn});
+    }
+    // Those that leave make room before others come.
+    std::sort(changes_.begin(), changes_.end(), [](const Change& a, const Change& b) {
+      return std::tie(a.time, b.kind, a.body) < std::tie(b.time, a.kind, b.body);
+    });
+  }
+
+  Result<SimulationResult> run() {
+    const double start = scene_.world.start_time;
+    std::uint64_t frame = 0;
+    double last_frame = -infinity;
+    std::size_t change = 0;
+    for (;;) {
+      const double frame_time = observer_.frame_interval < infinity
+                                    ? start + static_cast<double>(frame) * observer_.frame_interval
+                                    : infinity;
+      const double change_time = change < changes_.size() ? changes_[change].time : infinity;
+      const double stop = std::min({frame_time, change_time, scene_.end_time});
+      if (auto advanced = advance_to(stop); !advanced) return advanced.error();
+      for (; change < changes_.size() && changes_[change].time <= stop; ++change) {
+        if (auto applied = apply(changes_[change]); !applied) return applied.error();
+      }
+      if (frame_time <= stop) {
+        if (auto advanced = advance_to(stop); !advanced) return advanced.error();
+        show(stop);
+        last_frame = stop;
+        ++frame;
+      }
+      if (stop >= scene_.end_time) break;
+    }
+    // Bodies that vanish at the very end still report the end of their contacts.
+    if (auto advanced = advance_to(scene_.end_time); !advanced) return advanced.error();
+    if (last_frame != scene_.end_time) show(scene_.end_time);
+    result_.counters = detector_.counters();
+    result_.memory = detector_.memory();
+    result_.simulated_time = scene_.end_time - start;
+    result_.contact_hash = hash_.value();
+    return result_;
+  }
+
+ private:
+  struct Change {
+    enum Kind { appears, vanishes, turns };
+    double time;
+    Kind kind;
+    std::uint32_t body;
+    const SceneTurn* turn;  ///< where it turns
+  };
+
+  Result<void> advance_to(double time) {
+    for (;;) {
+      if (observer_.between_events) observer_.between_events(detector_);
+      auto event = detector_.advance(time);
+      if (!event) return event.error();
+      if (!*event) return {};
+      hash_.add(**event);
+      if (observer_.on_event) observer_.on_event(**event);
+      if (scene_.response != Response::bounce) continue;
+      if (auto answered = respond(**event); !answered) return answered;
+    }
+  }
+
+  void show(double time) {
+    if (observer_.on_frame) observer_.on_frame(detector_, motion_, time);
+  }
+
+  Result<void> apply(const Change& change) {
+    if (change.kind == Change::vanishes) return detector_.remove(change.body);
+    if (change.kind == Change::turns) {
+      if (auto turned = motion_.set_velocity(change.body, change.time, change.turn->velocity); !turned)
+        return turned;
+      return detector_.set_velocity(change.body, change.turn->velocity);
+    }
+    BodyDefinition definition = motion_.definition(change.body, change.time);
+    definition.radius = scene_.bodies[change.body].radius;
+    return detector_.add(change.body, definition);
+  }
+
+  double mass(std::uint32_t body) const {
+    const double radius = scene_.bodies[body].radius;
+    return radius > 0.0 ? radius * radius * radius : std::numeric_limits<double>::min();
+  }
+
+  Result<void> respond(const Event& event) {
+    const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
+    if (!begins || event.approach_speed <= 0.0) return {};
+    const std::uint32_t first = event.first.index;
+    const bool pair = event.second != no_body;
+    const std::uint32_t second = pair ? event.second.index : first;
+    const double restitution = scene_.restitution;
+    const Bounce after = scene_.resting_speed > 0.0
+                             ? settle(event, mass(first), mass(second), restitution, scene_.resting_speed)
+                             : bounce(event, mass(first), mass(second), restitution);
+    if (auto kicked = set_velocity(first, event.time, after.first_velocity); !kicked) return kicked;
+    return pair ? set_velocity(second, event.time, after.second_velocity) : Result<void>();
+  }
+
+  Result<void> set_velocity(std::uint32_t body, double time, const Vec3& velocity) {
+    if (auto turned = motion_.set_velocity(body, time, velocity); !turned) {
+      if (turned.error().code != ErrorCode::unsupported) return turned;
+      return Error{ErrorCode::unsupported,
+                   "response",
+                   {body, 0},
+                   "simulate: response bounce needs a motion that can be kicked, and this one cannot"};
+    }
+    return detector_.set_velocity(body, velocity);
+  }
+
+  const Scene& scene_;
+  Motion& motion_;
+  Detector& detector_;
+  const SimulationObserver& observer_;
+  std::vector<Change> changes_;
+  EventHash hash_;
+  SimulationResult result_;
+};
+
+}  // namespace
+
+Result<SimulationResult> simulate(const Scene& scene, const DetectorMaker& make,
+                                  const SimulationObserver& observer) {
+  if (auto valid = check_times(scene, "simulate"); !valid) return valid.error();
+  if (auto valid = InputCheck("simulate")
+                       .require(observer.frame_interval > 0.0, ErrorCode::out_of_range, {"frame_interval"},
+                                "must be larger than 0", observer.frame_interval)
+                       .result();
+      !valid) {
+    return valid.error();
+  }
+  const std::unique_ptr<Motion> motion = scene.motion->clone();
+  auto detector = make(scene.world, *motion);
+  if (!detector) return detector.error();
+  if (observer.at_start) {
+    if (auto started = observer.at_start(**detector); !started) return started.error();
+  }
+  auto result = Simulation(scene, *motion, **detector, observer).run();
+  if (result && observer.at_end) {
+    if (auto ended = observer.at_end(**detector); !ended) return ended.error();
+  }
+  return result;
+}
+
+}  // namespace kinesphere
