@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <map>
 #include <vector>
 
 #include "program_error.hpp"
@@ -15,10 +14,6 @@ namespace kinesphere::program {
 namespace {
 
 constexpr const char* group = "Detector";
-
-const std::map<std::string, MeetingSolver> solvers{{"certified", MeetingSolver::certified},
-                                                   {"numeric", MeetingSolver::numeric},
-                                                   {"closed_form", MeetingSolver::closed_form}};
 
 std::vector<std::string_view> detector_names() {
   std::vector<std::string_view> names;
@@ -43,14 +38,11 @@ DetectorMaker DetectorOptions::maker() const {
     throw ProgramError(fmt::format("--detector {}: expected --step with the step's length", name));
   if (!entry.takes_step && step)
     throw ProgramError("--step: expected only with --detector fixed-step or brute-force");
-  if (name != "paper" && (cell_edge || no_trimming || calibrate || !solver.empty()))
-    throw ProgramError(
-        "--cell-edge, --solver, --no-trimming, --calibrate: expected only with --detector paper");
+  if (name != "paper" && (cell_edge || no_trimming))
+    throw ProgramError("--cell-edge, --no-trimming: expected only with --detector paper");
   DetectorSettings settings{.step = step};
   if (cell_edge) settings.paper.cell_edge = *cell_edge;
   settings.paper.trimming = !no_trimming;
-  settings.paper.calibrated = calibrate;
-  if (!solver.empty()) settings.paper.solver = solvers.at(solver);
   return require(detector_maker(name, settings));
 }
 
@@ -72,17 +64,8 @@ void add_detector_options(CLI::App& command, DetectorOptions& options) {
       ->check(finite_number())
       ->group(group);
   command
-      .add_option("--solver", options.solver,
-                  "How paper predicts the meeting of two bounds; closed_form may miss contacts")
-      ->check(CLI::IsMember({"certified", "numeric", "closed_form"}))
-      ->group(group);
-  command
       .add_flag("--no-trimming", options.no_trimming,
                 "Let paper keep candidates that come after the reset of their body")
-      ->group(group);
-  command
-      .add_flag("--calibrate", options.calibrate,
-                "Let the cost model of paper measure its unit costs at start-up; runs may then differ")
       ->group(group);
 }
 

@@ -13,9 +13,7 @@ struct DetectorOptions {
   std::string name = "world";
   std::optional<double> step;
   std::optional<double> cell_edge;
-  std::string solver;
   bool no_trimming = false;
-  bool calibrate = false;
 
   /// Throws ProgramError for options that do not fit the detector.
   DetectorMaker maker() const;

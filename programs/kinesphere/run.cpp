@@ -96,7 +96,7 @@ void add_wakes(Summary& summary, const Counters& counters) {
 }
 
 /// What came to pass in the detectors of the papers.
-void add_paper_events(Summary& summary, const Counters& counters) {
+void add_paper_events(Summary& summary, const DetectorCounters& counters) {
   const std::uint64_t crossings = counters.entering + counters.leaving;
   const std::uint64_t events = crossings + counters.resetting + counters.colliding;
   const auto row = [&](const char* kind, std::uint64_t count) {
@@ -116,7 +116,7 @@ void add_paper_events(Summary& summary, const Counters& counters) {
 
 std::string summary_of(const SceneParameters& parameters, const RunOptions& options, const Scene& scene,
                        const SimulationResult& result, double real_seconds) {
-  const Counters& counters = result.counters;
+  const DetectorCounters& counters = result.counters;
   const auto probes = static_cast<double>(counters.probes);
   Summary summary;
   add_scene(summary, parameters);

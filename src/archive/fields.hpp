@@ -127,11 +127,9 @@ void transfer(Self& self, Archive& archive) {
 template <Some<Counters> Self, class Archive>
 void transfer(Self& self, Archive& archive) {
   auto& [events, probes, wakes, stale_wakes, box_ends, pair_checks, wall_checks, searches, candidates,
-         certificates, zeno_steps, repeated_contacts, entering, leaving, resetting, colliding,
-         event_insertions, event_removals, largest_queue, rebuilds, crossings] = self;
+         certificates, zeno_steps, repeated_contacts] = self;
   archive(events, probes, wakes, stale_wakes, box_ends, pair_checks, wall_checks, searches, candidates,
-          certificates, zeno_steps, repeated_contacts, entering, leaving, resetting, colliding,
-          event_insertions, event_removals, largest_queue, rebuilds, crossings);
+          certificates, zeno_steps, repeated_contacts);
 }
 
 }  // namespace kinesphere

@@ -21,8 +21,8 @@ Made make_ballistic(const WorldDefinition& definition, const Motion& motion, con
   return make_ballistic_detector(definition, motion);
 }
 
-Made make_hubbard(const WorldDefinition& definition, const Motion& motion, const DetectorSettings& settings) {
-  return make_hubbard_detector(definition, motion, settings.hubbard);
+Made make_hubbard(const WorldDefinition& definition, const Motion& motion, const DetectorSettings&) {
+  return make_hubbard_detector(definition, motion);
 }
 
 Made make_hayward(const WorldDefinition& definition, const Motion& motion, const DetectorSettings&) {

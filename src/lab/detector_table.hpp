@@ -15,7 +15,6 @@ struct DetectorSettings {
   /// Time step > 0 of those that take one.
   std::optional<double> step{};
   PaperOptions paper{};
-  HubbardOptions hubbard{};
 };
 
 struct DetectorEntry {

@@ -18,7 +18,7 @@ class StillDetector : public Detector {
   Result<void> set_velocity(std::uint32_t, const Vec3&) override { return {}; }
   Result<std::optional<Event>> advance(double) override { return std::optional<Event>{}; }
   double time() const override { return 0; }
-  Counters counters() const override { return {}; }
+  DetectorCounters counters() const override { return {}; }
   Result<Bound> bound(std::uint32_t body) const override { return Bound{.radius = 10.0 + body}; }
 };
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t scenes_per_family = 25;
 /// For the engine's rivals.
-constexpr std::uint64_t rival_scenes = 4;
+constexpr std::uint64_t rival_scenes = 1;
 
 /// The first time at which the gap is deeper than the tolerance, from when it is first not negative.
 std::optional<double> first_overlap(const GapCourse& gap, const Scene& scene) {

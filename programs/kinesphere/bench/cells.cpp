@@ -9,7 +9,7 @@ namespace {
 /// A chosen edge counts as good when no other one tried is cheaper by more than this.
 constexpr double good_enough = 1.25;
 
-CostModel model_of(const Scene& scene, const UnitCosts& costs) {
+CostModel model_of(const Scene& scene) {
   std::vector<MovingSphere> spheres;
   for (std::uint32_t body = 0; body < scene.bodies.size(); ++body) {
     const BodyDefinition promise = scene.motion->definition(body, scene.world.start_time);
@@ -18,7 +18,7 @@ CostModel model_of(const Scene& scene, const UnitCosts& costs) {
                        .growth_speed = promise.velocity_error,
                        .limit = promise.acceleration_limit});
   }
-  return {spheres, *scene.world.box, true, costs};
+  return {spheres, *scene.world.box, true};
 }
 
 struct Case {
@@ -29,21 +29,20 @@ struct Case {
 struct Tables {
   ResultTable sweep{
       {"n", "speed", "edge", "edge_to_chosen", "ms_per_second", "model_ms_per_second", "contacts", "hash"}};
-  ResultTable choice{{"n", "speed", "chosen_edge", "best_edge", "time_to_best", "within_a_quarter",
-                      "calibrated_edge", "calibrated_to_best"}};
+  ResultTable choice{{"n", "speed", "chosen_edge", "best_edge", "time_to_best", "within_a_quarter"}};
   ResultTable rates{{"n", "speed", "rate", "expected", "measured", "expected_to_measured"}};
 };
 
 void add_rates(ResultTable& table, const Case& what, const ExpectedRates& expected, const Run& run) {
-  const auto add = [&](const char* name, double rate, std::uint64_t Counters::*count) {
+  const auto add = [&](const char* name, double rate, std::uint64_t DetectorCounters::*count) {
     const double measured = static_cast<double>(run.count(count)) / run.result.simulated_time;
     table.row({std::uint64_t{what.bodies}, what.speed, std::string(name), rate, measured, rate / measured});
   };
-  add("entering", expected.entering, &Counters::entering);
-  add("leaving", expected.leaving, &Counters::leaving);
-  add("resetting", expected.resetting, &Counters::resetting);
-  add("colliding", expected.colliding, &Counters::colliding);
-  add("pair tests", expected.pair_tests, &Counters::certificates);
+  add("entering", expected.entering, &DetectorCounters::entering);
+  add("leaving", expected.leaving, &DetectorCounters::leaving);
+  add("resetting", expected.resetting, &DetectorCounters::resetting);
+  add("colliding", expected.colliding, &DetectorCounters::colliding);
+  add("pair tests", expected.pair_tests, &DetectorCounters::certificates);
 }
 
 void add_case(Tables& tables, const Case& what, const BenchSettings& settings) {
@@ -52,15 +51,12 @@ void add_case(Tables& tables, const Case& what, const BenchSettings& settings) {
   parameters.speed_max *= what.speed;
   const auto scenes = seeded_scenes(parameters, 1);
   const Scene& scene = scenes.front();
-  const CostModel model = model_of(scene, UnitCosts::reference());
+  const CostModel model = model_of(scene);
   const double chosen = model.choose_cell_edge();
-  const UnitCosts measured = calibrate_unit_costs(*scene.motion, scene.world.start_time);
-  const double calibrated = model_of(scene, measured).choose_cell_edge();
 
   std::vector<NamedDetector> detectors;
   for (const double factor : settings.cell_factors)
     detectors.push_back(paper_engine({.cell_edge = factor * chosen}));
-  detectors.push_back(paper_engine({.cell_edge = calibrated}));
   const auto series = measure(detectors, scenes, settings.repetitions);
   std::size_t best = 0, own = 0;
   for (std::size_t k = 0; k < settings.cell_factors.size(); ++k) {
@@ -74,7 +70,7 @@ void add_case(Tables& tables, const Case& what, const BenchSettings& settings) {
   }
   const double to_best = ratio(series[own], series[best]);
   tables.choice.row({std::uint64_t{what.bodies}, what.speed, chosen, settings.cell_factors[best] * chosen,
-                     to_best, to_best <= good_enough, calibrated, ratio(series.back(), series[best])});
+                     to_best, to_best <= good_enough});
   add_rates(tables.rates, what, model.expected_rates(chosen), series[own].runs.front());
 }
 

@@ -15,7 +15,7 @@ NamedDetector named(const std::string& name, const DetectorSettings& settings = 
 
 NamedDetector paper_engine(const PaperOptions& options) { return named("paper", {.paper = options}); }
 
-NamedDetector hubbard_engine(const HubbardOptions& options) { return named("hubbard", {.hubbard = options}); }
+NamedDetector hubbard_engine() { return named("hubbard"); }
 
 NamedDetector hayward_engine() { return named("hayward"); }
 

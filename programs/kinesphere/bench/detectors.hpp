@@ -15,7 +15,7 @@ struct NamedDetector {
 };
 
 NamedDetector paper_engine(const PaperOptions& options = {});
-NamedDetector hubbard_engine(const HubbardOptions& options = {});
+NamedDetector hubbard_engine();
 NamedDetector hayward_engine();
 NamedDetector fixed_step_engine(double step);
 NamedDetector world_engine();

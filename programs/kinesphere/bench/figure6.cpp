@@ -18,10 +18,10 @@ void bench_figure6(const Report& report, const BenchSettings& settings) {
     const auto scenes = seeded_scenes(first_experiment(bodies, settings.figure_seconds), 1);
     const Series series = measure({paper_engine()}, scenes, 1).front();
     const Run& run = series.runs.front();
-    const std::uint64_t entering = run.count(&Counters::entering);
-    const std::uint64_t leaving = run.count(&Counters::leaving);
-    const std::uint64_t resetting = run.count(&Counters::resetting);
-    const std::uint64_t colliding = run.count(&Counters::colliding);
+    const std::uint64_t entering = run.count(&DetectorCounters::entering);
+    const std::uint64_t leaving = run.count(&DetectorCounters::leaving);
+    const std::uint64_t resetting = run.count(&DetectorCounters::resetting);
+    const std::uint64_t colliding = run.count(&DetectorCounters::colliding);
     const std::uint64_t sum = entering + leaving + resetting;
     table.row({std::uint64_t{bodies}, std::uint64_t{1}, entering, leaving, resetting, colliding,
                std::max({entering, leaving, resetting}) <= colliding, sum <= colliding,

@@ -24,14 +24,14 @@ struct Cost {
   double pair_tests = 0.0;   ///< of each
 };
 
-Cost cost_of(const Series& series, const std::vector<std::uint64_t Counters::*>& kinds) {
+Cost cost_of(const Series& series, const std::vector<std::uint64_t DetectorCounters::*>& kinds) {
   Cost cost;
   double seconds = 0.0;
   double pair_tests = 0.0;
   for (const Run& run : series.runs) {
     for (const auto kind : kinds) cost.events += run.count(kind);
     seconds += run.simulating;
-    pair_tests += static_cast<double>(run.count(&Counters::certificates));
+    pair_tests += static_cast<double>(run.count(&DetectorCounters::certificates));
   }
   cost.nanoseconds = 1e9 * seconds / static_cast<double>(cost.events);
   cost.pair_tests = pair_tests / static_cast<double>(cost.events);
@@ -50,9 +50,9 @@ void bench_growth(const Report& report, const BenchSettings& settings) {
     const SceneParameters parameters = scaled_experiment(k, settings.growth_seconds);
     const std::uint64_t seeds = std::max(settings.growth_bodies / parameters.bodies, 1u);
     const auto series = measure({paper_engine(), world_engine()}, seeded_scenes(parameters, seeds), 1);
-    const Cost paper = cost_of(
-        series[0], {&Counters::entering, &Counters::leaving, &Counters::resetting, &Counters::colliding});
-    const Cost world = cost_of(series[1], {&Counters::wakes});
+    const Cost paper = cost_of(series[0], {&DetectorCounters::entering, &DetectorCounters::leaving,
+                                           &DetectorCounters::resetting, &DetectorCounters::colliding});
+    const Cost world = cost_of(series[1], {&DetectorCounters::wakes});
     const double log_n = std::log2(parameters.bodies);
     table.row({std::uint64_t{parameters.bodies}, seeds, paper.events, paper.pair_tests, paper.nanoseconds,
                paper.nanoseconds / log_n, world.events, world.nanoseconds, world.nanoseconds / log_n,

@@ -17,13 +17,13 @@ double cpu_seconds();
 /// One simulation, in CPU time of this process.
 struct Run {
   SimulationResult result;
-  double preparing = 0.0;   ///< seconds until all bodies are in and the clock stands at the start
-  double simulating = 0.0;  ///< seconds from there to the end
-  Counters prepared;        ///< as they were when the clock began to move
+  double preparing = 0.0;     ///< seconds until all bodies are in and the clock stands at the start
+  double simulating = 0.0;    ///< seconds from there to the end
+  DetectorCounters prepared;  ///< as they were when the clock began to move
 
   double per_simulated_second() const { return simulating / result.simulated_time; }
   /// How much the counter went up while the clock was moving.
-  std::uint64_t count(std::uint64_t Counters::*counter) const {
+  std::uint64_t count(std::uint64_t DetectorCounters::*counter) const {
     return result.counters.*counter - prepared.*counter;
   }
 };

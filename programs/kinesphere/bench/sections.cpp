@@ -7,11 +7,9 @@ std::span<const Section> bench_sections() {
   static constexpr Section sections[] = {
       {"cells", "Section 3.2: the cost model's choice of a cell size", bench_cells},
       {"trimming", "Section 3.3: candidates later than the reset left out", bench_trimming},
-      {"solvers", "Section 4.1: ways to the time of a colliding event", bench_solvers},
       {"figure5", "Figure 5: real time per simulated second", bench_figure5},
       {"figure6", "Figure 6: actual events", bench_figure6},
       {"table1", "Table 1: against Hubbard's broad phase, and others", bench_table1},
-      {"intervals", "Table 1, continued: what Hubbard's intervals cost", bench_intervals},
       {"circulation", "Section 4.3, figures 7 and 8: particles in a velocity field", bench_circulation},
       {"growth", "Section 4.2: O(log n) per event", bench_growth},
   };

@@ -12,12 +12,10 @@ namespace kinesphere::program {
 void bench_figure5(const Report& report, const BenchSettings& settings);
 void bench_figure6(const Report& report, const BenchSettings& settings);
 void bench_table1(const Report& report, const BenchSettings& settings);
-void bench_intervals(const Report& report, const BenchSettings& settings);
 void bench_circulation(const Report& report, const BenchSettings& settings);
 void bench_growth(const Report& report, const BenchSettings& settings);
 void bench_trimming(const Report& report, const BenchSettings& settings);
 void bench_cells(const Report& report, const BenchSettings& settings);
-void bench_solvers(const Report& report, const BenchSettings& settings);
 
 struct Section {
   std::string_view name;  ///< for --only

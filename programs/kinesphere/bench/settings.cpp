@@ -13,7 +13,6 @@ const BenchSettings& bench_settings(Effort effort) {
       .figure_seconds = 0.2,
       .table1 = {{10, 0.2, 2}, {20, 0.1, 1}},
       .miss_seconds = 0.2,
-      .intervals = {{20, 0.2, 1}},
       .circulation_bodies = 50,
       .circulation_seconds = 0.4,
       .snapshot_time = 0.2,
@@ -26,7 +25,6 @@ const BenchSettings& bench_settings(Effort effort) {
       .cell_speeds = {1.0},
       .cell_factors = {0.7, 1.0, 1.4},
       .cell_body_seconds = 4,
-      .solver_pairs = 100,
   };
   static const BenchSettings usual{
       .name = "usual",
@@ -35,7 +33,6 @@ const BenchSettings& bench_settings(Effort effort) {
       .figure_seconds = 4,
       .table1 = {{30, 15, 20}, {100, 15, 20}, {300, 15, 5}, {1000, 2, 5}},
       .miss_seconds = 15,
-      .intervals = {{30, 5, 1}, {100, 2, 1}, {300, 0.3, 1}, {1000, 0.05, 1}},
       .circulation_bodies = 1000,
       .circulation_seconds = 7,
       .snapshot_time = 2,
@@ -48,7 +45,6 @@ const BenchSettings& bench_settings(Effort effort) {
       .cell_speeds = {0.2, 1.0},
       .cell_factors = edges,
       .cell_body_seconds = 500,
-      .solver_pairs = 100000,
   };
   static const BenchSettings full{
       .name = "full",
@@ -57,7 +53,6 @@ const BenchSettings& bench_settings(Effort effort) {
       .figure_seconds = 15,
       .table1 = {{30, 15, 50}, {100, 15, 50}, {300, 15, 50}, {1000, 15, 50}},
       .miss_seconds = 15,
-      .intervals = {{30, 15, 1}, {100, 5, 1}, {300, 1, 1}, {1000, 0.5, 1}},
       .circulation_bodies = 1000,
       .circulation_seconds = 7,
       .snapshot_time = 2,
@@ -70,7 +65,6 @@ const BenchSettings& bench_settings(Effort effort) {
       .cell_speeds = {0.2, 1.0},
       .cell_factors = edges,
       .cell_body_seconds = 5000,
-      .solver_pairs = 1000000,
   };
   return chosen(effort, quick, usual, full);
 }

@@ -44,8 +44,6 @@ struct BenchSettings {
   std::vector<Trial> table1;
   double miss_seconds;  ///< how long fixed steps are held against the oracle
 
-  std::vector<Trial> intervals;  ///< Hubbard's, with all crossings: seconds are those of the longest
-
   std::uint32_t circulation_bodies;  ///< section 4.3
   double circulation_seconds;
   double snapshot_time;      ///< of figure 7 (b) and (c)
@@ -61,8 +59,6 @@ struct BenchSettings {
   std::vector<double> cell_speeds;         ///< factors of the paper's speeds
   std::vector<double> cell_factors;        ///< cell edges tried, as factors of the model's choice
   double cell_body_seconds;
-
-  std::uint64_t solver_pairs;
 };
 
 /// Fixed steps as a game would take them, and longer ones (time).

@@ -14,7 +14,7 @@ void bench_trimming(const Report& report, const BenchSettings& settings) {
         measure({paper_engine(), paper_engine({.trimming = false})}, scenes, settings.repetitions);
     for (const bool trimming : {true, false}) {
       const Series& one = series[trimming ? 0 : 1];
-      const Counters& c = one.result().counters;
+      const DetectorCounters& c = one.result().counters;
       table.row({std::uint64_t{trial.bodies}, trial.seconds, std::string(trimming ? "on" : "off"),
                  c.event_insertions, c.event_removals, c.largest_queue, 1e3 * one.per_simulated_second(),
                  ratio(one, series[0]), one.contacts(), one.hash()});

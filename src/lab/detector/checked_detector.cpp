@@ -53,7 +53,7 @@ class CheckedDetector final : public Detector {
   }
 
   double time() const override { return detector_->time(); }
-  Counters counters() const override { return detector_->counters(); }
+  DetectorCounters counters() const override { return detector_->counters(); }
   Result<Bound> bound(std::uint32_t body) const override {
     if (!is_present(body)) return absent("bound", body).error();
     return detector_->bound(body);

@@ -12,11 +12,11 @@
 
 #include "kinesphere/body.hpp"
 #include "kinesphere/bound.hpp"
-#include "kinesphere/counters.hpp"
 #include "kinesphere/event.hpp"
 #include "kinesphere/motion/motion.hpp"
 #include "kinesphere/result.hpp"
 #include "kinesphere/world.hpp"
+#include "lab/detector/detector_counters.hpp"
 
 namespace kinesphere {
 
@@ -35,7 +35,7 @@ class Detector {
   virtual Result<void> set_velocity(std::uint32_t body, const Vec3& velocity) = 0;
   virtual Result<std::optional<Event>> advance(double until) = 0;
   virtual double time() const = 0;
-  virtual Counters counters() const = 0;
+  virtual DetectorCounters counters() const = 0;
   /// What the detector knows to contain the body, as of its last report; a sphere that does not grow where it
   /// keeps no bound. Errors: unknown_body, stale_body.
   virtual Result<Bound> bound(std::uint32_t body) const = 0;

@@ -47,7 +47,7 @@ class WorldDetector final : public Detector {
   }
 
   double time() const override { return world_.time(); }
-  Counters counters() const override { return world_.counters(); }
+  DetectorCounters counters() const override { return {world_.counters()}; }
   Result<Bound> bound(std::uint32_t number) const override { return world_.body(ids_[number])->bound; }
   std::optional<AuditFinding> audit() const override { return world_.audit(); }
   std::optional<Memory> memory() const override { return world_.memory(); }

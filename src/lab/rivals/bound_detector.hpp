@@ -24,7 +24,7 @@ class BoundDetector : public Detector {
   Result<void> set_velocity(std::uint32_t number, const Vec3& velocity) override;
   Result<std::optional<Event>> advance(double until) override;
   double time() const override { return time_; }
-  Counters counters() const override { return counters_; }
+  DetectorCounters counters() const override { return counters_; }
   Result<Bound> bound(std::uint32_t number) const override { return bodies_[number].bound; }
 
  protected:
@@ -88,7 +88,7 @@ class BoundDetector : public Detector {
   /// The same for a body and all walls of the box.
   double wall_outlook(std::uint32_t number, double horizon = infinity);
 
-  Counters counters_;
+  DetectorCounters counters_;
 
  private:
   void move_on_to(double time);

@@ -70,7 +70,7 @@ class FixedStep final : public Detector {
   }
 
   double time() const override { return time_; }
-  Counters counters() const override { return counters_; }
+  DetectorCounters counters() const override { return counters_; }
   Result<Bound> bound(std::uint32_t number) const override {
     const Body& body = bodies_[number];
     return Bound{.time = body.seen,
@@ -184,7 +184,7 @@ class FixedStep final : public Detector {
   std::uint64_t next_step_ = 0;
   std::vector<Body> bodies_;
   HashGrid grid_;
-  Counters counters_;
+  DetectorCounters counters_;
 };
 
 }  // namespace

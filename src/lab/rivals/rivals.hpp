@@ -10,18 +10,8 @@
 #include "kinesphere/result.hpp"
 #include "kinesphere/world_definition.hpp"
 #include "lab/detector/detector.hpp"
-#include "lab/rivals/event_driven/unit_costs.hpp"
 
 namespace kinesphere {
-
-/// How the paper's detector solves eq 9 for the time of a colliding event.
-enum class MeetingSolver {
-  certified,  ///< Newton steps along the line of centres (earliest_meeting): never late
-  numeric,    ///< the quartic of eq 10, numerically, as the paper did
-  /// Its closed form: may miss contacts, most of all where limits are small. Uses the machine's mathematical
-  /// library, so runs may differ between machines.
-  closed_form,
-};
 
 struct PaperOptions {
   /// Edge of the finest cells (length), 0 < cell_edge <= 1e200, at least 1024 contact tolerances being used;
@@ -30,12 +20,6 @@ struct PaperOptions {
   double cell_edge = 0.0;
   /// Leave candidates out of the event tree that come after the reset of their body (paper, section 3.3).
   bool trimming = true;
-  MeetingSolver solver = MeetingSolver::certified;
-  /// What the cost model reckons with.
-  UnitCosts unit_costs = UnitCosts::reference();
-  /// Reckon with costs that are measured at start-up (calibrate_unit_costs) instead. They suit this machine
-  /// better, but two runs may then differ in their probes and in the last digits of their contacts.
-  bool calibrated = false;
 };
 
 /// The paper's algorithm (Kim, Guibas and Shin 2005): hierarchical grids, entering, leaving, resetting and
@@ -47,20 +31,11 @@ Result<std::unique_ptr<Detector>> make_paper_detector(const WorldDefinition& def
 Result<std::unique_ptr<Detector>> make_ballistic_detector(const WorldDefinition& definition,
                                                           const Motion& motion);
 
-struct HubbardOptions {
-  /// How long space-time bounds are built for (time) > 0, each time a rebuild of all, or 0: twice the running
-  /// mean of the time to their first meeting.
-  double interval = 0.0;
-  /// Find all crossings of faces in the interval, and not only those up to the first meeting. The contacts
-  /// are the same, the work is not.
-  bool all_crossings = false;
-};
-
 /// The broad phase of Hubbard (1995): space-time bounds of all bodies, rebuilt after each of their
-/// collisions, and a sweep over time through their faces. Errors: out_of_range for options.
+/// collisions, and a sweep over time through their faces. They are built for twice the running mean of the
+/// time to their first meeting.
 Result<std::unique_ptr<Detector>> make_hubbard_detector(const WorldDefinition& definition,
-                                                        const Motion& motion,
-                                                        const HubbardOptions& options = {});
+                                                        const Motion& motion);
 /// The predictor of Hayward and others (1995): a safe interval for every pair, and the urgent ones looked at
 /// first. O(n^2) memory.
 Result<std::unique_ptr<Detector>> make_hayward_detector(const WorldDefinition& definition,

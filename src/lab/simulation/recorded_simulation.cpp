@@ -47,7 +47,7 @@ Result<SimulationResult> replay(std::span<const std::byte> recording) {
     else
       numbers.see(world);
   }
-  result.counters = world.counters();
+  result.counters = {world.counters()};
   result.simulated_time = world.time() - start;
   result.contact_hash = hash.value();
   return result;

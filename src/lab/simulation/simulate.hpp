@@ -30,7 +30,7 @@ struct SimulationObserver {
 };
 
 struct SimulationResult {
-  Counters counters;
+  DetectorCounters counters;
   double simulated_time = 0.0;
   double body_time = 0.0;          ///< sum over bodies of the time they were there
   std::uint64_t contact_hash = 0;  ///< of all events, in order; see EventHash

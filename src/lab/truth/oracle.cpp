@@ -77,7 +77,7 @@ class Oracle final : public Detector {
   }
 
   double time() const override { return time_; }
-  Counters counters() const override { return counters_; }
+  DetectorCounters counters() const override { return counters_; }
   Result<Bound> bound(std::uint32_t number) const override {
     const Sphere now = sphere(number);
     return Bound{
@@ -259,7 +259,7 @@ class Oracle final : public Detector {
   double searched_until_ = -infinity;
   std::vector<Key> unsearched_;  ///< whose next change is not known up to searched_until_
   std::vector<Event> departures_;
-  Counters counters_;
+  DetectorCounters counters_;
 };
 
 }  // namespace

@@ -99,7 +99,6 @@ TEST(DetectorTable, RefusesWrongNamesAndSettings) {
   EXPECT_EQ(detector_maker("world", {.step = 0.1}).error().argument, "settings");
   const Ballistic motion = Ballistic::create({.start = {{}}}).value();
   EXPECT_EQ(make_paper_detector({}, motion, {.cell_edge = -1.0}).error().argument, "options");
-  EXPECT_EQ(make_hubbard_detector({}, motion, {.interval = -1.0}).error().argument, "options");
   EXPECT_EQ(make_fixed_step_detector({}, motion, 0.0).error().argument, "step");
 }
 

@@ -93,7 +93,7 @@ class WrittenDetector final : public Detector {
     return event;
   }
   double time() const override { return detector_->time(); }
-  Counters counters() const override { return detector_->counters(); }
+  DetectorCounters counters() const override { return detector_->counters(); }
   Result<Bound> bound(std::uint32_t body) const override { return detector_->bound(body); }
   std::optional<Memory> memory() const override { return detector_->memory(); }
 

@@ -35,10 +35,7 @@ class BallisticDetector final : public EventDrivenDetector {
  public:
   BallisticDetector(const WorldDefinition& definition, const Motion& motion)
       : EventDrivenDetector(definition, motion,
-                            {.cell_edge = 0.0,
-                             .unit_costs = UnitCosts::reference(),
-                             .trimming = true,
-                             .meeting_time = ballistic_meeting}) {}
+                            {.cell_edge = 0.0, .trimming = true, .meeting_time = ballistic_meeting}) {}
 
   std::string_view name() const override { return "ballistic"; }
 

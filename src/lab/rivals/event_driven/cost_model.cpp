@@ -71,9 +71,8 @@ struct CostModel::Neighbours {
   double visits = 0.0, new_visits = 0.0;  ///< a neighbour is found in each cell that it shares
 };
 
-CostModel::CostModel(const std::vector<MovingSphere>& spheres, const Box& extent, bool walls,
-                     const UnitCosts& costs)
-    : extent_(extent), walls_(walls), costs_(costs) {
+CostModel::CostModel(const std::vector<MovingSphere>& spheres, const Box& extent, bool walls)
+    : extent_(extent), walls_(walls) {
   constexpr std::size_t most_samples = 200;
   std::vector<MovingSphere> sorted = spheres;
   const auto key = [](const MovingSphere& s) {
@@ -258,13 +257,15 @@ void CostModel::add_rates(ExpectedRates& rates, const MovingSphere& sphere, cons
   const double searches = static_cast<double>(levels.size());
   const double own_candidates = 2.0 + (entering + leaving) * cycle.length;
   const double kept_part = std::min(1.0, cycle.candidates_kept / std::max(all.pairs, 1e-300));
-  const double reset_cost = costs_.probe + all.pairs * costs_.pair_test + all.visits * costs_.visit +
-                            2.0 * (own_candidates + all.pairs * kept_part) * costs_.tree_operation +
-                            (searches * all.cells + 2.0 * (grown.cells - 1.0)) * costs_.cell_operation;
-  const double entering_cost = grown.new_pairs * (costs_.pair_test + kept_part * costs_.tree_operation) +
-                               grown.new_visits * costs_.visit + 4.0 * costs_.tree_operation +
-                               (1.0 + searches) * grown.new_cells * costs_.cell_operation;
-  const double leaving_cost = 4.0 * costs_.tree_operation + grown.new_cells * costs_.cell_operation;
+  const double reset_cost = UnitCosts::probe + all.pairs * UnitCosts::pair_test +
+                            all.visits * UnitCosts::visit +
+                            2.0 * (own_candidates + all.pairs * kept_part) * UnitCosts::tree_operation +
+                            (searches * all.cells + 2.0 * (grown.cells - 1.0)) * UnitCosts::cell_operation;
+  const double entering_cost =
+      grown.new_pairs * (UnitCosts::pair_test + kept_part * UnitCosts::tree_operation) +
+      grown.new_visits * UnitCosts::visit + 4.0 * UnitCosts::tree_operation +
+      (1.0 + searches) * grown.new_cells * UnitCosts::cell_operation;
+  const double leaving_cost = 4.0 * UnitCosts::tree_operation + grown.new_cells * UnitCosts::cell_operation;
 
   rates.entering += weight_ * entering;
   rates.leaving += weight_ * leaving;

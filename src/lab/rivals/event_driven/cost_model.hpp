@@ -2,7 +2,7 @@
 // functions of the edge of its finest grid. After the cost model of Kim, Guibas and Shin (1998) for ballistic
 // spheres (the paper's [1], section 4.2), with growing bounds and resets added.
 //
-//   const CostModel model(spheres, box, true, UnitCosts::reference());
+//   const CostModel model(spheres, box, true);
 //   double edge = model.choose_cell_edge();
 //   ExpectedRates rates = model.expected_rates(edge);
 //
@@ -13,9 +13,19 @@
 #include <vector>
 
 #include "kinesphere/vec3.hpp"
-#include "lab/rivals/event_driven/unit_costs.hpp"
 
 namespace kinesphere {
+
+/// What single operations cost, in nanoseconds, though only their ratios matter. Measured once, on one
+/// machine: being fixed they make the choice of cells, and with it the whole run, the same everywhere.
+struct UnitCosts {
+  static constexpr double pair_test = 60.0;       ///< whether two bounds can meet before their next reset
+  static constexpr double visit = 8.0;            ///< of a body that stands in a neighbouring cell
+  static constexpr double tree_operation = 90.0;  ///< an insertion into the event tree, or a removal
+  static constexpr double cell_operation =
+      120.0;                              ///< to find a cell in the subspace tree, enter it or leave it
+  static constexpr double probe = 250.0;  ///< a report, and the new bound's crossings, reset and walls
+};
 
 /// What the model needs to know of a body.
 struct MovingSphere {
@@ -40,7 +50,7 @@ struct ExpectedRates {
 class CostModel {
  public:
   /// The spheres move in `extent`, whose faces are walls or not. Cost: O(n log n).
-  CostModel(const std::vector<MovingSphere>& spheres, const Box& extent, bool walls, const UnitCosts& costs);
+  CostModel(const std::vector<MovingSphere>& spheres, const Box& extent, bool walls);
 
   /// Needs finest_edge > 0. Cost: about 0.3 ms.
   ExpectedRates expected_rates(double finest_edge) const;
@@ -73,7 +83,6 @@ class CostModel {
   Box extent_;
   Vec3 sides_;
   bool walls_;
-  UnitCosts costs_;
 };
 
 }  // namespace kinesphere

@@ -35,8 +35,8 @@ CellRange grown(CellRange cells, std::uint8_t face, int layers) {
 
 }  // namespace
 
-Counters EventDrivenDetector::counters() const {
-  Counters counters = counters_;
+DetectorCounters EventDrivenDetector::counters() const {
+  DetectorCounters counters = counters_;
   counters.event_insertions = events_.insertions();
   counters.event_removals = events_.removals();
   counters.largest_queue = events_.largest_size();
@@ -86,7 +86,7 @@ double EventDrivenDetector::chosen_cell_edge() const {
     }
   }
   const auto& box = definition().box;
-  return CostModel(spheres, box.value_or(extent), box.has_value(), options_.unit_costs).choose_cell_edge();
+  return CostModel(spheres, box.value_or(extent), box.has_value()).choose_cell_edge();
 }
 
 void EventDrivenDetector::on_new_course(std::uint32_t number) { reset(std::span(&number, 1)); }

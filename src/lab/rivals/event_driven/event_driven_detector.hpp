@@ -18,7 +18,6 @@
 #include "lab/rivals/event_driven/event_tree.hpp"
 #include "lab/rivals/event_driven/grids.hpp"
 #include "lab/rivals/event_driven/subspace_tree.hpp"
-#include "lab/rivals/event_driven/unit_costs.hpp"
 
 namespace kinesphere {
 
@@ -27,15 +26,14 @@ using MeetingTime = double (*)(const Bound& a, const Bound& b, double from, doub
 
 class EventDrivenDetector : public BoundDetector {
  public:
-  Counters counters() const override;
+  DetectorCounters counters() const override;
   /// Rebuilds the subspace tree and all candidates: they must be what they should be.
   std::optional<AuditFinding> audit() const override;
 
  protected:
   struct Options {
     double cell_edge;  ///< of the finest grid; 0: the cost model chooses when the first bodies are there
-    UnitCosts unit_costs;
-    bool trimming;             ///< section 3.3
+    bool trimming;     ///< section 3.3
     MeetingTime meeting_time;  ///< of bounds farther apart than the contact tolerance; null: as pair_outlook
   };
 

@@ -2,7 +2,6 @@
 // 3.2, 3.3 and 4.1).
 #include <array>
 
-#include "bound/quartic.hpp"
 #include "input/input_check.hpp"
 #include "lab/detector/checked_detector.hpp"
 #include "lab/rivals/event_driven/event_driven_detector.hpp"
@@ -14,24 +13,12 @@ namespace {
 /// Planes are products of an edge and an index: none may overflow.
 constexpr double largest_edge = 1e200;
 
-MeetingTime meeting_time_of(MeetingSolver solver) {
-  switch (solver) {
-    case MeetingSolver::numeric:
-      return meeting_time_numeric;
-    case MeetingSolver::closed_form:
-      return meeting_time_closed_form;
-    case MeetingSolver::certified:
-      break;
-  }
-  return nullptr;
-}
-
 class PaperDetector final : public EventDrivenDetector {
  public:
   PaperDetector(const WorldDefinition& definition, const Motion& motion, const PaperOptions& options)
       : EventDrivenDetector(
             definition, motion,
-            {options.cell_edge, options.unit_costs, options.trimming, meeting_time_of(options.solver)}) {}
+            {.cell_edge = options.cell_edge, .trimming = options.trimming, .meeting_time = nullptr}) {}
 
   std::string_view name() const override { return "paper"; }
 
@@ -68,9 +55,7 @@ Result<std::unique_ptr<Detector>> make_paper_detector(const WorldDefinition& def
               .result();
       !valid)
     return valid.error();
-  PaperOptions settled = options;
-  if (options.calibrated) settled.unit_costs = calibrate_unit_costs(motion, definition.start_time);
-  return make_checked<PaperDetector>(definition, motion, settled);
+  return make_checked<PaperDetector>(definition, motion, options);
 }
 
 }  // namespace kinesphere

@@ -28,7 +28,6 @@
 #include <vector>
 
 #include "bound/rounding.hpp"
-#include "input/input_check.hpp"
 #include "lab/detector/checked_detector.hpp"
 #include "lab/rivals/bound_detector.hpp"
 #include "lab/rivals/hubbard/hypertrapezoid.hpp"
@@ -40,10 +39,8 @@ namespace {
 
 class HubbardDetector final : public BoundDetector {
  public:
-  HubbardDetector(const WorldDefinition& definition, const Motion& motion, const HubbardOptions& options)
-      : BoundDetector(definition, motion),
-        options_(options),
-        sweep_(definition.box, 0.5 * rule().release_gap()) {}
+  HubbardDetector(const WorldDefinition& definition, const Motion& motion)
+      : BoundDetector(definition, motion), sweep_(definition.box, 0.5 * rule().release_gap()) {}
 
   std::string_view name() const override { return "hubbard"; }
   std::optional<AuditFinding> audit() const override;
@@ -81,7 +78,6 @@ class HubbardDetector final : public BoundDetector {
   double outlook(std::uint32_t a, std::uint32_t b);
   void look();
 
-  HubbardOptions options_;
   SpaceTimeSweep sweep_;
   bool rebuild_due_ = false;
   double mean_time_ = 0.0;               ///< from a rebuild to the first meeting
@@ -147,9 +143,6 @@ void HubbardDetector::rebuild() {
   build_bounds(length);
   hand_over_what_overlaps();
   find_first_meeting();
-  while (options_.all_crossings && sweep_.next_meeting()) {
-  }
-  counters_.crossings = sweep_.crossings();
   watches_.clear();
   for (const Meeting& pair : handed_over_) watch(pair.a, pair.b);
 }
@@ -163,8 +156,7 @@ void HubbardDetector::learn_interval() {
 
 /// Long enough for the clock to move.
 double HubbardDetector::duration() const {
-  const double wanted = options_.interval > 0.0 ? options_.interval : 2.0 * mean_time_;
-  return std::max(wanted, 0x1p-48 * std::abs(start_) + std::numeric_limits<double>::min());
+  return std::max(2.0 * mean_time_, 0x1p-48 * std::abs(start_) + std::numeric_limits<double>::min());
 }
 
 void HubbardDetector::build_bounds(double duration) {
@@ -262,13 +254,8 @@ std::optional<AuditFinding> HubbardDetector::audit() const {
 }  // namespace
 
 Result<std::unique_ptr<Detector>> make_hubbard_detector(const WorldDefinition& definition,
-                                                        const Motion& motion, const HubbardOptions& options) {
-  if (auto valid = InputCheck("make_hubbard_detector")
-                       .not_negative({"options", no_body, "interval"}, options.interval)
-                       .result();
-      !valid)
-    return valid.error();
-  return make_checked<HubbardDetector>(definition, motion, options);
+                                                        const Motion& motion) {
+  return make_checked<HubbardDetector>(definition, motion);
 }
 
 }  // namespace kinesphere

@@ -80,7 +80,6 @@ std::optional<SpaceTimeSweep::Meeting> SpaceTimeSweep::next_meeting() {
     });
     if (first->next_time() == std::numeric_limits<double>::infinity()) return std::nullopt;
     const auto [time, below, above] = first->step();
-    ++crossings_;
     if (!exchanged(below, above)) continue;
     if (is_wall(below)) return Meeting{time, body_of(above), body_of(above)};
     if (is_wall(above)) return Meeting{time, body_of(below), body_of(below)};

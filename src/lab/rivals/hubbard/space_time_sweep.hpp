@@ -59,9 +59,6 @@ class SpaceTimeSweep {
   /// for each crossing on the way. Never late: bounds have been widened by what rounding of times can hide.
   std::optional<Meeting> next_meeting();
 
-  /// Crossings of faces that the sweeps have come to, ever.
-  std::uint64_t crossings() const { return crossings_; }
-
   /// What is wrong with the orders or the set of overlapping pairs, if anything is. For audits. O(n^2)
   std::optional<std::string> fault() const;
 
@@ -88,7 +85,6 @@ class SpaceTimeSweep {
   double reach_ = 0.0;                                ///< largest coordinate that a bound set lately comes to
   double reach_speed_ = 0.0;
   double order_error_ = 0.0;
-  std::uint64_t crossings_ = 0;
 };
 
 }  // namespace kinesphere

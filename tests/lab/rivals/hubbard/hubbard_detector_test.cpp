@@ -35,7 +35,7 @@ class Flight {
   }
   void remove(std::uint32_t number) { detector_->remove(number).value(); }
 
-  Counters counters() const { return detector_->counters(); }
+  DetectorCounters counters() const { return detector_->counters(); }
 
  private:
   Steered motion_;
@@ -45,7 +45,7 @@ class Flight {
 TEST(HubbardDetector, probes_all_bodies_at_each_rebuild) {
   Flight flight({{{0, 0, 0}, {}}, {{100, 0, 0}, {}}, {{0, 100, 0}, {}}}, 1.0);
   EXPECT_FALSE(flight.advance(50.0));
-  const Counters counters = flight.counters();
+  const DetectorCounters counters = flight.counters();
   EXPECT_GT(counters.rebuilds, 5u);
   // The first one has the states that the bodies were added with.
   EXPECT_EQ(counters.probes, 3 * (counters.rebuilds - 1));
