@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the program and measures it against its rivals: tables, figures and verdicts go to bench/results/, into a folder
+# Builds the program and measures it against its rivals: tables and verdicts go to bench/results/, into a folder
 # named after processor, cores and compiler. Takes half an hour; keep the machine quiet meanwhile.
 # Arguments are passed on to `kinesphere bench speed`, for instance: bench.sh --full
 set -euo pipefail

@@ -7,7 +7,7 @@ packages=(g++ cmake ninja-build libcli11-dev libfmt-dev nlohmann-json3-dev zlib1
 testing=(libgtest-dev librapidcheck-dev clang clang-format clang-tidy pkg-config valgrind)
 case ${1:-} in
   run) ;;
-  bench) packages+=(gnuplot-nox libbullet-dev libfcl-dev) ;;
+  bench) packages+=(gnuplot-nox libbullet-dev) ;;
   test) packages+=("${testing[@]}") ;;
   coverage) packages+=("${testing[@]}" gcovr) ;;
   *) echo "setup: usage: setup.sh run | bench | test | coverage" >&2 && exit 2 ;;

@@ -4,7 +4,6 @@
 #include <set>
 #include <sstream>
 
-#include "bench/plot.hpp"
 #include "bench/speed/speed_scenes.hpp"
 #include "bench_table.hpp"
 #include "support.hpp"
@@ -41,14 +40,8 @@ TEST_F(BenchSpeedTest, EverySceneHasItsRows) {
     EXPECT_EQ(detectors[scene.name].count("world"), 1u) << scene.name;
     for (const char* name : {"tuned", "swept"})
       EXPECT_EQ(detectors[scene.name].count(name) != 0, !scene.rates.empty()) << scene.name << " " << name;
-    EXPECT_EQ(detectors[scene.name].count("paper") != 0, scene.paper) << scene.name;
-    EXPECT_EQ(detectors[scene.name].count("hubbard") != 0, scene.hubbard) << scene.name;
   }
   EXPECT_NE(result.out.find("compiler"), std::string::npos);
-  for (const std::string name : {"over_n", "over_rate", "over_price"}) {
-    EXPECT_NE(read(name + ".gp").find("'" + name + ".csv'"), std::string::npos);
-    EXPECT_EQ(std::filesystem::exists(path("out-bench/" + name + ".svg")), has_gnuplot());
-  }
 }
 
 TEST_F(BenchSpeedTest, RivalsAtTheSameRateFindTheSame) {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "bench/speed/bullet_kernel.hpp"
 #include "bench/speed/touch.hpp"
-#include "bench/speed/tree_kernels.hpp"
 #include "bench/speed/tuned_kernels.hpp"
 #include "bench/speed/tuning.hpp"
 #include "bench/speed/wall_check.hpp"
@@ -97,7 +97,6 @@ std::vector<std::unique_ptr<StepKernel>> kernels_for(const std::vector<float>& r
   if (test == SphereTest::at_steps) {
     kernels.push_back(make_bullet_kernel(radii));
     kernels.push_back(make_bullet_kernel(radii, 2.0f));
-    kernels.push_back(make_fcl_kernel(radii));
   }
   std::erase(kernels, nullptr);
   return kernels;

@@ -48,11 +48,6 @@ void describe_machine(const Report& report) {
   const std::string machine = machine_description();
   report.file("machine.txt", machine);
   print("{}\n", machine);
-  if (!report.draws()) {
-    report.note(
-        "gnuplot is not installed: curves are left as scripts (*.gp). On Debian, install gnuplot-nox and run "
-        "`gnuplot *.gp` in that folder.");
-  }
 }
 
 }  // namespace kinesphere::program

@@ -27,7 +27,7 @@ void check_bench_options(const BenchOptions& options, const std::vector<std::str
 Effort effort_of(const BenchOptions& options);
 bool is_chosen(const BenchOptions& options, std::string_view name);
 
-/// The machine, on the terminal and as machine.txt; and whether curves are drawn.
+/// The machine, on the terminal and as machine.txt.
 void describe_machine(const Report& report);
 
 }  // namespace kinesphere::program

@@ -33,6 +33,11 @@ int bench_paper(const BenchOptions& options) {
   const BenchSettings& settings = bench_settings(effort_of(options));
   const Report report(options.output);
   describe_machine(report);
+  if (!report.draws()) {
+    report.note(
+        "gnuplot is not installed: curves are left as scripts (*.gp). On Debian, install gnuplot-nox and run "
+        "`gnuplot *.gp` in that folder.");
+  }
   report.note(fmt::format(
       "Effort {}, seeds from 1 on. Times are CPU time of this process from the moment when all bodies are "
       "in; medians of repetitions ({}), in which those who are compared take turns. Every row has the hash "

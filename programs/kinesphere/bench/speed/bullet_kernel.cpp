@@ -1,5 +1,5 @@
 // Bullet's dynamic bounding-volume trees as a fixed-step detector.
-#include "bench/speed/tree_kernels.hpp"
+#include "bench/speed/bullet_kernel.hpp"
 
 #ifdef KINESPHERE_WITH_BULLET
 

@@ -8,9 +8,9 @@
 #include "bench/contact_counts.hpp"
 #include "bench/detectors.hpp"
 #include "bench/measurement.hpp"
+#include "bench/speed/bullet_kernel.hpp"
 #include "bench/speed/recall.hpp"
 #include "bench/speed/transcript.hpp"
-#include "bench/speed/tree_kernels.hpp"
 #include "bench/speed/tuning.hpp"
 #include "lab/measures/probe_floor.hpp"
 #include "program_error.hpp"
@@ -27,7 +27,7 @@ class Contest {
       : entry_(entry),
         settings_(settings),
         scene_(entry.make(entry.response)),
-        world_(event_driven(entry.alarm > 0.0 ? alarm_engine(entry.alarm) : world_engine())) {
+        world_(default_engine(entry.alarm > 0.0 ? alarm_engine(entry.alarm) : world_engine())) {
     if (!has_rivals() && !entry.floor) return;
     passing_ = entry.make(Response::pass_through);
     // Who looks at steps alone need not know an alarm from a contact.
@@ -37,8 +37,6 @@ class Contest {
   }
 
   std::vector<SpeedRow> run() {
-    if (entry_.paper) run_event_driven(paper_engine());
-    if (entry_.hubbard) run_event_driven(hubbard_engine());
     for (const double rate : entry_.rates)
       for (const SphereTest test : {SphereTest::at_steps, SphereTest::swept}) run_steps(rate, test);
     if (world_.row.turns.empty()) take_turns({});
@@ -60,7 +58,7 @@ class Contest {
     std::vector<double> building{};  ///< by run
   };
 
-  bool has_rivals() const { return entry_.paper || entry_.hubbard || !entry_.rates.empty(); }
+  bool has_rivals() const { return !entry_.rates.empty(); }
   /// What fixed steps are timed on.
   const Scene& stepped() const { return entry_.response == Response::bounce ? scene_ : passing_; }
 
@@ -72,7 +70,7 @@ class Contest {
   double body_time_of_all() const { return duration() * static_cast<double>(scene_.bodies.size()); }
   double duration() const { return scene_.end_time - scene_.world.start_time; }
 
-  Contestant event_driven(const NamedDetector& detector) const {
+  Contestant default_engine(const NamedDetector& detector) const {
     const auto transcript = std::make_shared<Transcript>(write_down(scene_, detector.make));
     const double body_time = transcript->body_time();
     SpeedRow row{.detector = detector.name,
@@ -138,12 +136,6 @@ class Contest {
     if (floor_ && !contestant.row.rate) contestant.row.to_floor = contestant.row.moves / *floor_;
   }
 
-  void run_event_driven(const NamedDetector& detector) {
-    Contestant rival = event_driven(detector);
-    rival.row.missed = missed_part(counted(count_contacts(passing_, detector.make)));
-    take_turns({std::move(rival)});
-  }
-
   void run_steps(double rate, SphereTest test) {
     const double most =
         static_cast<double>(settings_.most_recorded) / static_cast<double>(scene_.bodies.size());
@@ -160,7 +152,6 @@ class Contest {
       const auto& radii = recording.radii;
       if (make_bullet_kernel({})) enter("bullet", [&] { return make_bullet_kernel(radii); });
       enter("bullet-best", tuned_bullet_kernel(recording));
-      if (make_fcl_kernel({})) enter("fcl", [&] { return make_fcl_kernel(radii); });
     }
     take_turns(std::move(contestants));
   }

@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "bench/report.hpp"
+#include "bench/speed/bullet_kernel.hpp"
 #include "bench/speed/contest.hpp"
-#include "bench/speed/speed_figures.hpp"
-#include "bench/speed/tree_kernels.hpp"
 #include "bench/speed/verdicts.hpp"
 #include "program_error.hpp"
 #include "standard_output.hpp"
@@ -46,27 +45,20 @@ std::vector<std::string> names_of(const std::vector<SpeedScene>& scenes) {
 void explain(const Report& report, const SpeedSettings& settings) {
   report.note(fmt::format(
       "Effort {}. \"us\" is CPU time for detection alone, in microseconds for a sphere and a simulated "
-      "second: event-driven detectors get the answers of their probes, and the kicks, from a run that was "
+      "second: the default engine (world) gets the answers of its probes, and the kicks, from a run that was "
       "written down before; fixed-step detectors look at recorded steps. \"total\" adds what moving costs, "
-      "at "
-      "so much for each probe or step (\"moves\", per body-second). Medians of {} turns; \"to world\" is "
+      "at so much for each probe or step (\"moves\", per body-second). Medians of {} turns; \"to world\" is "
       "the median ratio to the default engine in the same turn.",
       settings.name, settings.repetitions));
   report.note(
       "tuned: the fastest of several grids and Verlet lists for this scene and rate (\"settings\"), which "
-      "sees "
-      "overlaps at steps; swept: the same, with a test along the straight ways between steps. \"to floor\": "
-      "probes "
-      "to the least that a method that knew all other motion would need. \"missed percent\": contacts that "
-      "are "
-      "overlooked in the same scene without bounces (bullets: those of bullets). \"contacts\" are those of a "
-      "body-second, \"per cpu "
-      "second\" "
-      "those that are found in a second of this machine.");
+      "sees overlaps at steps; swept: the same, with a test along the straight ways between steps. \"to "
+      "floor\": probes to the least that a method that knew all other motion would need. \"missed percent\": "
+      "contacts that are overlooked in the same scene without bounces (bullets: those of bullets). "
+      "\"contacts\" are those of a body-second, \"per cpu second\" those that are found in a second of this "
+      "machine.");
   if (!make_bullet_kernel({}))
     report.note("Bullet is left out: it was not installed when this program was built (libbullet-dev).");
-  if (!make_fcl_kernel({}))
-    report.note("FCL is left out: it was not installed when this program was built (libfcl-dev).");
 }
 
 }  // namespace
@@ -99,7 +91,6 @@ int bench_speed(const BenchOptions& options) {
     report.save("speed", all);  // as far as it is known: the rest may take long
   }
   save_verdicts(report, scenes, results);
-  draw_speed_figures(report, scenes, results);
   return exit_fine;
 }
 

@@ -63,12 +63,7 @@ class SceneList {
 
   void paper() {
     for (const std::uint32_t bodies : {500u, 1000u, 2000u, 3500u}) {
-      add({.name = fmt::format("paper1-{}", bodies),
-           .rates = game_rates,
-           .trees = true,
-           .paper = true,
-           .hubbard = bodies <= 500,
-           .floor = true},
+      add({.name = fmt::format("paper1-{}", bodies), .rates = game_rates, .trees = true, .floor = true},
           first_experiment(bodies, 2.0));
     }
     // All of the same length, as the small ones heat up.
@@ -78,7 +73,7 @@ class SceneList {
            .trees = bodies <= 100'000},
           with_box(first_experiment(1000, 0.2), bodies));
     }
-    add({.name = "paper2", .rates = game_rates, .paper = true, .floor = true}, second_experiment(1000, 2.0));
+    add({.name = "paper2", .rates = game_rates, .floor = true}, second_experiment(1000, 2.0));
   }
 
   void mixture(SpeedScene scene, const MixtureParameters& parameters) {

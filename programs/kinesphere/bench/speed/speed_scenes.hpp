@@ -21,9 +21,7 @@ struct SpeedScene {
   double alarm = 0.0;
   /// Missed contacts are counted where the second body has this number or a higher one.
   std::uint32_t first_counted = 0;
-  bool trees = false;  ///< compare with Bullet's and FCL's
-  bool paper = false;  ///< and with the paper's algorithm
-  bool hubbard = false;
+  bool trees = false;  ///< compare with Bullet's
   bool floor = false;  ///< count the probe floor
 };
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "bench/measurement.hpp"
-#include "bench/speed/tree_kernels.hpp"
+#include "bench/speed/bullet_kernel.hpp"
 #include "bench/speed/wall_check.hpp"
 
 namespace kinesphere::program {

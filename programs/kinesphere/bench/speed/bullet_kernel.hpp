@@ -1,4 +1,4 @@
-// Broad phases of others, followed by the same sphere test, where their libraries are installed.
+// Bullet's broad phase as a fixed-step detector, where Bullet is installed.
 #pragma once
 
 #include <memory>
@@ -13,8 +13,5 @@ namespace kinesphere::program {
 /// Nothing when this program was built without Bullet.
 std::unique_ptr<StepKernel> make_bullet_kernel(std::vector<float> radii,
                                                std::optional<float> margin = std::nullopt);
-
-/// FCL's DynamicAABBTreeCollisionManager. Nothing when this program was built without FCL.
-std::unique_ptr<StepKernel> make_fcl_kernel(std::vector<float> radii);
 
 }  // namespace kinesphere::program
