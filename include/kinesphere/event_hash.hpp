@@ -11,7 +11,8 @@
 
 namespace kinesphere {
 
-/// A hash of events that any change of a bit in time, kind, ids or wall changes (64-bit FNV-1a).
+/// 64-bit FNV-1a over time, kind, ids and wall of each event, in order, and the distance of sensor events.
+/// States, points and speeds are left out.
 class EventHash {
  public:
   void add(const Event& event);

@@ -1,0 +1,68 @@
+// The hash of events: the same for the same events in the same order, another one for any bit that differs.
+#include "kinesphere/event_hash.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <vector>
+
+namespace kinesphere {
+namespace {
+
+std::uint64_t hash_of(const std::vector<Event>& events) {
+  EventHash hash;
+  for (const Event& event : events) hash.add(event);
+  return hash.value();
+}
+
+const Event contact{.kind = EventKind::contact_begin, .time = 1.5, .first = {3, 0}, .second = {7, 2}};
+
+/// `contact` and others that differ from it in one thing each.
+std::vector<Event> variants() {
+  std::vector<Event> events(8, contact);
+  events[1].time = 1.5 + 0x1p-52;
+  events[2].kind = EventKind::contact_end;
+  events[3].first.index = 4;
+  events[4].first.generation = 1;
+  events[5].second.index = 8;
+  events[6].second.generation = 3;
+  events[7].wall = Wall::x_lower;
+  return events;
+}
+
+TEST(EventHash, DiffersWhereAnEventDoes) {
+  std::set<std::uint64_t> hashes{hash_of({})};
+  const std::vector<Event> events = variants();
+  for (std::size_t k = 0; k < events.size(); ++k)
+    EXPECT_TRUE(hashes.insert(hash_of({events[k]})).second) << k;
+}
+
+TEST(EventHash, KnowsDistancesOfSensorsOnly) {
+  const auto differ = [](EventKind kind) {
+    Event near = contact, far = contact;
+    near.kind = far.kind = kind;
+    far.distance = 10.0;
+    return hash_of({near}) != hash_of({far});
+  };
+  EXPECT_TRUE(differ(EventKind::sensor_enter));
+  EXPECT_TRUE(differ(EventKind::sensor_leave));
+  EXPECT_FALSE(differ(EventKind::contact_begin));
+}
+
+TEST(EventHash, KnowsTheOrder) {
+  const std::vector<Event> events = variants();
+  EXPECT_EQ(hash_of(events), hash_of(events));
+  EXPECT_NE(hash_of({events[0], events[1]}), hash_of({events[1], events[0]}));
+  EXPECT_NE(hash_of({events[0]}), hash_of({events[0], events[0]}));
+}
+
+/// Hashes are compared across machines and versions. This one was computed apart from the library.
+TEST(EventHash, IsTheSameEverywhere) {
+  EXPECT_EQ(hash_of({}), 0xcbf29ce484222325u);
+  EXPECT_EQ(hash_of(variants()), 0xab02a9dc59f46c3cu);
+}
+
+}  // namespace
+}  // namespace kinesphere
