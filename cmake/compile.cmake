@@ -17,3 +17,25 @@ function(kinesphere_compile target)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
 endfunction()
+
+# Where UNITY_BUILD is on (all targets of the presets release and bench, of same_hash and lint; the program everywhere),
+# the sources of a folder are compiled together, as if they were one, which reads headers once: no name may stand for two
+# things in a folder.
+function(kinesphere_batches target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source ${sources})
+    cmake_path(ABSOLUTE_PATH source)
+    if(source MATCHES "\\.cpp$")
+      cmake_path(GET source PARENT_PATH folder)
+      cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE group)
+      string(MAKE_C_IDENTIFIER "${group}" group)
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+    endif()
+  endforeach()
+endfunction()
+
+# Code that takes no time to run is optimised little, whatever the preset says: that compiles faster.
+function(kinesphere_optimise_little target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()

@@ -6,11 +6,11 @@ set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 scripts/setup.sh bench
-cmake --preset release
-cmake --build --preset release --target kinesphere_program
+cmake --preset bench
+cmake --build --preset bench
 
-compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' build/release/CMakeCache.txt)
+compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' build/bench/CMakeCache.txt)
 processor=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)
 machine=$(echo "${processor:-$(uname -m)} $(nproc) cores $("$compiler" --version | sed 's/^c++ /g++ /;1q' | cut -d' ' -f1) $("$compiler" -dumpversion)" |
   tr '[:upper:]' '[:lower:]' | tr -cs 'a-z0-9+\n' '-')
-exec build/release/programs/kinesphere bench speed --output "bench/results/$machine" "$@"
+exec build/bench/programs/kinesphere bench speed --output "bench/results/$machine" "$@"

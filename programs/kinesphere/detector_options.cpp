@@ -13,7 +13,7 @@
 namespace kinesphere::program {
 namespace {
 
-constexpr const char* group = "Detector";
+constexpr const char* detector_group = "Detector";
 
 std::vector<std::string_view> detector_names() {
   std::vector<std::string_view> names;
@@ -54,19 +54,19 @@ void add_detector_options(CLI::App& command, DetectorOptions& options) {
   command.add_option("--detector", options.name, "Who looks for contacts")
       ->type_name(fmt::format("{}", fmt::join(detector_names(), "|")))
       ->capture_default_str()
-      ->group(group);
+      ->group(detector_group);
   command.add_option("--step", options.step, "Time step of fixed-step and brute-force")
       ->check(finite_number())
-      ->group(group);
+      ->group(detector_group);
   command
       .add_option("--cell-edge", options.cell_edge,
                   "Edge of the finest cells of paper; its cost model's choice when not given")
       ->check(finite_number())
-      ->group(group);
+      ->group(detector_group);
   command
       .add_flag("--no-trimming", options.no_trimming,
                 "Let paper keep candidates that come after the reset of their body")
-      ->group(group);
+      ->group(detector_group);
 }
 
 }  // namespace kinesphere::program

@@ -11,7 +11,7 @@ namespace kinesphere::program {
 namespace {
 
 using Range = std::pair<double, double>;
-constexpr const char* group = "Scene";
+constexpr const char* scene_group = "Scene";
 
 /// Declares an option whose value `set` puts into the parameters instead of the scene's `field`.
 template <class Value, class Set>
@@ -23,7 +23,7 @@ CLI::Option* add_change(CLI::App& command, SceneOptions& options, const std::str
       set(source.parameters, value);
     });
   };
-  return command.add_option_function<Value>(flag, note, description)->group(group);
+  return command.add_option_function<Value>(flag, note, description)->group(scene_group);
 }
 
 }  // namespace

@@ -222,15 +222,15 @@ void add_bench_vessels_command(CLI::App& bench, VesselOptions& options) {
 
 int bench_vessels(const VesselOptions& options) {
   const std::vector<Track> tracks = vessel_tracks(options.parameters);
-  struct Report {
+  struct Sighting {
     std::size_t vessel;
     const TrackSample* sample;
   };
-  std::vector<Report> reports;
+  std::vector<Sighting> reports;
   for (std::size_t vessel = 0; vessel < tracks.size(); ++vessel)
     for (const TrackSample& sample : tracks[vessel]) reports.push_back({vessel, &sample});
   std::stable_sort(reports.begin(), reports.end(),
-                   [](const Report& a, const Report& b) { return a.sample->time < b.sample->time; });
+                   [](const Sighting& a, const Sighting& b) { return a.sample->time < b.sample->time; });
   OutputFile file(options.file);
   file.write("id,time,x,y,z\n");
   for (const auto& [vessel, sample] : reports)

@@ -12,7 +12,7 @@
 namespace kinesphere::program {
 namespace {
 
-constexpr double largest = 0x1p61;
+constexpr double too_large = 0x1p61;
 
 bool is_digit(char c) { return '0' <= c && c <= '9'; }
 
@@ -113,7 +113,7 @@ std::optional<int> read_offset(Reader& reader) {
 
 std::optional<FileTime> parse_decimal_time(std::string_view text) {
   const auto number = parse_number(text);
-  if (!number || std::abs(*number) >= largest) return std::nullopt;
+  if (!number || std::abs(*number) >= too_large) return std::nullopt;
   const bool negative = text.starts_with('-');
   if (negative || text.starts_with('+')) text.remove_prefix(1);
   const std::size_t point = std::min(text.find('.'), text.size());

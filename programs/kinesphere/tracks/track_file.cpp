@@ -45,8 +45,8 @@ Coordinates coordinates_of(const RawRecording& raw, ProjectionChoice choice) {
     if (points.empty()) return {};
     return Coordinates(project(points, columns.z.has_value(), choice));
   }
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Box extent{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+  constexpr double unbounded = std::numeric_limits<double>::infinity();
+  Box extent{{unbounded, unbounded, unbounded}, {-unbounded, -unbounded, -unbounded}};
   for_each_sample(raw, [&](const RawSample& sample) {
     for (int axis = 0; axis < 3; ++axis) {
       extent.lower[axis] = std::min(extent.lower[axis], sample.position[axis]);

@@ -71,8 +71,8 @@ struct CostModel::Neighbours {
   double visits = 0.0, new_visits = 0.0;  ///< a neighbour is found in each cell that it shares
 };
 
-CostModel::CostModel(const std::vector<MovingSphere>& spheres, const Box& extent, bool walls)
-    : extent_(extent), walls_(walls) {
+CostModel::CostModel(const std::vector<MovingSphere>& spheres, const Box& extent, bool has_walls)
+    : extent_(extent), walls_(has_walls) {
   constexpr std::size_t most_samples = 200;
   std::vector<MovingSphere> sorted = spheres;
   const auto key = [](const MovingSphere& s) {
@@ -178,15 +178,15 @@ CostModel::Cycle CostModel::cycle_of(const MovingSphere& sphere, const Level& ow
     const double radius = sphere.radius + (sphere.growth_speed + 0.5 * sphere.limit * age) * age;
     const double growth_speed = sphere.growth_speed + sphere.limit * age;
     const double meetings = meeting_rate(radius, growth_speed, sphere.speed, levels);
-    const double walls = wall_rate(growth_speed, sphere.speed);
-    const double rate = meetings + walls;
+    const double wall_hits = wall_rate(growth_speed, sphere.speed);
+    const double rate = meetings + wall_hits;
 
     const double alive_after = alive * exp_minus(rate * width);
     const double spent = rate * width > 1e-6 ? (alive - alive_after) / rate : alive * width;
     alive = alive_after;
     cycle.length += spent;
     cycle.meetings += meetings * spent;
-    cycle.walls += walls * spent;
+    cycle.walls += wall_hits * spent;
     cycle.candidates_kept += rate * width;
     cycle.radius += radius * spent;
     cycle.radius_squared += radius * radius * spent;
@@ -246,9 +246,9 @@ void CostModel::add_rates(ExpectedRates& rates, const MovingSphere& sphere, cons
   const double contacts = meeting_rate(sphere.radius, sphere.growth_speed, sphere.speed, fresh);
   const double wall_contacts = wall_rate(sphere.growth_speed, sphere.speed);
   const double meetings = cycle.meetings / cycle.length + looks_at_contact * contacts;
-  const double walls = cycle.walls / cycle.length + looks_at_contact * wall_contacts;
+  const double wall_hits = cycle.walls / cycle.length + looks_at_contact * wall_contacts;
   const double outgrown = std::max(0.0, 1.0 - cycle.meetings - cycle.walls) / cycle.length;
-  const double resets = outgrown + meetings + walls + resets_at_bounce * (contacts + wall_contacts);
+  const double resets = outgrown + meetings + wall_hits + resets_at_bounce * (contacts + wall_contacts);
   const double planes = 3.0 * planes_per_length(own.edge);
   const double entering = 2.0 * planes * cycle.face_speed;
   const double leaving = 2.0 * planes * (cycle.face_speed - cycle.growth_speed);
@@ -270,7 +270,7 @@ void CostModel::add_rates(ExpectedRates& rates, const MovingSphere& sphere, cons
   rates.entering += weight_ * entering;
   rates.leaving += weight_ * leaving;
   rates.resetting += weight_ * outgrown;
-  rates.colliding += weight_ * (0.5 * meetings + walls);
+  rates.colliding += weight_ * (0.5 * meetings + wall_hits);
   rates.pair_tests += weight_ * (resets * all.pairs + entering * grown.new_pairs);
   rates.visits += weight_ * (resets * all.visits + entering * grown.new_visits);
   rates.cost += weight_ * (resets * reset_cost + entering * entering_cost + leaving * leaving_cost);

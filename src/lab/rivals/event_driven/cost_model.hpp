@@ -50,7 +50,7 @@ struct ExpectedRates {
 class CostModel {
  public:
   /// The spheres move in `extent`, whose faces are walls or not. Cost: O(n log n).
-  CostModel(const std::vector<MovingSphere>& spheres, const Box& extent, bool walls);
+  CostModel(const std::vector<MovingSphere>& spheres, const Box& extent, bool has_walls);
 
   /// Needs finest_edge > 0. Cost: about 0.3 ms.
   ExpectedRates expected_rates(double finest_edge) const;
