@@ -122,9 +122,9 @@ TEST(SecondProcess, ASavedWorldGoesOnTheSameThere) {
   fs::create_directory(files.folder);
   const Bytes saved = saved_in_the_middle();
   write(files.saved(), saved);
-  const std::string command = std::string(variable) + "='" + files.folder.string() + "' '" +
-                              fs::read_symlink("/proc/self/exe").string() +
-                              "' --gtest_filter=SecondProcess.GoesOnFromAFile --gtest_output= >/dev/null";
+  std::string command = variable;
+  command += "='" + files.folder.string() + "' '" + fs::read_symlink("/proc/self/exe").string() +
+             "' --gtest_filter=SecondProcess.GoesOnFromAFile --gtest_output= >/dev/null";
   EXPECT_EQ(std::system(command.c_str()), 0) << command;
   const Bytes result = read(files.result());
   EXPECT_FALSE(result.empty());

@@ -1,0 +1,1 @@
+// Empty: what matters are the headers that are precompiled with it (tests/CMakeLists.txt).
