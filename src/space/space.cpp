@@ -65,9 +65,9 @@ bool Space::is_narrow(const Box& box) const {
 
 /// Registered boxes stick out of the primary box by at most half of their own width. A box that is as wide as
 /// the period overlaps an image of each of them.
-Space::Images Space::images_near(const Box& box, const HashGrid& grid) const {
+Space::Images Space::images_near(const Box& box, double largest_extent) const {
   Images images{within(box)};
-  const double half_width = 0.5 * grid.largest_extent();
+  const double half_width = 0.5 * largest_extent;
   for (int axis = 0; axis < 3; ++axis) {
     if (!repeats(axis)) continue;
     const double size = std::abs(lower_[axis]) + std::abs(upper_[axis]);

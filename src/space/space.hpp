@@ -95,12 +95,22 @@ class Space {
   void for_each_overlap(const HashGrid& grid, const Box& box, Visit visit) const {
     if (!repeats_)
       return flat_ ? grid.for_each_overlap(within(box), visit) : grid.for_each_overlap(box, visit);
-    const Images images = images_near(box, grid);
+    for_each_image(box, grid.largest_extent(), [&](const Box& image, const Vec3&) {
+      grid.for_each_overlap(image, visit);
+    });
+  }
+  /// Calls visit(image, shift) for each image of a box that may overlap one of this extent at most with its
+  /// centre in the primary box: the box itself where space does not repeat.
+  template <class Visit>
+  void for_each_image(const Box& box, double largest_extent, Visit visit) const {
+    if (!repeats_) return visit(within(box), Vec3{});
+    const Images images = images_near(box, largest_extent);
     for (int z = 0; z < images.count[2]; ++z)
       for (int y = 0; y < images.count[1]; ++y)
-        for (int x = 0; x < images.count[0]; ++x)
-          grid.for_each_overlap(
-              moved(images.box, shift_of(images.first + Vec3{double(x), double(y), double(z)})), visit);
+        for (int x = 0; x < images.count[0]; ++x) {
+          const Vec3 shift = shift_of(images.first + Vec3{double(x), double(y), double(z)});
+          visit(moved(images.box, shift), shift);
+        }
   }
 
  private:
@@ -111,7 +121,7 @@ class Space {
     std::array<int, 3> count{1, 1, 1};
   };
 
-  Images images_near(const Box& box, const HashGrid& grid) const;
+  Images images_near(const Box& box, double largest_extent) const;
   static Box moved(const Box& box, const Vec3& shift);
 
   Vec3 lower_{};

@@ -1,0 +1,62 @@
+// A body over a window of time as a search sees it: a ball that moves straight on, in single precision.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "bound/encounter.hpp"
+#include "kinesphere/vec3.hpp"
+
+namespace kinesphere {
+
+/// The units in which the capsules of one layer are given. Lengths count from `base` in units of
+/// 2^length_exponent, times from `origin` in units of 2^time_exponent: so numbers are of moderate size in
+/// worlds of all scales.
+struct CapsuleFrame {
+  Vec3 base{};
+  double origin = 0.0;
+  double per_length = 1.0;  ///< powers of two
+  double per_time = 1.0;
+
+  float time(double t) const { return static_cast<float>((t - origin) * per_time); }
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [zero, start, lengths, times] = self;
+    archive(zero, start, lengths, times);
+  }
+};
+
+/// At time s (in units of its frame) the body lies within `radius` of centre + velocity s, from when the
+/// capsule was made until its end.
+struct Capsule {
+  std::array<float, 3> centre{};
+  std::array<float, 3> velocity{};
+  float radius = 0.0f;
+
+  friend bool operator==(const Capsule&, const Capsule&) = default;
+};
+
+/// A capsule that contains a body from `now`, the time to which `moved` has been moved on, for `duration`,
+/// with `room` around it. The radius has 2^-18 of the size of all numbers that go into a search beyond that,
+/// which covers its roundings (docs/guarantee.md, "The search").
+inline Capsule capsule_of(const MovedBound& moved, double now, double duration, double room,
+                          const CapsuleFrame& frame) {
+  constexpr double part_lost = 0x1p-18;
+  const double back = now - frame.origin;
+  const Vec3 centre = moved.centre - frame.base - moved.velocity * back;
+  const double radius = moved.radius_after(duration) + room;
+  const double speed = norm_one(moved.velocity);
+  const double size = norm_one(moved.centre - frame.base) + 2.0 * speed * back + speed * duration + radius;
+  const double per_way = frame.per_length / frame.per_time;
+  Capsule capsule;
+  for (int axis = 0; axis < 3; ++axis) {
+    capsule.centre[static_cast<std::size_t>(axis)] = static_cast<float>(centre[axis] * frame.per_length);
+    capsule.velocity[static_cast<std::size_t>(axis)] = static_cast<float>(moved.velocity[axis] * per_way);
+  }
+  capsule.radius = static_cast<float>((radius + part_lost * size) * frame.per_length);
+  return capsule;
+}
+
+}  // namespace kinesphere

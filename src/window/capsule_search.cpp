@@ -1,0 +1,105 @@
+// One kernel for all vector widths, compiled once for each, and its plain twin.
+#include "window/capsule_search.hpp"
+
+#include <array>
+#include <bit>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "window/capsule_search.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+// Two capsules are apart during the span if the distance of their centres, which is least at a time s that
+// one division gives, is more than the sum of their radii. As squares: no root. Where numbers are too small
+// for their squares nothing is certain; neither where they are too large: no comparison with what is not a
+// number holds.
+#ifndef KINESPHERE_WINDOW_CAPSULE_SEARCH_CONSTANTS
+#define KINESPHERE_WINDOW_CAPSULE_SEARCH_CONSTANTS
+namespace kinesphere::capsule_search {
+inline constexpr float least_square = 0x1p-100f;
+}
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace kinesphere::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// No fused operations: every processor has to round alike.
+std::size_t near_capsules(const float* const* table, const Run* runs, std::size_t run_count,
+                          const CapsuleQuery& query, std::uint32_t* found) {
+  const hn::CappedTag<float, capsule_padding> d;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto& [centre, velocity, radius] = query.capsule;
+  const auto x = hn::Set(d, centre[0]), y = hn::Set(d, centre[1]), z = hn::Set(d, centre[2]);
+  const auto u = hn::Set(d, velocity[0]), v = hn::Set(d, velocity[1]), w = hn::Set(d, velocity[2]);
+  const auto r = hn::Set(d, radius);
+  const auto from = hn::Set(d, query.from), to = hn::Set(d, query.to);
+  const auto least = hn::Set(d, capsule_search::least_square);
+  std::uint32_t* next = found;
+  for (std::size_t run = 0; run < run_count; ++run) {
+    const std::uint32_t end = runs[run].end;
+    for (std::uint32_t k = runs[run].begin; k < end; k += static_cast<std::uint32_t>(lanes)) {
+      const auto dx = hn::Sub(hn::LoadU(d, table[0] + k), x);
+      const auto dy = hn::Sub(hn::LoadU(d, table[1] + k), y);
+      const auto dz = hn::Sub(hn::LoadU(d, table[2] + k), z);
+      const auto du = hn::Sub(hn::LoadU(d, table[3] + k), u);
+      const auto dv = hn::Sub(hn::LoadU(d, table[4] + k), v);
+      const auto dw = hn::Sub(hn::LoadU(d, table[5] + k), w);
+      const auto radii = hn::Add(hn::LoadU(d, table[6] + k), r);
+      const auto xv = hn::Add(hn::Add(hn::Mul(dx, du), hn::Mul(dy, dv)), hn::Mul(dz, dw));
+      const auto vv = hn::Add(hn::Add(hn::Mul(du, du), hn::Mul(dv, dv)), hn::Mul(dw, dw));
+      const auto s = hn::Min(hn::Max(hn::Div(hn::Neg(xv), hn::Add(vv, least)), from), to);
+      const auto px = hn::Add(dx, hn::Mul(du, s));
+      const auto py = hn::Add(dy, hn::Mul(dv, s));
+      const auto pz = hn::Add(dz, hn::Mul(dw, s));
+      const auto square = hn::Add(hn::Add(hn::Mul(px, px), hn::Mul(py, py)), hn::Mul(pz, pz));
+      auto near = hn::Not(hn::Gt(square, hn::Add(hn::Mul(radii, radii), least)));
+      if (end - k < lanes) near = hn::And(near, hn::FirstN(d, end - k));
+      std::array<std::uint8_t, 8> bytes{};
+      hn::StoreMaskBits(d, near, bytes.data());
+      for (unsigned bits = bytes[0] | unsigned{bytes[1]} << 8; bits != 0; bits &= bits - 1)
+        *next++ = k + static_cast<std::uint32_t>(std::countr_zero(bits));
+    }
+  }
+  return static_cast<std::size_t>(next - found);
+}
+
+}  // namespace kinesphere::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace kinesphere {
+
+HWY_EXPORT(near_capsules);
+
+std::size_t near_capsules(const CapsuleColumns& table, std::span<const Run> runs, const CapsuleQuery& query,
+                          std::uint32_t* found) {
+  return HWY_DYNAMIC_DISPATCH(near_capsules)(table.data(), runs.data(), runs.size(), query, found);
+}
+
+std::size_t near_capsules_plain(const CapsuleColumns& table, std::span<const Run> runs,
+                                const CapsuleQuery& query, std::uint32_t* found) {
+  const auto& [centre, velocity, radius] = query.capsule;
+  std::uint32_t* next = found;
+  for (const Run& run : runs) {
+    for (std::uint32_t k = run.begin; k < run.end; ++k) {
+      const float dx = table[0][k] - centre[0], dy = table[1][k] - centre[1], dz = table[2][k] - centre[2];
+      const float du = table[3][k] - velocity[0], dv = table[4][k] - velocity[1],
+                  dw = table[5][k] - velocity[2];
+      const float radii = table[6][k] + radius;
+      const float xv = dx * du + dy * dv + dz * dw;
+      const float vv = du * du + dv * dv + dw * dw;
+      const float nearest = -xv / (vv + capsule_search::least_square);
+      const float late = nearest > query.from ? nearest : query.from;
+      const float s = late < query.to ? late : query.to;
+      const float px = dx + du * s, py = dy + dv * s, pz = dz + dw * s;
+      const float square = px * px + py * py + pz * pz;
+      if (!(square > radii * radii + capsule_search::least_square)) *next++ = k;
+    }
+  }
+  return static_cast<std::size_t>(next - found);
+}
+
+}  // namespace kinesphere
+#endif

@@ -1,0 +1,396 @@
+#include "window/layer.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "number/infinity.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// A capsule of nobody: nothing comes near it but what comes near everything.
+constexpr Capsule hole{{0x1p55f, 0x1p55f, 0x1p55f}, {}, 0.0f};
+
+/// Cells are to hold about as many, where they hold any.
+constexpr std::size_t too_few_in_a_cell = 3;
+/// So few are in one cell: a search looks at all of them.
+constexpr std::size_t few = 32;
+constexpr std::size_t too_many_in_a_cell = 24;
+
+/// Whole numbers of cells stay below this, so that sums of some do not overflow.
+constexpr float most_cells = 0x1p29f;
+
+}  // namespace
+
+void Layer::clear(const CapsuleFrame& frame) {
+  frame_ = frame;
+  for (std::vector<float>& column : columns_) column.clear();
+  numbers_.clear();
+  starts_.clear();
+  sorted_ = 0;
+  holes_ = 0;
+  reach_ = 0.0f;
+  widest_ = 0.0f;
+}
+
+void Layer::reserve(std::size_t capsules) {
+  for (std::vector<float>& column : columns_) column.reserve(capsules + capsule_padding);
+  numbers_.reserve(capsules);
+}
+
+CapsuleColumns Layer::columns() const {
+  CapsuleColumns pointers;
+  for (std::size_t k = 0; k < columns_.size(); ++k) pointers[k] = columns_[k].data();
+  return pointers;
+}
+
+Capsule Layer::capsule_at(std::uint32_t place) const {
+  const auto& [x, y, z, u, v, w, r] = columns_;
+  return {{x[place], y[place], z[place]}, {u[place], v[place], w[place]}, r[place]};
+}
+
+void Layer::store(std::uint32_t place, const Capsule& capsule) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    columns_[axis][place] = capsule.centre[axis];
+    columns_[axis + 3][place] = capsule.velocity[axis];
+  }
+  columns_[6][place] = capsule.radius;
+}
+
+std::uint32_t Layer::add(std::uint32_t number, const Capsule& capsule, float from) {
+  const auto place = static_cast<std::uint32_t>(numbers_.size());
+  for (std::vector<float>& column : columns_) {
+    if (column.size() < place + capsule_padding + 1) column.resize(place + capsule_padding + 1);
+  }
+  numbers_.push_back(number);
+  store(place, capsule);
+  widest_ = std::max(widest_, width_of(corners_of(capsule, from, 1.0f)));
+  return place;
+}
+
+bool Layer::replace(std::uint32_t place, const Capsule& capsule, float from) {
+  assert(numbers_[place] != nobody);
+  if (place < sorted_) {
+    const auto after = std::upper_bound(starts_.begin(), starts_.end(), place);
+    const auto cell = static_cast<std::uint32_t>(after - starts_.begin() - 1);
+    const float out = overhang(cell, corners_of(capsule, from, 1.0f));
+    if (!(out <= grid_.edge[1])) return false;
+    reach_ = std::max(reach_, out);
+  }
+  widest_ = std::max(widest_, width_of(corners_of(capsule, from, 1.0f)));
+  store(place, capsule);
+  return true;
+}
+
+void Layer::remove(std::uint32_t place) {
+  assert(numbers_[place] != nobody);
+  numbers_[place] = nobody;
+  ++holes_;
+  store(place, hole);
+}
+
+bool Layer::is_untidy() const {
+  const std::size_t behind = numbers_.size() - sorted_;
+  const auto few = static_cast<std::size_t>(64.0 + 4.0 * std::sqrt(static_cast<double>(sorted_)));
+  return behind > few || holes_ > 64 + numbers_.size() / 2;
+}
+
+Layer::Corners Layer::corners_of(const Capsule& capsule, float from, float to) {
+  Corners corners;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float first = capsule.centre[axis] + capsule.velocity[axis] * from;
+    const float last = capsule.centre[axis] + capsule.velocity[axis] * to;
+    corners.lower[axis] = std::min(first, last) - capsule.radius;
+    corners.upper[axis] = std::max(first, last) + capsule.radius;
+  }
+  return corners;
+}
+
+/// Infinite for what is not a number.
+float Layer::width_of(const Corners& corners) {
+  float widest = 0.0f;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float width = corners.upper[axis] - corners.lower[axis];
+    if (!(width <= widest)) widest = width;
+  }
+  return widest < infinity ? widest : std::numeric_limits<float>::infinity();
+}
+
+std::int32_t Layer::Grid::cell_of(float coordinate, std::size_t axis) const {
+  const float cells = coordinate / edge[axis];
+  const float within = !(cells > -most_cells) ? -most_cells : cells < most_cells ? cells : most_cells;
+  const auto cut = static_cast<std::int32_t>(within);
+  return cut - (within < static_cast<float>(cut) ? 1 : 0);
+}
+
+std::int32_t Layer::Grid::wrapped(std::int32_t cell, std::size_t axis) const {
+  const std::int32_t way = cell - first[axis];
+  if (0 <= way && way < count[axis]) return way;
+  const std::int32_t rest = way % count[axis];
+  return rest < 0 ? rest + count[axis] : rest;
+}
+
+/// Of their middle.
+Layer::Cell Layer::Grid::cell_around(const Corners& corners) const {
+  Cell cell;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    cell[axis] = cell_of(0.5f * (corners.lower[axis] + corners.upper[axis]), axis);
+  return cell;
+}
+
+std::uint32_t Layer::Grid::index_of(const Corners& corners) const {
+  std::uint32_t index = 0;
+  for (std::size_t axis = 3; axis-- > 0;) {
+    const std::int32_t cell =
+        wrapped(cell_of(0.5f * (corners.lower[axis] + corners.upper[axis]), axis), axis);
+    index = index * static_cast<std::uint32_t>(count[axis]) + static_cast<std::uint32_t>(cell);
+  }
+  return index;
+}
+
+Layer::Cell Layer::Grid::cell_at(std::uint32_t index) const {
+  Cell cell;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto along = static_cast<std::uint32_t>(count[axis]);
+    cell[axis] = static_cast<std::int32_t>(index % along);
+    index /= along;
+  }
+  return cell;
+}
+
+/// How far corners reach out of a cell, or of one that shares its capsules.
+float Layer::overhang(std::uint32_t cell, const Corners& corners) const {
+  const Cell wrapped = grid_.cell_at(cell);
+  float most = 0.0f;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::int32_t count = grid_.count[axis];
+    const std::int32_t middle = grid_.cell_of(0.5f * (corners.lower[axis] + corners.upper[axis]), axis);
+    std::int32_t way = wrapped[axis] - grid_.wrapped(middle, axis);
+    if (2 * way > count) way -= count;
+    if (2 * way < -count) way += count;
+    const auto here = static_cast<float>(middle + way);
+    const float below = here * grid_.edge[axis] - corners.lower[axis];
+    const float above = corners.upper[axis] - (here + 1.0f) * grid_.edge[axis];
+    // What is not a number reaches everywhere.
+    for (const float out : {below, above})
+      if (!(out <= most)) most = out;
+  }
+  return most < infinity ? most : std::numeric_limits<float>::infinity();
+}
+
+Layer::Corners Layer::corners_at(std::uint32_t place) const {
+  return corners_of(capsule_at(place), 0.0f, 1.0f);
+}
+
+/// Cells as wide as the largest capsule, times the coarseness, over the box that holds all centres; fewer,
+/// which then stand for several places each, if there would be more cells than capsules.
+void Layer::choose_grid() {
+  Point lower, upper;
+  lower.fill(most_cells);
+  upper.fill(-most_cells);
+  float widest = 0.0f;
+  for (std::uint32_t place = 0; place < numbers_.size(); ++place) {
+    if (numbers_[place] == nobody) continue;
+    const Corners corners = corners_at(place);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float middle = 0.5f * (corners.lower[axis] + corners.upper[axis]);
+      lower[axis] = std::min(lower[axis], middle);
+      upper[axis] = std::max(upper[axis], middle);
+      const float width = corners.upper[axis] - corners.lower[axis];
+      if (width < most_cells) widest = std::max(widest, width);
+    }
+  }
+  float extent = widest;
+  for (std::size_t axis = 0; axis < 3; ++axis) extent = std::max(extent, upper[axis] - lower[axis]);
+  // Larger ones would be of no use.
+  while (coarseness_ > 1.0f && coarseness_ * widest > 4.0f * extent) coarseness_ *= 0.5f;
+  const float edge = std::max(size() > few ? coarseness_ * widest : 4.0f * extent, 0x1p-20f);
+  grid_.edge = {edge / Grid::slices, edge, edge};
+  if (size() <= few) {
+    grid_.first = {};
+    grid_.count = {1, 1, 1};
+    return;
+  }
+  std::size_t cells = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    grid_.first[axis] = grid_.cell_of(lower[axis], axis);
+    const std::int32_t last = grid_.cell_of(std::max(lower[axis], upper[axis]), axis);
+    grid_.count[axis] = std::min(last - grid_.first[axis] + 1, 1 << 20);
+    cells *= static_cast<std::size_t>(grid_.count[axis]);
+  }
+  while (cells > 8 * numbers_.size()) {
+    std::int32_t& most = *std::max_element(grid_.count.begin(), grid_.count.end());
+    cells /= static_cast<std::size_t>(most);
+    most = (most + 1) / 2;
+    cells *= static_cast<std::size_t>(most);
+  }
+}
+
+/// Of cells that have been counted: starts_[cell + 1] has how many are in it.
+std::uint32_t Layer::filled_cubes() const {
+  std::uint32_t filled = 0;
+  const auto along = static_cast<std::size_t>(grid_.count[0]);
+  for (std::size_t row = 0; row + 1 < starts_.size(); row += along)
+    for (std::size_t first = 0; first < along; first += Grid::slices) {
+      const auto begin = starts_.begin() + static_cast<std::ptrdiff_t>(row + first + 1);
+      const auto end =
+          begin + static_cast<std::ptrdiff_t>(std::min<std::size_t>(Grid::slices, along - first));
+      filled += std::any_of(begin, end, [](std::uint32_t count) { return count > 0; }) ? 1 : 0;
+    }
+  return filled;
+}
+
+double Layer::density(bool flat) const {
+  if (filled_ == 0) return 0.0;
+  const double edge = grid_.edge[1];
+  return sorted_ / (filled_ * (flat ? edge * edge : edge * edge * edge));
+}
+
+void Layer::sort_places() {
+  const auto count = static_cast<std::uint32_t>(numbers_.size());
+  std::vector<std::uint32_t> cells(count);
+  for (;;) {
+    choose_grid();
+    const std::size_t cell_count =
+        std::size_t(grid_.count[0]) * std::size_t(grid_.count[1]) * std::size_t(grid_.count[2]);
+    starts_.assign(cell_count + 1, 0);
+    for (std::uint32_t place = 0; place < count; ++place) {
+      if (numbers_[place] == nobody) continue;
+      cells[place] = grid_.index_of(corners_at(place));
+      ++starts_[cells[place] + 1];
+    }
+    filled_ = filled_cubes();
+    const std::size_t filled = filled_;
+    const float before = coarseness_;
+    if (cell_count > 1 && size() < too_few_in_a_cell * filled) {
+      coarseness_ *= 2.0f;
+      choose_grid();
+      if (coarseness_ > before) continue;
+      break;
+    } else {
+      if (size() > too_many_in_a_cell * filled && coarseness_ > 1.0f) coarseness_ *= 0.5f;
+      break;
+    }
+  }
+  for (std::size_t cell = 1; cell < starts_.size(); ++cell) starts_[cell] += starts_[cell - 1];
+
+  // To its place among those of its cell, in the order in which they stand.
+  std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
+  for (std::uint32_t place = 0; place < count; ++place)
+    if (numbers_[place] != nobody) cells[place] = next[cells[place]]++;
+  const auto kept = static_cast<std::uint32_t>(size());
+  std::vector<float> sorted(kept + capsule_padding);
+  for (std::vector<float>& column : columns_) {
+    for (std::uint32_t place = 0; place < count; ++place)
+      if (numbers_[place] != nobody) sorted[cells[place]] = column[place];
+    column.resize(kept + capsule_padding);
+    std::copy(sorted.begin(), sorted.end(), column.begin());
+  }
+  std::vector<std::uint32_t> numbers(kept);
+  for (std::uint32_t place = 0; place < count; ++place)
+    if (numbers_[place] != nobody) numbers[cells[place]] = numbers_[place];
+  numbers_.assign(numbers.begin(), numbers.end());
+  sorted_ = kept;
+  holes_ = 0;
+  reach_ = 0.0f;
+  for (std::uint32_t cell = 0; cell + 1 < starts_.size(); ++cell)
+    for (std::uint32_t place = starts_[cell]; place < starts_[cell + 1]; ++place)
+      reach_ = std::max(reach_, overhang(cell, corners_at(place)));
+}
+
+/// The rows of cells that may hold a capsule which meets the corners.
+void Layer::runs_near(const Corners& corners, std::vector<Run>& runs) const {
+  Cell begin, count;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::int32_t first = grid_.cell_of(corners.lower[axis] - reach_, axis);
+    const std::int32_t last = grid_.cell_of(corners.upper[axis] + reach_, axis);
+    // Also where a corner is infinite or not a number.
+    const bool all =
+        !(corners.upper[axis] - corners.lower[axis] < most_cells) || last - first + 1 >= grid_.count[axis];
+    begin[axis] = all ? 0 : grid_.wrapped(first, axis);
+    count[axis] = all ? grid_.count[axis] : last - first + 1;
+  }
+  const auto add = [&runs](std::uint32_t from, std::uint32_t to) {
+    if (from >= to) return;
+    if (!runs.empty() && runs.back().end == from) {
+      runs.back().end = to;
+    } else {
+      runs.push_back({from, to});
+    }
+  };
+  const auto along = [this](std::size_t axis) { return static_cast<std::uint32_t>(grid_.count[axis]); };
+  const auto width = static_cast<std::uint32_t>(count[0]);
+  const auto first = static_cast<std::uint32_t>(begin[0]);
+  for (std::int32_t k = 0; k < count[2]; ++k) {
+    const std::uint32_t z = (static_cast<std::uint32_t>(begin[2] + k)) % along(2);
+    for (std::int32_t j = 0; j < count[1]; ++j) {
+      const std::uint32_t y = (static_cast<std::uint32_t>(begin[1] + j)) % along(1);
+      const std::uint32_t row = (z * along(1) + y) * along(0);
+      const std::uint32_t within = std::min(width, along(0) - first);
+      add(starts_[row + first], starts_[row + first + within]);
+      if (within < width) add(starts_[row], starts_[row + width - within]);
+    }
+  }
+}
+
+std::span<const std::uint32_t> Layer::near(const CapsuleQuery& query, Scratch& scratch) const {
+  std::size_t most = 0;
+  for (const Run& run : scratch.runs) most += run.end - run.begin;
+  if (scratch.places.size() < most) scratch.places.resize(most);
+  const std::size_t found = near_capsules(columns(), scratch.runs, query, scratch.places.data());
+  return std::span(scratch.places).first(found);
+}
+
+std::span<const std::uint32_t> Layer::search(const CapsuleQuery& query, Scratch& scratch) const {
+  scratch.runs.clear();
+  if (sorted_ > 0) runs_near(corners_of(query.capsule, query.from, query.to), scratch.runs);
+  if (numbers_.size() > sorted_)
+    scratch.runs.push_back({sorted_, static_cast<std::uint32_t>(numbers_.size())});
+  return near(query, scratch);
+}
+
+std::span<const std::uint32_t> Layer::search_behind(std::uint32_t place, Scratch& scratch) const {
+  assert(sorted_ == numbers_.size());
+  const CapsuleQuery query{capsule_at(place), 0.0f, 1.0f};
+  scratch.runs.clear();
+  runs_near(corners_of(query.capsule, 0.0f, 1.0f), scratch.runs);
+  std::erase_if(scratch.runs, [place](const Run& run) { return run.end <= place + 1; });
+  for (Run& run : scratch.runs) run.begin = std::max(run.begin, place + 1);
+  return near(query, scratch);
+}
+
+bool Layer::is_sound() const {
+  const auto is_power = [](double value) { return value > 0.0 && value < infinity; };
+  if (!is_finite(frame_.base) || !std::isfinite(frame_.origin) || !is_power(frame_.per_length) ||
+      !is_power(frame_.per_time))
+    return false;
+  const std::size_t filled = numbers_.empty() ? 0 : numbers_.size() + capsule_padding;
+  for (const std::vector<float>& column : columns_)
+    if (column.size() < filled) return false;
+  const auto holes = static_cast<std::size_t>(std::count(numbers_.begin(), numbers_.end(), nobody));
+  if (holes != holes_ || sorted_ > numbers_.size()) return false;
+  if (sorted_ == 0) return true;
+  std::size_t cells = 1;
+  for (const std::int32_t count : grid_.count) {
+    if (count < 1 || count > 1 << 20) return false;
+    cells *= static_cast<std::size_t>(count);
+    if (cells >= starts_.size()) return false;
+  }
+  return starts_.size() == cells + 1 && starts_.front() == 0 && starts_.back() == sorted_ &&
+         std::is_sorted(starts_.begin(), starts_.end()) &&
+         std::all_of(
+             grid_.edge.begin(), grid_.edge.end(),
+             [](float edge) { return edge > 0.0f && edge < std::numeric_limits<float>::infinity(); }) &&
+         reach_ >= 0.0f && widest_ >= 0.0f && coarseness_ >= 1.0f;
+}
+
+std::size_t Layer::bytes() const {
+  std::size_t all = numbers_.capacity() * sizeof(std::uint32_t) + starts_.capacity() * sizeof(std::uint32_t);
+  for (const std::vector<float>& column : columns_) all += column.capacity() * sizeof(float);
+  return all;
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,157 @@
+// A layer: capsules of about one size and one window, sorted by the cells of a grid so that a search reads
+// whole rows of them at once.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "window/capsule.hpp"
+#include "window/capsule_search.hpp"
+
+namespace kinesphere {
+
+/// Each capsule has a place, which stays the same until the layer is sorted anew or cleared, and belongs to a
+/// body. Those that were added since the layer was sorted are behind the others, and every search looks at
+/// them. The grid has no borders: cells count modulo its size, so it holds bodies anywhere.
+class Layer {
+ public:
+  /// In place of the number of a body: nobody's.
+  static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+
+  /// Where a search finds what it found, and what it needs on the way.
+  struct Scratch {
+    std::vector<Run> runs;
+    std::vector<std::uint32_t> places;
+  };
+
+  Layer() = default;
+  explicit Layer(const CapsuleFrame& frame) : frame_(frame) {}
+
+  const CapsuleFrame& frame() const { return frame_; }
+  /// Empties the layer, for capsules of another frame.
+  void clear(const CapsuleFrame& frame);
+  void reserve(std::size_t capsules);
+  /// Places are less than this.
+  std::size_t places() const { return numbers_.size(); }
+  /// Bodies that are there.
+  std::size_t size() const { return numbers_.size() - holes_; }
+  std::uint32_t number_at(std::uint32_t place) const { return numbers_[place]; }
+  /// No capsule is wider, on any axis, from the time on that it holds (in units of the frame).
+  float widest() const { return widest_; }
+  Capsule capsule_at(std::uint32_t place) const;
+
+  /// A capsule that holds from time `from` of the frame until 1. Returns its place.
+  std::uint32_t add(std::uint32_t number, const Capsule& capsule, float from);
+  /// Another one for the same body, which holds from time `from` until 1. False, and nothing has changed, if
+  /// it is so large or so far from the others of its cell that searches would cost more.
+  bool replace(std::uint32_t place, const Capsule& capsule, float from);
+  /// Leaves a hole.
+  void remove(std::uint32_t place);
+
+  /// So many were added, or left holes, that searches will cost less once the layer is sorted.
+  bool is_untidy() const;
+  /// Sorts all by cells, and leaves no holes. Places change: moved(number, place) is told of each. Cost:
+  /// linear.
+  template <class Moved>
+  void sort(Moved moved) {
+    sort_places();
+    for (std::uint32_t place = 0; place < numbers_.size(); ++place) moved(numbers_[place], place);
+  }
+
+  /// The places of all that a capsule may touch during the query's span; of holes perhaps too. Good until the
+  /// next search with this scratch.
+  std::span<const std::uint32_t> search(const CapsuleQuery& query, Scratch& scratch) const;
+  /// The same among those behind the place of a capsule of this layer, which has to be sorted, from time 0 to
+  /// 1: going through all places finds each pair once.
+  std::span<const std::uint32_t> search_behind(std::uint32_t place, Scratch& scratch) const;
+
+  /// Calls visit(lower corner, upper corner, number of capsules), in units of the frame, for each cell in
+  /// which the middle of a capsule lies.
+  template <class Visit>
+  void for_each_cell(Visit visit) const {
+    std::map<Cell, std::size_t> filled;
+    for (std::uint32_t place = 0; place < numbers_.size(); ++place)
+      if (numbers_[place] != nobody) ++filled[grid_.cell_around(corners_at(place))];
+    for (const auto& [cell, count] : filled) {
+      Vec3 lower, upper;
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto k = static_cast<std::size_t>(axis);
+        lower[axis] = double(cell[k]) * double(grid_.edge[k]);
+        upper[axis] = (double(cell[k]) + 1.0) * double(grid_.edge[k]);
+      }
+      visit(lower, upper, count);
+    }
+  }
+  /// How many are in a unit of volume (or of area, if `flat`), where there are any. Of a layer that was
+  /// sorted.
+  double density(bool flat) const;
+  std::size_t bytes() const;
+  /// For one that was read.
+  bool is_sound() const;
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [frame, columns, numbers, starts, sorted, holes, grid, reach, widest, filled, coarseness] = self;
+    archive(frame, columns, numbers, starts, sorted, holes, grid, reach, widest, filled, coarseness);
+  }
+
+ private:
+  using Point = std::array<float, 3>;
+  struct Corners {
+    Point lower;
+    Point upper;
+  };
+  using Cell = std::array<std::int32_t, 3>;
+  /// Those with coordinates in [i, i + 1) times the edge are cell i of an axis, and share their capsules with
+  /// all cells i + k count. Cells are cubes cut into slices along x: rows of cells are read as a whole, so
+  /// that thin slices cost nothing, and less is read of rows that are not needed as a whole.
+  struct Grid {
+    static constexpr int slices = 4;
+    Point edge{1.0f, 1.0f, 1.0f};
+    Cell first{};
+    Cell count{1, 1, 1};
+
+    std::int32_t cell_of(float coordinate, std::size_t axis) const;
+    std::int32_t wrapped(std::int32_t cell, std::size_t axis) const;
+    Cell cell_around(const Corners& corners) const;
+    std::uint32_t index_of(const Corners& corners) const;
+    Cell cell_at(std::uint32_t index) const;
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+      auto& [edge, first, count] = self;
+      archive(edge, first, count);
+    }
+  };
+
+  static Corners corners_of(const Capsule& capsule, float from, float to);
+  static float width_of(const Corners& corners);
+  Corners corners_at(std::uint32_t place) const;
+  CapsuleColumns columns() const;
+  void store(std::uint32_t place, const Capsule& capsule);
+  void choose_grid();
+  std::uint32_t filled_cubes() const;
+  void sort_places();
+  float overhang(std::uint32_t cell, const Corners& corners) const;
+  void runs_near(const Corners& corners, std::vector<Run>& runs) const;
+  std::span<const std::uint32_t> near(const CapsuleQuery& query, Scratch& scratch) const;
+
+  CapsuleFrame frame_;
+  std::array<std::vector<float>, 7> columns_;  ///< with room behind the last one for a search to read
+  std::vector<std::uint32_t> numbers_;
+  std::vector<std::uint32_t> starts_;  ///< by cell, and the end of the last one
+  std::uint32_t sorted_ = 0;
+  std::uint32_t holes_ = 0;
+  Grid grid_;
+  float reach_ = 0.0f;  ///< how far a sorted one sticks out of its cell, at most
+  float widest_ = 0.0f;
+  std::uint32_t filled_ = 0;  ///< cubes that hold any
+  /// Edge of the cells, in widths of the largest capsule: doubled where cells have held few.
+  float coarseness_ = 1.0f;
+};
+
+}  // namespace kinesphere

@@ -1,0 +1,74 @@
+// The tempo: how long windows are. A cost model, which counts and measures no time, so that it is the same on
+// all machines.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace kinesphere {
+
+/// How a body moves during a window: the way in a time t is at most speed t + acceleration t^2 / 2.
+struct Pace {
+  double speed;
+  double acceleration;
+
+  double way(double time) const { return (speed + 0.5 * acceleration * time) * time; }
+};
+
+/// What searches have cost: capsules that were looked at, and rows of them.
+struct SearchCost {
+  std::uint64_t searches = 0;
+  std::uint64_t capsules = 0;
+  std::uint64_t rows = 0;
+
+  double units() const { return static_cast<double>(capsules) + 4.0 * static_cast<double>(rows); }
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [count, seen, runs] = self;
+    archive(count, seen, runs);
+  }
+};
+
+/// Most bodies share windows of one length, the main one, 2^main_tier. In longer windows searches find more,
+/// in shorter ones all bodies start more often. Those that are much faster than most have windows 8, 64, ...
+/// times shorter.
+class Tempo {
+ public:
+  static constexpr int powers_between_tiers = 3;
+
+  bool is_chosen() const { return typical_way_ > 0.0; }
+  /// Before anything is known: windows in which a body of this pace goes this way (> 0). Later ones will not
+  /// let most bodies go farther than `longest_way`.
+  void choose(double way, const Pace& typical, double longest_way);
+  int main_tier() const { return main_tier_; }
+  int tier_for(const Pace& pace) const;
+  /// The way of most bodies in a main window (length).
+  double typical_way() const { return typical_way_; }
+
+  /// A body starts in a window; `width` is that of its capsule without its way.
+  void note_start(const Pace& pace, double width, int tier);
+  /// Chooses the length of the main windows, knowing what searches have cost since most bodies started: for
+  /// these, and since then, for `elapsed`.
+  void adapt(const SearchCost& starts, const SearchCost& later, double elapsed, int dimensions);
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [tier, way, longest, bodies, in_main, ways, widths, magnitudes] = self;
+    archive(tier, way, longest, bodies, in_main, ways, widths, magnitudes);
+  }
+  /// For one that was read.
+  bool is_sound() const;
+
+ private:
+  int main_tier_ = 0;
+  double typical_way_ = 0.0;
+  double longest_way_ = 0.0;
+  // Of those that have started.
+  std::uint64_t bodies_ = 0;
+  std::uint64_t in_main_ = 0;  ///< in a main window
+  double ways_ = 0.0;
+  double widths_ = 0.0;
+  std::int64_t magnitudes_ = 0;  ///< of the ways: whole parts of their binary logarithms
+};
+
+}  // namespace kinesphere

@@ -1,0 +1,192 @@
+// The windows: until when each body's capsule holds, and whose capsules may touch it until then.
+//
+// Time is divided into windows of the lengths 2^k, for all whole k, which begin and end at the multiples of
+// their length: so where one ends, all shorter ones end. Each body is registered, with a capsule, in one
+// window, which suits its speed, until that window ends. Bodies that share a window and are of about one size
+// share a layer. Bodies that stand still have a window that never ends.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bound/encounter.hpp"
+#include "number/infinity.hpp"
+#include "space/space.hpp"
+#include "window/layer.hpp"
+#include "window/tempo.hpp"
+
+namespace kinesphere {
+
+/// A body's bound, and how much is to be kept free around it, as a search needs them.
+struct RoomyBound {
+  MovedBound moved;  ///< moved on to the present
+  double room;       ///< length
+};
+
+/// One of the windows of length 2^tier.
+struct Window {
+  int tier = 0;
+  double end = 0.0;
+};
+
+class Windows {
+ public:
+  /// What searches need on the way: one for each thread.
+  struct Scratch {
+    Layer::Scratch layer;
+    std::vector<std::uint32_t> numbers;
+    SearchCost cost;  ///< of all searches with it
+  };
+
+  explicit Windows(const Space& space) : space_(space) {}
+
+  void reserve(std::size_t bodies);
+  bool contains(std::uint32_t number) const {
+    return number < registrations_.size() && registrations_[number].layer != none;
+  }
+  std::size_t size() const;
+  /// Of one that is registered: it stays in its capsule until then.
+  double end_of(std::uint32_t number) const { return registrations_[number].end; }
+  int tier_of(std::uint32_t number) const { return layers_[registrations_[number].layer].tier; }
+  /// Bodies in windows that end.
+  std::size_t moving() const;
+  /// When the next window ends that holds a body.
+  double next_end() const;
+
+  /// The window of length 2^tier at a time, or a longer one where numbers cannot tell its end from now.
+  static Window window_at(double now, int tier);
+  /// Of the shortest window.
+  static constexpr int shortest = std::numeric_limits<int>::min();
+  static constexpr Window endless() { return {never_ends, infinity}; }
+  /// Registers a body in a window from `now` on, perhaps anew.
+  void enter(std::uint32_t number, const RoomyBound& bound, double now, const Window& window);
+  void leave(std::uint32_t number);
+  /// The bodies whose capsule may touch that of `number` before the window of either ends. Good until the
+  /// next search with this scratch.
+  std::span<const std::uint32_t> near(std::uint32_t number, const RoomyBound& bound, double now,
+                                      Scratch& scratch) const;
+
+  // New windows for many bodies at once.
+
+  /// The bodies whose windows have ended by `now` or, if `all`, whose windows end ever.
+  std::vector<std::uint32_t> ended(double now, bool all) const;
+  /// Those bodies are registered nowhere any more, and wait for start().
+  void end_windows(double now, bool all);
+  /// Whether bodies may start in a window: others are not in it already.
+  bool is_free(const Window& window) const;
+  void start(std::uint32_t number, const RoomyBound& bound, double now, const Window& window);
+  /// All have started.
+  void finish_start();
+  /// Makes searches fast again, if many have entered or left one by one.
+  void tidy();
+  /// How many have started since windows ended; the k-th of them.
+  std::size_t started() const;
+  std::uint32_t started_number(std::size_t k) const;
+  /// As near(), for the k-th of those that have started: going through all of them finds each pair of two of
+  /// them once. bound_of(number) is asked where there are several layers, or space repeats.
+  template <class BoundOf>
+  std::span<const std::uint32_t> near_started(std::size_t k, double now, BoundOf bound_of,
+                                              Scratch& scratch) const {
+    const Started at = started_at(k);
+    scratch.numbers.clear();
+    if (!needs_bounds_) {
+      ++scratch.cost.searches;
+      near_behind(at, scratch);
+    } else {
+      ++scratch.cost.searches;
+      near_behind(at, bound_of(started_number(k)), now, scratch);
+    }
+    return scratch.numbers;
+  }
+
+  /// The bodies whose capsules may reach into a box now, and perhaps some near it; where space repeats
+  /// perhaps several times. Good until the next search with this scratch.
+  std::span<const std::uint32_t> in_box(const Box& box, double now, Scratch& scratch) const;
+  /// Of the smallest capsules, about; +infinity where there are none.
+  double least_width() const;
+  /// Contains the body from `now` on until its window ends.
+  Box box_of(std::uint32_t number, double now) const;
+  /// Calls visit(box, number of bodies) for each cell of each layer in which bodies are registered.
+  template <class Visit>
+  void for_each_cell(Visit visit) const {
+    for (const Member& member : layers_) {
+      const CapsuleFrame& frame = member.layer.frame();
+      member.layer.for_each_cell([&](const Vec3& lower, const Vec3& upper, std::size_t bodies) {
+        visit(Box{frame.base + lower / frame.per_length, frame.base + upper / frame.per_length}, bodies);
+      });
+    }
+  }
+  std::size_t bytes() const;
+  /// For one that is registered: what is wrong with its place, if anything is.
+  std::optional<std::string> check(std::uint32_t number) const;
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [space, registrations, layers, sizes, merged, needs_bounds] = self;
+    archive(registrations, layers, needs_bounds);
+  }
+  /// For one that was read, in a world of this many bodies.
+  bool is_sound(std::size_t bodies) const;
+
+ private:
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  static constexpr int never_ends = std::numeric_limits<int>::max();
+
+  struct Registration {
+    double end = 0.0;
+    std::uint32_t layer = none;
+    std::uint32_t place = 0;
+
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+      auto& [until, its_layer, its_place] = self;
+      archive(until, its_layer, its_place);
+    }
+  };
+  /// The capsules of the bodies of about one size in the window of length 2^tier.
+  struct Member {
+    int tier = 0;
+    int level = 0;
+    double end = 0.0;
+    bool fresh = false;  ///< all in it have started since windows ended
+    Layer layer{};
+
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+      auto& [power, size, until, is_fresh, capsules] = self;
+      archive(power, size, until, is_fresh, capsules);
+    }
+  };
+
+  struct Started {
+    std::uint32_t layer;
+    std::uint32_t place;
+  };
+
+  void merge_levels();
+  int level_for(const RoomyBound& bound, double duration) const;
+  std::uint32_t layer_for(const Window& window, const Vec3& base, int level);
+  void add(std::uint32_t number, std::uint32_t layer, const RoomyBound& bound, double now);
+  void sort(std::uint32_t layer);
+  Started started_at(std::size_t k) const;
+  void near_behind(const Started& at, Scratch& scratch) const;
+  void near_behind(const Started& at, const RoomyBound& bound, double now, Scratch& scratch) const;
+  template <class Finds>
+  void search(const Member& member, const RoomyBound& bound, double now, double end, Finds finds,
+              Scratch& scratch) const;
+
+  Space space_;
+  std::vector<Registration> registrations_;
+  std::vector<Member> layers_;
+  std::map<int, std::size_t> sizes_;  ///< by level, of those that have started
+  std::map<int, int> merged_;         ///< levels that few bodies have, into larger ones
+  bool needs_bounds_ = false;         ///< to search for those that have started: not all are in one layer
+};
+
+}  // namespace kinesphere
