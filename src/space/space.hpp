@@ -95,9 +95,8 @@ class Space {
   void for_each_overlap(const HashGrid& grid, const Box& box, Visit visit) const {
     if (!repeats_)
       return flat_ ? grid.for_each_overlap(within(box), visit) : grid.for_each_overlap(box, visit);
-    for_each_image(box, grid.largest_extent(), [&](const Box& image, const Vec3&) {
-      grid.for_each_overlap(image, visit);
-    });
+    for_each_image(box, grid.largest_extent(),
+                   [&](const Box& image, const Vec3&) { grid.for_each_overlap(image, visit); });
   }
   /// Calls visit(image, shift) for each image of a box that may overlap one of this extent at most with its
   /// centre in the primary box: the box itself where space does not repeat.
