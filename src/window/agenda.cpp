@@ -7,49 +7,85 @@
 namespace kinesphere {
 namespace {
 
-bool later(const HotPair& a, const HotPair& b) { return b < a; }
+/// Not a function, so that it is compiled into what sorts by it.
+constexpr auto later = [](const HotPair& a, const HotPair& b) { return b < a; };
 
 }  // namespace
 
+std::size_t Agenda::slice_of(double time) const {
+  const double slices = (time - begin_) * per_time_;
+  const auto last = static_cast<double>(heads_.size() - 1);
+  return static_cast<std::size_t>(slices < last ? std::max(slices, 0.0) : last);
+}
+
+/// In a slice that comes.
+void Agenda::wait(const HotPair& pair) {
+  std::uint32_t node = free_;
+  if (node == none) {
+    node = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.emplace_back();
+  } else {
+    free_ = nodes_[node].next;
+  }
+  std::uint32_t& head = heads_[slice_of(pair.time)];
+  nodes_[node] = {pair, head};
+  head = node;
+  ++waiting_;
+}
+
 void Agenda::drop_first() {
-  assert(!empty());
   if (heap_comes_first()) {
     std::pop_heap(heap_.begin(), heap_.end(), later);
     heap_.pop_back();
-  } else if (++next_ == sorted_.size()) {
-    sorted_.clear();
-    next_ = 0;
+  } else {
+    assert(next_ < sorted_.size());
+    ++next_;
   }
 }
 
 void Agenda::add(const HotPair& pair) {
+  if (!heads_.empty() && slice_of(pair.time) > slice_) return wait(pair);
   heap_.push_back(pair);
   std::push_heap(heap_.begin(), heap_.end(), later);
 }
 
-void Agenda::add_all(std::vector<HotPair>& pairs) {
-  const std::size_t remaining = sorted_.size() - next_;
-  if (8 * pairs.size() < remaining) {
-    for (const HotPair& pair : pairs) add(pair);
-  } else {
-    std::sort(pairs.begin(), pairs.end());
-    if (remaining == 0) {
-      sorted_.swap(pairs);
-    } else {
-      std::vector<HotPair> merged;
-      merged.reserve(remaining + pairs.size());
-      std::merge(sorted_.begin() + static_cast<std::ptrdiff_t>(next_), sorted_.end(), pairs.begin(),
-                 pairs.end(), std::back_inserter(merged));
-      sorted_ = std::move(merged);
-    }
-    next_ = 0;
-  }
-  pairs.clear();
+/// Slices from now on, for so many pairs between these times. Nothing waits.
+void Agenda::divide(double first, double last, std::size_t pairs) {
+  constexpr std::size_t in_a_slice = 16;
+  constexpr std::size_t most = std::size_t{1} << 18;
+  const std::size_t slices = std::clamp<std::size_t>(pairs / in_a_slice, 1, most) + 1;
+  heads_.assign(slices, none);
+  nodes_.clear();
+  free_ = none;
+  slice_ = 0;
+  begin_ = first;
+  const double length = (last - first) / static_cast<double>(slices - 1);
+  per_time_ = length > 0.0 ? 1.0 / length : 0.0;
+  if (!(per_time_ < infinity)) per_time_ = 0.0;
 }
 
-bool Agenda::is_sound() const {
-  return next_ <= sorted_.size() && std::is_sorted(sorted_.begin(), sorted_.end()) &&
-         std::is_heap(heap_.begin(), heap_.end(), later);
+void Agenda::add_all(std::vector<HotPair>& pairs) {
+  if (4 * pairs.size() < size() || pairs.size() < 64) {
+    for (const HotPair& pair : pairs) add(pair);
+  } else {
+    for_each([&](const HotPair& pair) { pairs.push_back(pair); });
+    sorted_.clear();
+    next_ = 0;
+    heap_.clear();
+    waiting_ = 0;
+    const auto [first, last] = std::minmax_element(pairs.begin(), pairs.end());
+    divide(first->time, last->time, pairs.size());
+    // What is due first makes the present slice.
+    for (const HotPair& pair : pairs) {
+      if (slice_of(pair.time) > 0) {
+        wait(pair);
+      } else {
+        sorted_.push_back(pair);
+      }
+    }
+    std::sort(sorted_.begin(), sorted_.end());
+  }
+  pairs.clear();
 }
 
 PairTimes::PairTimes(std::vector<HotPair> pairs) : pairs_(std::move(pairs)) {

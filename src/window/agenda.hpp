@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "number/infinity.hpp"
@@ -25,7 +26,8 @@ struct HotPair {
   std::uint32_t second_stamp = 0;
 
   friend bool operator<(const HotPair& a, const HotPair& b) {
-    return std::tie(a.time, a.first, a.second) < std::tie(b.time, b.first, b.second);
+    if (a.time != b.time) return a.time < b.time;
+    return a.first != b.first ? a.first < b.first : a.second < b.second;
   }
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
@@ -34,14 +36,24 @@ struct HotPair {
   }
 };
 
-/// In the order of their times, then of their numbers. Many that come at once are sorted once; single ones
-/// wait in a heap.
+/// In the order of their times, then of their numbers. Most pairs become void before they are due, so those
+/// that are not due soon are kept in slices of time, in no order; a slice is sorted when it begins, without
+/// those that have become void. Cost: O(1) for each pair and, for those that come to be due, O(log of the
+/// size of a slice).
 class Agenda {
  public:
-  bool empty() const { return next_ == sorted_.size() && heap_.empty(); }
-  std::size_t size() const { return sorted_.size() - next_ + heap_.size(); }
+  std::size_t size() const { return (sorted_.size() - next_) + heap_.size() + waiting_; }
+  /// Needed before next_time() and first(), after each change: goes on to the next slice that holds a pair,
+  /// if nothing is left of this one.
+  template <class IsVoid>
+  void open(IsVoid is_void) {
+    while (next_ == sorted_.size() && heap_.empty() && waiting_ > 0) begin_slice(is_void);
+  }
   /// +infinity when nothing is due.
-  double next_time() const { return empty() ? infinity : first().time; }
+  double next_time() const {
+    const double of_sorted = next_ < sorted_.size() ? sorted_[next_].time : infinity;
+    return heap_.empty() ? of_sorted : std::min(of_sorted, heap_.front().time);
+  }
   /// Needs that there is one.
   const HotPair& first() const { return heap_comes_first() ? heap_.front() : sorted_[next_]; }
   void drop_first();
@@ -49,28 +61,76 @@ class Agenda {
   /// All of them, in any order. Leaves `pairs` empty.
   void add_all(std::vector<HotPair>& pairs);
 
+  /// Void ones too.
   template <class Visit>
   void for_each(Visit visit) const {
     std::for_each(sorted_.begin() + static_cast<std::ptrdiff_t>(next_), sorted_.end(), visit);
     std::for_each(heap_.begin(), heap_.end(), visit);
+    for (const std::uint32_t head : heads_)
+      for (std::uint32_t at = head; at != none; at = nodes_[at].next) visit(nodes_[at].pair);
   }
 
+  std::size_t bytes() const {
+    return (sorted_.capacity() + heap_.capacity()) * sizeof(HotPair) + nodes_.capacity() * sizeof(Node) +
+           heads_.capacity() * sizeof(std::uint32_t);
+  }
+  /// Bytes hold the pairs, not their slices.
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [sorted, next, heap] = self;
-    archive(sorted, next, heap);
+    std::vector<HotPair> all;
+    self.for_each([&](const HotPair& pair) { all.push_back(pair); });
+    std::sort(all.begin(), all.end());
+    archive(all);
+    if constexpr (!std::is_const_v<Self>) {
+      self = {};
+      std::erase_if(all, [](const HotPair& pair) { return !(pair.time < infinity); });
+      self.add_all(all);
+    }
   }
-  /// For one that was read.
-  bool is_sound() const;
 
  private:
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  struct Node {
+    HotPair pair;
+    std::uint32_t next;  ///< of its slice, or of those that are free
+  };
+
   bool heap_comes_first() const {
     return !heap_.empty() && (next_ == sorted_.size() || heap_.front() < sorted_[next_]);
   }
+  std::size_t slice_of(double time) const;
+  void wait(const HotPair& pair);
+  void divide(double first, double last, std::size_t pairs);
 
-  std::vector<HotPair> sorted_;
+  template <class IsVoid>
+  void begin_slice(IsVoid is_void) {
+    sorted_.clear();
+    next_ = 0;
+    while (heads_[++slice_] == none) continue;
+    for (std::uint32_t at = heads_[slice_]; at != none;) {
+      Node& node = nodes_[at];
+      if (!is_void(node.pair)) sorted_.push_back(node.pair);
+      const std::uint32_t next = node.next;
+      node.next = free_;
+      free_ = at;
+      at = next;
+      --waiting_;
+    }
+    heads_[slice_] = none;
+    std::sort(sorted_.begin(), sorted_.end());
+  }
+
+  std::vector<HotPair> sorted_;  ///< of the present slice
   std::size_t next_ = 0;
-  std::vector<HotPair> heap_;
+  std::vector<HotPair> heap_;  ///< that have been added to it since
+  // Of the slices that come.
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> heads_;
+  std::uint32_t free_ = none;
+  std::size_t waiting_ = 0;
+  std::size_t slice_ = 0;  ///< the present one
+  double begin_ = 0.0;     ///< of slice 0
+  double per_time_ = 0.0;
 };
 
 /// The times of hot pairs, found by their bodies.

@@ -34,6 +34,7 @@ void Layer::clear(const CapsuleFrame& frame) {
   holes_ = 0;
   reach_ = 0.0f;
   widest_ = 0.0f;
+  most_behind_ = least_behind;
 }
 
 void Layer::reserve(std::size_t capsules) {
@@ -92,12 +93,6 @@ void Layer::remove(std::uint32_t place) {
   store(place, hole);
 }
 
-bool Layer::is_untidy() const {
-  const std::size_t behind = numbers_.size() - sorted_;
-  const auto few = static_cast<std::size_t>(64.0 + 4.0 * std::sqrt(static_cast<double>(sorted_)));
-  return behind > few || holes_ > 64 + numbers_.size() / 2;
-}
-
 Layer::Corners Layer::corners_of(const Capsule& capsule, float from, float to) {
   Corners corners;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -120,7 +115,7 @@ float Layer::width_of(const Corners& corners) {
 }
 
 std::int32_t Layer::Grid::cell_of(float coordinate, std::size_t axis) const {
-  const float cells = coordinate / edge[axis];
+  const float cells = coordinate * per_edge[axis];
   const float within = !(cells > -most_cells) ? -most_cells : cells < most_cells ? cells : most_cells;
   const auto cut = static_cast<std::int32_t>(within);
   return cut - (within < static_cast<float>(cut) ? 1 : 0);
@@ -209,6 +204,7 @@ void Layer::choose_grid() {
   while (coarseness_ > 1.0f && coarseness_ * widest > 4.0f * extent) coarseness_ *= 0.5f;
   const float edge = std::max(size() > few ? coarseness_ * widest : 4.0f * extent, 0x1p-20f);
   grid_.edge = {edge / Grid::slices, edge, edge};
+  for (std::size_t axis = 0; axis < 3; ++axis) grid_.per_edge[axis] = 1.0f / grid_.edge[axis];
   if (size() <= few) {
     grid_.first = {};
     grid_.count = {1, 1, 1};
@@ -294,6 +290,7 @@ void Layer::sort_places() {
     if (numbers_[place] != nobody) numbers[cells[place]] = numbers_[place];
   numbers_.assign(numbers.begin(), numbers.end());
   sorted_ = kept;
+  most_behind_ = least_behind + static_cast<std::uint32_t>(4.0 * std::sqrt(static_cast<double>(kept)));
   holes_ = 0;
   reach_ = 0.0f;
   for (std::uint32_t cell = 0; cell + 1 < starts_.size(); ++cell)

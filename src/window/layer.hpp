@@ -54,7 +54,9 @@ class Layer {
   void remove(std::uint32_t place);
 
   /// So many were added, or left holes, that searches will cost less once the layer is sorted.
-  bool is_untidy() const;
+  bool is_untidy() const {
+    return numbers_.size() - sorted_ > most_behind_ || holes_ > 64 + numbers_.size() / 2;
+  }
   /// Sorts all by cells, and leaves no holes. Places change: moved(number, place) is told of each. Cost:
   /// linear.
   template <class Moved>
@@ -96,11 +98,14 @@ class Layer {
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [frame, columns, numbers, starts, sorted, holes, grid, reach, widest, filled, coarseness] = self;
-    archive(frame, columns, numbers, starts, sorted, holes, grid, reach, widest, filled, coarseness);
+    auto& [frame, columns, numbers, starts, sorted, holes, grid, reach, widest, most_behind, filled,
+           coarseness] = self;
+    archive(frame, columns, numbers, starts, sorted, holes, grid, reach, widest, most_behind, filled,
+            coarseness);
   }
 
  private:
+  static constexpr std::uint32_t least_behind = 64;
   using Point = std::array<float, 3>;
   struct Corners {
     Point lower;
@@ -113,6 +118,7 @@ class Layer {
   struct Grid {
     static constexpr int slices = 4;
     Point edge{1.0f, 1.0f, 1.0f};
+    Point per_edge{1.0f, 1.0f, 1.0f};
     Cell first{};
     Cell count{1, 1, 1};
 
@@ -123,8 +129,8 @@ class Layer {
     Cell cell_at(std::uint32_t index) const;
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
-      auto& [edge, first, count] = self;
-      archive(edge, first, count);
+      auto& [edge, per_edge, first, count] = self;
+      archive(edge, per_edge, first, count);
     }
   };
 
@@ -149,6 +155,7 @@ class Layer {
   Grid grid_;
   float reach_ = 0.0f;  ///< how far a sorted one sticks out of its cell, at most
   float widest_ = 0.0f;
+  std::uint32_t most_behind_ = least_behind;
   std::uint32_t filled_ = 0;  ///< cubes that hold any
   /// Edge of the cells, in widths of the largest capsule: doubled where cells have held few.
   float coarseness_ = 1.0f;

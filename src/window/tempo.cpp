@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "number/infinity.hpp"
+#include "number/powers.hpp"
 
 namespace kinesphere {
 namespace {
@@ -18,7 +19,7 @@ constexpr int most_powers = 300;
 /// At once, to shorter windows.
 constexpr int most_change = 6;
 
-double length_of(int tier) { return std::ldexp(1.0, tier); }
+double length_of(int tier) { return power_of_two(tier); }
 
 }  // namespace
 
@@ -26,7 +27,7 @@ void Tempo::choose(double way, const Pace& typical, double longest_way) {
   const double squared_speed = typical.speed * typical.speed;
   const double time =
       2.0 * way / (typical.speed + std::sqrt(squared_speed + 2.0 * typical.acceleration * way));
-  main_tier_ = time < infinity ? std::clamp(std::ilogb(time), -most_powers, most_powers) : most_powers;
+  main_tier_ = time < infinity ? std::clamp(exponent_of(time), -most_powers, most_powers) : most_powers;
   typical_way_ = way;
   longest_way_ = longest_way;
 }
@@ -44,7 +45,7 @@ void Tempo::note_start(const Pace& pace, double width, int tier) {
   if (tier == main_tier_) ++in_main_;
   widths_ += width;
   ways_ += std::min(way, much_farther * typical_way_);
-  magnitudes_ += std::clamp(way > 0.0 ? std::ilogb(way) : -most_powers, -most_powers, most_powers);
+  magnitudes_ += std::clamp(way > 0.0 ? exponent_of(way) : -most_powers, -most_powers, most_powers);
 }
 
 void Tempo::adapt(const SearchCost& starts, const SearchCost& later, double elapsed, int dimensions) {
@@ -63,14 +64,16 @@ void Tempo::adapt(const SearchCost& starts, const SearchCost& later, double elap
   // Longer ones have to be tried: what searches find in them is not known well.
   const bool may_grow = 2 * in_main_ > bodies_ && 2.0 * typical_way_ <= longest_way_;
   for (int powers = may_grow ? 1 : -1; powers >= -most_change; --powers) {
-    const double changed = rate(std::ldexp(1.0, powers));
+    const double changed = rate(power_of_two(powers));
     if (powers == 0 || !(changed < least)) continue;
     least = changed;
     change = powers;
   }
   change = std::max(change, -most_powers - main_tier_);
   main_tier_ += change;
-  typical_way_ = std::ldexp(1.0, static_cast<int>(std::lround(double(magnitudes_) / count)) + change);
+  const double magnitude =
+      std::clamp(static_cast<double>(magnitudes_) / count, -1.0 * most_powers, 1.0 * most_powers);
+  typical_way_ = power_of_two(static_cast<int>(std::lround(magnitude)) + change);
   bodies_ = in_main_ = 0;
   ways_ = widths_ = 0.0;
   magnitudes_ = 0;

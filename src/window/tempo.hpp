@@ -15,17 +15,23 @@ struct Pace {
   double way(double time) const { return (speed + 0.5 * acceleration * time) * time; }
 };
 
-/// What searches have cost: capsules that were looked at, and rows of them.
+/// What searches have cost: capsules that were looked at, and rows of them; those that were found to be near,
+/// and pairs that became hot.
 struct SearchCost {
-  std::uint64_t searches = 0;
   std::uint64_t capsules = 0;
   std::uint64_t rows = 0;
+  std::uint64_t found = 0;
+  std::uint64_t hot = 0;
 
-  double units() const { return static_cast<double>(capsules) + 4.0 * static_cast<double>(rows); }
+  /// In looks at a capsule.
+  double units() const {
+    return static_cast<double>(capsules) + 4.0 * static_cast<double>(rows) +
+           12.0 * static_cast<double>(found) + 60.0 * static_cast<double>(hot);
+  }
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [count, seen, runs] = self;
-    archive(count, seen, runs);
+    auto& [seen, runs, near, due] = self;
+    archive(seen, runs, near, due);
   }
 };
 

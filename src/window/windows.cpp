@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "number/powers.hpp"
+
 namespace kinesphere {
 namespace {
 
@@ -14,15 +16,10 @@ constexpr int digits = 50;
 constexpr int longest_tier = 300;
 constexpr int largest_level = 300;
 
-int power_below(double value, int largest) {
-  if (!(value > 0.0)) return -largest;
-  if (!(value < infinity)) return largest;
-  return std::clamp(std::ilogb(value), -largest, largest);
-}
+int power_below(double value, int largest) { return std::clamp(exponent_of(value), -largest, largest); }
 
 double end_of_window(int tier, double now) {
-  const double length = std::ldexp(1.0, tier);
-  return (std::floor(now / length) + 1.0) * length;
+  return (std::floor(now * power_of_two(-tier)) + 1.0) * power_of_two(tier);
 }
 
 double largest_part(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
@@ -35,7 +32,8 @@ int level_of(const RoomyBound& bound, double duration) {
 }
 
 /// What the last search of a layer has cost.
-void note_cost(Windows::Scratch& scratch) {
+void note_cost(Windows::Scratch& scratch, std::size_t found) {
+  scratch.cost.found += found;
   for (const Run& run : scratch.layer.runs) scratch.cost.capsules += run.end - run.begin;
   scratch.cost.rows += scratch.layer.runs.size();
 }
@@ -60,13 +58,6 @@ std::size_t Windows::moving() const {
   return all;
 }
 
-double Windows::next_end() const {
-  double first = infinity;
-  for (const Member& member : layers_)
-    if (member.layer.size() > 0) first = std::min(first, member.end);
-  return first;
-}
-
 /// The layer of this window and level, or an empty one that becomes it.
 std::uint32_t Windows::layer_for(const Window& window, const Vec3& base, int level) {
   const auto& [tier, end] = window;
@@ -75,8 +66,7 @@ std::uint32_t Windows::layer_for(const Window& window, const Vec3& base, int lev
     Member& member = layers_[k];
     if (member.layer.size() == 0) {
       if (empty == none) empty = k;
-    } else if (member.tier == tier && member.level == level) {
-      assert(member.end == end);
+    } else if (member.tier == tier && member.level == level && member.end == end) {
       return k;
     }
   }
@@ -89,12 +79,13 @@ std::uint32_t Windows::layer_for(const Window& window, const Vec3& base, int lev
   member.level = level;
   member.end = end;
   member.fresh = false;
-  CapsuleFrame frame{.base = base, .per_length = std::ldexp(1.0, -powers_in_a_level * level)};
+  CapsuleFrame frame{.base = base, .per_length = power_of_two(-powers_in_a_level * level)};
   if (end < infinity) {
-    frame.origin = end - std::ldexp(1.0, tier);
-    frame.per_time = std::ldexp(1.0, -tier);
+    frame.origin = end - power_of_two(tier);
+    frame.per_time = power_of_two(-tier);
   }
   member.layer.clear(frame);
+  next_end_ = std::min(next_end_, end);
   return empty;
 }
 
@@ -132,8 +123,9 @@ void Windows::enter(std::uint32_t number, const RoomyBound& bound, double now, c
 /// Of its size, or of the larger ones that it is merged with.
 int Windows::level_for(const RoomyBound& bound, double duration) const {
   const int level = level_of(bound, duration);
-  const auto found = merged_.find(level);
-  return found == merged_.end() ? level : found->second;
+  for (const Merged& merged : merged_)
+    if (merged.level == level) return merged.into;
+  return level;
 }
 
 /// Next time bodies will share the layer of the next larger ones if searches there find few of them.
@@ -159,10 +151,10 @@ void Windows::merge_levels() {
     density += static_cast<double>(at->second) / volume;
     const auto next = std::next(at);
     const double width =
-        widths_searched * std::ldexp(1.0, powers_in_a_level * (next == sizes_.end() ? 0 : next->first) + 2);
+        widths_searched * power_of_two(powers_in_a_level * (next == sizes_.end() ? 0 : next->first) + 2);
     const double found = density * (space_.is_flat() ? width * width : width * width * width);
     if (next != sizes_.end() && found < few) continue;
-    for (const int level : together) merged_[level] = at->first;
+    for (const int level : together) merged_.push_back({level, at->first});
     together.clear();
     density = 0.0;
   }
@@ -190,7 +182,7 @@ void Windows::search(const Member& member, const RoomyBound& bound, double now, 
   if (end < infinity && member.end == infinity) {
     // What stands still has no times of its own.
     frame.origin = now;
-    frame.per_time = std::ldexp(1.0, -std::ilogb(end - now));
+    frame.per_time = power_of_two(-power_below(end - now, longest_tier));
   }
   if (end < infinity || member.end < infinity) {
     from = frame.time(now);
@@ -202,7 +194,7 @@ void Windows::search(const Member& member, const RoomyBound& bound, double now, 
     image.centre += shift;
     const CapsuleQuery query{capsule_of(image, now, duration, bound.room, frame), from, to};
     const auto found = layer.search(query, scratch.layer);
-    note_cost(scratch);
+    note_cost(scratch, found.size());
     for (const std::uint32_t place : found) finds(place, shift != Vec3{});
   };
   if (!space_.repeats()) return search_image({});
@@ -219,7 +211,6 @@ void Windows::search(const Member& member, const RoomyBound& bound, double now, 
 
 std::span<const std::uint32_t> Windows::near(std::uint32_t number, const RoomyBound& bound, double now,
                                              Scratch& scratch) const {
-  ++scratch.cost.searches;
   scratch.numbers.clear();
   const double end = registrations_[number].end;
   for (const Member& member : layers_) {
@@ -279,6 +270,9 @@ void Windows::end_windows(double now, bool all) {
     }
     member.layer.clear({});
   }
+  next_end_ = infinity;
+  for (const Member& member : layers_)
+    if (member.layer.size() > 0) next_end_ = std::min(next_end_, member.end);
 }
 
 bool Windows::is_free(const Window& window) const {
@@ -338,7 +332,7 @@ std::uint32_t Windows::started_number(std::size_t k) const {
 void Windows::near_behind(const Started& at, Scratch& scratch) const {
   const Layer& layer = layers_[at.layer].layer;
   const auto found = layer.search_behind(at.place, scratch.layer);
-  note_cost(scratch);
+  note_cost(scratch, found.size());
   for (const std::uint32_t place : found) scratch.numbers.push_back(layer.number_at(place));
 }
 
@@ -390,6 +384,9 @@ std::optional<std::string> Windows::check(std::uint32_t number) const {
 
 bool Windows::is_sound(std::size_t bodies) const {
   if (registrations_.size() > bodies) return false;
+  const auto is_level = [](int level) { return -largest_level <= level && level <= largest_level; };
+  for (const Merged& merged : merged_)
+    if (!is_level(merged.level) || !is_level(merged.into)) return false;
   std::size_t registered = 0;
   for (std::uint32_t number = 0; number < registrations_.size(); ++number) {
     if (!contains(number)) continue;
@@ -397,7 +394,11 @@ bool Windows::is_sound(std::size_t bodies) const {
     if (std::isnan(registrations_[number].end) || check(number)) return false;
   }
   return registered == size() && std::all_of(layers_.begin(), layers_.end(), [](const Member& member) {
-           return member.layer.is_sound() && member.end > -infinity;
+           const bool possible = member.tier == never_ends
+                                     ? member.end == infinity
+                                     : std::abs(member.tier) <= longest_tier && std::isfinite(member.end);
+           return member.layer.is_sound() && (possible || member.layer.size() == 0) &&
+                  std::abs(member.level) <= largest_level;
          });
 }
 

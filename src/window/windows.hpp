@@ -57,7 +57,7 @@ class Windows {
   /// Bodies in windows that end.
   std::size_t moving() const;
   /// When the next window ends that holds a body.
-  double next_end() const;
+  double next_end() const { return next_end_; }
 
   /// The window of length 2^tier at a time, or a longer one where numbers cannot tell its end from now.
   static Window window_at(double now, int tier);
@@ -96,10 +96,8 @@ class Windows {
     const Started at = started_at(k);
     scratch.numbers.clear();
     if (!needs_bounds_) {
-      ++scratch.cost.searches;
       near_behind(at, scratch);
     } else {
-      ++scratch.cost.searches;
       near_behind(at, bound_of(started_number(k)), now, scratch);
     }
     return scratch.numbers;
@@ -128,8 +126,8 @@ class Windows {
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [space, registrations, layers, sizes, merged, needs_bounds] = self;
-    archive(registrations, layers, needs_bounds);
+    auto& [space, registrations, layers, sizes, merged, next_end, needs_bounds] = self;
+    archive(registrations, layers, merged, next_end, needs_bounds);
   }
   /// For one that was read, in a world of this many bodies.
   bool is_sound(std::size_t bodies) const;
@@ -164,6 +162,16 @@ class Windows {
     }
   };
 
+  struct Merged {
+    int level;
+    int into;
+
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+      auto& [from, to] = self;
+      archive(from, to);
+    }
+  };
   struct Started {
     std::uint32_t layer;
     std::uint32_t place;
@@ -185,7 +193,8 @@ class Windows {
   std::vector<Registration> registrations_;
   std::vector<Member> layers_;
   std::map<int, std::size_t> sizes_;  ///< by level, of those that have started
-  std::map<int, int> merged_;         ///< levels that few bodies have, into larger ones
+  std::vector<Merged> merged_;        ///< levels that few bodies have, into larger ones
+  double next_end_ = infinity;        ///< of the windows that hold a body, or held one
   bool needs_bounds_ = false;         ///< to search for those that have started: not all are in one layer
 };
 

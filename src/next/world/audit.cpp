@@ -141,7 +141,8 @@ class World::Engine::Audit {
   }
 
   void check_threshold(std::uint32_t a, std::uint32_t b, const Threshold& threshold) {
-    if (!checkable(a, b, threshold)) return;
+    // It is to be looked at before time moves on.
+    if (!checkable(a, b, threshold) || hot_.of(a, b) <= now_) return;
     const Extent first = engine_.extent(a);
     const Extent second = engine_.extent(b);
     const PlainGap gap(first, second, engine_.space_.period());

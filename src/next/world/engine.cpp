@@ -92,7 +92,7 @@ void World::Engine::appear(std::uint32_t number, const Bound& bound) {
   // Others that are added before then have to find it.
   const Window window =
       bodies_[number].is_fixed() ? Windows::endless() : Windows::window_at(time_, Windows::shortest);
-  bring_home(number, 0.0);
+  if (space_.repeats()) bring_home(number, 0.0);
   windows_.enter(number, roomy_bound(number), time_, window);
   windows_.tidy();
 }
@@ -258,6 +258,7 @@ Result<std::optional<Event>> World::Engine::advance(double until, const Probe& p
     }
     if (auto settled = settle_all(); !settled) return settled.error();
     if (!book_.pending().empty()) continue;
+    agenda_.open([this](const HotPair& pair) { return is_void(pair); });
     const double next = std::min(windows_.next_end(), agenda_.next_time());
     if (next > until) {
       move_on_to(until);
@@ -281,6 +282,7 @@ Result<void> World::Engine::gather() {
       if (auto started = start_windows(false); !started) return started;
     }
     if (auto settled = settle_all(); !settled) return settled;
+    agenda_.open([this](const HotPair& pair) { return is_void(pair); });
     if (agenda_.next_time() > time_) break;
     const HotPair pair = agenda_.first();
     agenda_.drop_first();

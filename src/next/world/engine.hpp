@@ -233,6 +233,10 @@ class World::Engine {
   // starting.cpp: windows, and the hot pairs in them.
   Result<void> start_windows(bool all, std::span<const std::uint32_t> joining = {});
   Result<void> settle_dirty();
+  void enter(std::uint32_t number);
+  double sensor_reach(const Body& body) const {
+    return sensors_.any() ? sensors_.reach(body.sensor_class) : 0.0;
+  }
   void settle_changed(std::uint32_t a, std::uint32_t b);
   Pace pace_of(const Body& body) const;
   void choose_tempo(std::span<const std::uint32_t> round);

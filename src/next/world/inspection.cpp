@@ -31,7 +31,7 @@ class Stopwatch {
 
 Memory World::Engine::memory() const {
   Memory memory;
-  memory.watches = heap_bytes(agenda_);
+  memory.watches = agenda_.bytes();
   memory.bodies = heap_bytes(bodies_, middles_, changes_, rests_, filters_, images_);
   memory.contacts = heap_bytes(book_);
   memory.grid = windows_.bytes();

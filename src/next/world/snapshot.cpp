@@ -62,7 +62,8 @@ void World::Engine::transfer(Self& self, Archive& archive) {
          sensors, pair_filter, filtering, gathering, probe, probing_call, probing, probe_ids, probe_states,
          round, hot, scratch] = self;
   archive(book, time, size, bodies, changes, rests, filters, middles, images, free, shapes, free_shapes,
-          windows, tempo, main_start, start_cost, agenda, dirty, counters, sensors, filtering, gathering);
+          windows, tempo, main_start, start_cost, scratch.cost, agenda, dirty, counters, sensors, filtering,
+          gathering);
 }
 
 std::vector<std::byte> World::Engine::save() const {
@@ -122,7 +123,7 @@ const char* World::Engine::contradiction() const {
 
 /// Pairs that hold are those of bodies which are registered.
 bool World::Engine::agenda_is_sound() const {
-  bool sound = agenda_.is_sound();
+  bool sound = true;
   agenda_.for_each([&](const HotPair& pair) {
     const bool alone = pair.second == HotPair::walls;
     const bool possible =

@@ -79,7 +79,7 @@ void World::Engine::choose_tempo(std::span<const std::uint32_t> round) {
 /// With room for all that the body can touch or sense.
 RoomyBound World::Engine::roomy_bound(std::uint32_t number) const {
   const Body& body = bodies_[number];
-  const double room = sensors_.reach(body.sensor_class) + definition_.contact_tolerance;
+  const double room = sensor_reach(body) + definition_.contact_tolerance;
   if (!body.is_fixed()) return {MovedBound(body.bound, time_), room};
   Bound ball = body.bound;
   if (const Shape* shape = extent(number).shape) {
@@ -140,7 +140,6 @@ double World::Engine::longest_in_period(const Body& body, double length) const {
 
 /// Moves the body to the image in which the middle of its way until then lies in the primary box.
 void World::Engine::bring_home(std::uint32_t number, double length) {
-  if (!space_.repeats()) return;
   const Vec3 middle = centre_of(box_of_way(roomy_bound(number), length));
   const auto [home, images] = space_.wrapped(middle);
   middles_[number] = home;
@@ -208,7 +207,7 @@ Result<void> World::Engine::start_windows(bool all, std::span<const std::uint32_
     // A layer in which others are already would have to be sorted anew: rather a shorter window.
     while (!windows_.is_free(window))
       window = Windows::window_at(time_, window.tier - Tempo::powers_between_tiers);
-    bring_home(number, window.end - time_);
+    if (space_.repeats()) bring_home(number, window.end - time_);
     const RoomyBound bound = roomy_bound(number);
     windows_.start(number, bound, time_, window);
     if (most)
@@ -219,7 +218,6 @@ Result<void> World::Engine::start_windows(bool all, std::span<const std::uint32_
   for (std::size_t k = 0; k < windows_.started(); ++k) {
     const auto others = windows_.near_started(
         k, time_, [this](std::uint32_t number) { return roomy_bound(number); }, scratch_);
-    ++counters_.searches;
     find_hot_pairs(windows_.started_number(k), others);
   }
   if (most) start_cost_ = std::exchange(scratch_.cost, {});
@@ -235,45 +233,36 @@ Result<void> World::Engine::start_windows(bool all, std::span<const std::uint32_
 
 /// A capsule and hot pairs for each dirty body.
 Result<void> World::Engine::settle_dirty() {
-  std::sort(dirty_.begin(), dirty_.end());
-  dirty_.erase(std::unique(dirty_.begin(), dirty_.end()), dirty_.end());
+  if (dirty_.size() > 1) {
+    std::sort(dirty_.begin(), dirty_.end());
+    dirty_.erase(std::unique(dirty_.begin(), dirty_.end()), dirty_.end());
+  }
   // Some have been removed or disabled since.
   std::erase_if(dirty_, [this](std::uint32_t number) { return !bodies_[number].dirty; });
-  std::vector<std::uint32_t> stale;
+  round_.clear();
   for (const std::uint32_t number : dirty_)
-    if (!bodies_[number].fresh(time_)) stale.push_back(number);
-  if (!stale.empty()) {
-    if (auto probed = probe(stale); !probed) return probed;
+    if (!bodies_[number].fresh(time_)) round_.push_back(number);
+  if (!round_.empty()) {
+    if (auto probed = probe(round_); !probed) return probed;
   }
   // Where they are many, all others begin anew with them.
+  constexpr std::size_t many = 8;
+  const bool anew = dirty_.size() > many && many * dirty_.size() > windows_.size();
   std::vector<std::uint32_t> joining;
   round_.clear();
   for (const std::uint32_t number : dirty_) {
-    const bool stands = bodies_[number].is_fixed() || bodies_[number].stands_still();
-    (stands ? round_ : joining).push_back(number);
+    const bool alone = !anew || bodies_[number].is_fixed() || bodies_[number].stands_still();
+    (alone ? round_ : joining).push_back(number);
   }
-  choose_tempo(joining);
-  constexpr std::size_t many = 8;
-  const bool anew = joining.size() > many && many * joining.size() > windows_.size();
-  if (!anew) {
-    round_ = dirty_;
-    joining.clear();
-  }
-  for (const std::uint32_t number : round_) {
-    const Window window = window_for(number);
-    bring_home(number, window.end < infinity ? window.end - time_ : 0.0);
-    windows_.enter(number, roomy_bound(number), time_, window);
-  }
-  if (anew) {
+  if (anew || !tempo_.is_chosen()) choose_tempo(anew ? joining : round_);
+  for (const std::uint32_t number : round_) enter(number);
+  if (!joining.empty()) {
     if (auto started = start_windows(true, joining); !started) return started;
-    for (const std::uint32_t number : joining) bodies_[number].dirty = false;
-  } else {
-    windows_.tidy();
+    for (const std::uint32_t number : joining) bodies_[number].settled = true;
   }
+  windows_.tidy();
   hot_.clear();
-  for (const std::uint32_t number : joining) bodies_[number].settled = true;
   for (const std::uint32_t number : round_) {
-    ++counters_.searches;
     find_hot_pairs(number, windows_.near(number, roomy_bound(number), time_, scratch_));
     find_known_pairs(number);
     find_walls(number);
@@ -285,13 +274,23 @@ Result<void> World::Engine::settle_dirty() {
   return {};
 }
 
+/// The body gets a capsule from now on.
+void World::Engine::enter(std::uint32_t number) {
+  const Window window = window_for(number);
+  if (space_.repeats()) bring_home(number, window.end < infinity ? window.end - time_ : 0.0);
+  windows_.enter(number, roomy_bound(number), time_, window);
+}
+
 /// Those of the others that may meet the body before a window ends.
 void World::Engine::find_hot_pairs(std::uint32_t number, std::span<const std::uint32_t> others) {
+  ++counters_.searches;
   counters_.candidates += others.size();
   for (const std::uint32_t other : others) {
     if (bodies_[other].settled) continue;
     const double until = unchanged_until(number, other);
-    if (until < infinity) hot_.push_back(hot_pair(until, number, other));
+    if (until == infinity) continue;
+    hot_.push_back(hot_pair(until, number, other));
+    ++scratch_.cost.hot;
   }
 }
 
