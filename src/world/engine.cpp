@@ -200,6 +200,20 @@ std::optional<BodyId> World::Engine::certain_overlap(BodyId id, const Extent& ex
   return found;
 }
 
+/// A registered box holds its body until box_end, which is not past; only a change or a broken promise leaves
+/// a body outside, and dirty.
+std::vector<std::uint32_t> World::Engine::bodies_in(const Box& box) const {
+  std::vector<std::uint32_t> numbers;
+  for (const std::uint32_t number : dirty_)
+    if (marks_[number].dirty) numbers.push_back(number);
+  space_.for_each_overlap(grid_, box, [&](std::uint32_t number) {
+    if (!marks_[number].dirty) numbers.push_back(number);
+  });
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
+}
+
 void World::Engine::set_velocity(BodyId id, const Vec3& velocity) {
   Body& body = bodies_[id.index];
   if (body.is_resting()) wake_island(id.index);

@@ -114,6 +114,12 @@ class World::Engine {
   /// Contains the body, and all that it senses.
   Box box(std::uint32_t number) const { return space_.repeats() ? boxes_[number] : grid_.box(number); }
   const Space& space() const { return space_; }
+  /// All that may be in a box now, by number. Cost: a search, and those that were added or changed since the
+  /// last advance.
+  std::vector<std::uint32_t> bodies_in(const Box& box) const;
+  std::size_t present_count() const { return grid_.size(); }
+  /// About the size of the smallest bodies (length).
+  double finest_length() const { return grid_.finest_edge(); }
   /// Where a body with this definition would be now.
   Bound bound_now(const BodyDefinition& body) const;
   /// The body's bound, if its radius and errors were those of `changed`.

@@ -99,20 +99,6 @@ void keep_first_of_each_body(std::vector<Hit>& hits) {
 
 }  // namespace
 
-/// The bodies that may be in the box now, by index. A registered box holds its body until box_end, which is
-/// not past; only a broken promise leaves a body outside, and dirty.
-std::vector<std::uint32_t> World::Engine::Queries::candidates(const Box& box) const {
-  std::vector<std::uint32_t> numbers;
-  for (const std::uint32_t number : engine_.dirty_)
-    if (engine_.marks_[number].dirty) numbers.push_back(number);
-  engine_.space_.for_each_overlap(engine_.grid_, box, [&](std::uint32_t number) {
-    if (!engine_.marks_[number].dirty) numbers.push_back(number);
-  });
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  return numbers;
-}
-
 /// In the image that is nearest to a point.
 Place World::Engine::Queries::place(std::uint32_t number, const Vec3& point) const {
   Place place = place_of(engine_.bodies_[number], now_);
@@ -126,7 +112,7 @@ std::vector<Found> World::Engine::Queries::overlapping(const Box& box, Distance 
   const Vec3 middle = 0.5 * (box.lower + box.upper);
   std::vector<Found> found;
   const double size = norm_one(box.lower) + norm_one(box.upper);
-  for (const std::uint32_t number : candidates(box)) {
+  for (const std::uint32_t number : engine_.bodies_in(box)) {
     if (const Shape* shape = engine_.extent(number).shape) {
       const GapLimits gap = gap_to(*shape);
       if (gap.lower > 0.0) continue;
@@ -178,12 +164,13 @@ std::vector<Near> World::Engine::Queries::distances(const std::vector<std::uint3
 /// half edge, and the others are outside the cube.
 std::vector<std::uint32_t> World::Engine::Queries::around(const Vec3& point, std::size_t count) const {
   const double farthest = 8.0 * coordinate_limit(engine_.definition_);
-  for (double reach = engine_.grid_.finest_edge(); reach <= farthest; reach *= 2.0) {
-    std::vector<std::uint32_t> numbers = candidates(box_around(point, point, reach));
+  for (double reach = engine_.finest_length(); reach <= farthest; reach *= 2.0) {
+    std::vector<std::uint32_t> numbers = engine_.bodies_in(box_around(point, point, reach));
     const std::vector<Near> all = distances(numbers, point);
     const auto within =
         std::count_if(all.begin(), all.end(), [=](const Near& n) { return n.upper <= reach; });
-    if (static_cast<std::size_t>(within) >= count || numbers.size() == engine_.grid_.size()) return numbers;
+    if (static_cast<std::size_t>(within) >= count || numbers.size() == engine_.present_count())
+      return numbers;
   }
   std::vector<std::uint32_t> everybody;
   for (std::uint32_t number = 0; number < engine_.bodies_.size(); ++number)
@@ -192,8 +179,7 @@ std::vector<std::uint32_t> World::Engine::Queries::around(const Vec3& point, std
 }
 
 std::vector<Near> World::Engine::Queries::nearest(const Vec3& point, std::size_t count) const {
-  // Those that take part are the ones in the grid.
-  count = std::min(count, engine_.grid_.size());
+  count = std::min(count, engine_.present_count());
   if (count == 0) return {};
   std::vector<Near> all = distances(around(point, count), point);
   std::vector<double> uppers;
@@ -244,14 +230,14 @@ std::optional<Hit> World::Engine::Queries::hit(const Way& way, const Box& piece,
 std::vector<Hit> World::Engine::Queries::cast(const Way& way) const {
   std::vector<Hit> hits;
   double sure = infinity;  // something is hit by then
-  const double piece = std::max({way.length / most_pieces, 2.0 * way.radius, engine_.grid_.finest_edge()});
+  const double piece = std::max({way.length / most_pieces, 2.0 * way.radius, engine_.finest_length()});
   std::vector<std::uint32_t> seen;
   for (int k = 0; k < most_pieces && k * piece <= std::min(way.length, sure); ++k) {
     const double end = k + 1 == most_pieces ? way.length : std::min(way.length, (k + 1) * piece);
     const Box box =
         box_around(way.origin + way.direction * (k * piece), way.origin + way.direction * end, way.radius);
     std::vector<std::uint32_t> fresh;
-    const std::vector<std::uint32_t> here = candidates(box);
+    const std::vector<std::uint32_t> here = engine_.bodies_in(box);
     std::set_difference(here.begin(), here.end(), seen.begin(), seen.end(), std::back_inserter(fresh));
     for (const std::uint32_t number : fresh) {
       const std::optional<Hit> found = hit(way, box, number);

@@ -28,7 +28,6 @@ class World::Engine::Queries {
 
  private:
   Place place(std::uint32_t number, const Vec3& point) const;
-  std::vector<std::uint32_t> candidates(const Box& box) const;
   /// Those whose distance from the region, `distance_to(place centre)`, may be or is below their radius, and
   /// fixed bodies whose shape may have or has no gap to it, `gap_to(shape)`.
   template <class Distance, class ShapeGap>
