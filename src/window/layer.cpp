@@ -37,11 +37,6 @@ void Layer::clear(const CapsuleFrame& frame) {
   most_behind_ = least_behind;
 }
 
-void Layer::reserve(std::size_t capsules) {
-  for (std::vector<float>& column : columns_) column.reserve(capsules + capsule_padding);
-  numbers_.reserve(capsules);
-}
-
 CapsuleColumns Layer::columns() const {
   CapsuleColumns pointers;
   for (std::size_t k = 0; k < columns_.size(); ++k) pointers[k] = columns_[k].data();

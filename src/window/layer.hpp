@@ -35,7 +35,6 @@ class Layer {
   const CapsuleFrame& frame() const { return frame_; }
   /// Empties the layer, for capsules of another frame.
   void clear(const CapsuleFrame& frame);
-  void reserve(std::size_t capsules);
   /// Places are less than this.
   std::size_t places() const { return numbers_.size(); }
   /// Bodies that are there.

@@ -46,7 +46,6 @@ class Tempo {
   /// Before anything is known: windows in which a body of this pace goes this way (> 0). Later ones will not
   /// let most bodies go farther than `longest_way`.
   void choose(double way, const Pace& typical, double longest_way);
-  int main_tier() const { return main_tier_; }
   int tier_for(const Pace& pace) const;
   /// The way of most bodies in a main window (length).
   double typical_way() const { return typical_way_; }

@@ -89,12 +89,17 @@ std::uint32_t Windows::layer_for(const Window& window, const Vec3& base, int lev
   return empty;
 }
 
+Capsule Windows::Member::capsule(const RoomyBound& bound, double now) const {
+  return capsule_of(bound.moved, now, duration_until(end, now), bound.room, layer.frame());
+}
+
+/// In the frame of its layer.
+float Windows::Member::time(double now) const { return end < infinity ? layer.frame().time(now) : 0.0f; }
+
 void Windows::add(std::uint32_t number, std::uint32_t layer, const RoomyBound& bound, double now) {
   Member& member = layers_[layer];
-  const Capsule capsule =
-      capsule_of(bound.moved, now, duration_until(member.end, now), bound.room, member.layer.frame());
-  const float from = member.end < infinity ? member.layer.frame().time(now) : 0.0f;
-  registrations_[number] = {member.end, layer, member.layer.add(number, capsule, from)};
+  const std::uint32_t place = member.layer.add(number, member.capsule(bound, now), member.time(now));
+  registrations_[number] = {member.end, layer, place};
 }
 
 Window Windows::window_at(double now, int tier) {
@@ -108,21 +113,16 @@ void Windows::enter(std::uint32_t number, const RoomyBound& bound, double now, c
   if (const Registration& here = registrations_[number]; here.layer != none) {
     Member& member = layers_[here.layer];
     if (member.tier == window.tier && member.end == window.end) {
-      const CapsuleFrame& frame = member.layer.frame();
-      const Capsule capsule =
-          capsule_of(bound.moved, now, duration_until(member.end, now), bound.room, frame);
-      const float from = member.end < infinity ? frame.time(now) : 0.0f;
-      if (member.layer.replace(here.place, capsule, from)) return;
+      if (member.layer.replace(here.place, member.capsule(bound, now), member.time(now))) return;
     }
     leave(number);
   }
-  const int level = level_for(bound, duration_until(window.end, now));
+  const int level = layer_level(level_of(bound, duration_until(window.end, now)));
   add(number, layer_for(window, bound.moved.centre, level), bound, now);
 }
 
 /// Of its size, or of the larger ones that it is merged with.
-int Windows::level_for(const RoomyBound& bound, double duration) const {
-  const int level = level_of(bound, duration);
+int Windows::layer_level(int level) const {
   for (const Merged& merged : merged_)
     if (merged.level == level) return merged.into;
   return level;
@@ -261,14 +261,10 @@ std::vector<std::uint32_t> Windows::ended(double now, bool all) const {
 }
 
 void Windows::end_windows(double now, bool all) {
+  for (const std::uint32_t number : ended(now, all)) registrations_[number].layer = none;
   for (Member& member : layers_) {
     member.fresh = false;
-    if (all ? member.end == infinity : member.end > now) continue;
-    for (std::uint32_t place = 0; place < member.layer.places(); ++place) {
-      const std::uint32_t number = member.layer.number_at(place);
-      if (number != Layer::nobody) registrations_[number].layer = none;
-    }
-    member.layer.clear({});
+    if (all ? member.end < infinity : member.end <= now) member.layer.clear({});
   }
   next_end_ = infinity;
   for (const Member& member : layers_)
@@ -283,9 +279,9 @@ bool Windows::is_free(const Window& window) const {
 
 void Windows::start(std::uint32_t number, const RoomyBound& bound, double now, const Window& window) {
   if (number >= registrations_.size()) registrations_.resize(number + std::size_t{1});
-  ++sizes_[level_of(bound, duration_until(window.end, now))];
-  const int level = level_for(bound, duration_until(window.end, now));
-  const std::uint32_t layer = layer_for(window, bound.moved.centre, level);
+  const int level = level_of(bound, duration_until(window.end, now));
+  ++sizes_[level];
+  const std::uint32_t layer = layer_for(window, bound.moved.centre, layer_level(level));
   if (layers_[layer].layer.size() == 0) layers_[layer].fresh = true;
   add(number, layer, bound, now);
 }

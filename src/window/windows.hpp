@@ -155,6 +155,9 @@ class Windows {
     bool fresh = false;  ///< all in it have started since windows ended
     Layer layer{};
 
+    Capsule capsule(const RoomyBound& bound, double now) const;
+    float time(double now) const;
+
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
       auto& [power, size, until, is_fresh, capsules] = self;
@@ -178,7 +181,7 @@ class Windows {
   };
 
   void merge_levels();
-  int level_for(const RoomyBound& bound, double duration) const;
+  int layer_level(int level) const;
   std::uint32_t layer_for(const Window& window, const Vec3& base, int level);
   void add(std::uint32_t number, std::uint32_t layer, const RoomyBound& bound, double now);
   void sort(std::uint32_t layer);
