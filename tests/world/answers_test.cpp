@@ -196,7 +196,7 @@ TEST(SafeUntil, AProbeMakesItLater) {
   Playground p;
   const BodyId a = p.add({.radius = 1, .acceleration_limit = 1, .position = {0, 0, 0}}, Vec3{});
   const BodyId b = p.add({.radius = 1, .acceleration_limit = 1, .position = {100, 0, 0}}, Vec3{});
-  EXPECT_FALSE(p.advance(5.0));
+  EXPECT_FALSE(p.advance(7.0));
   EXPECT_FALSE(p.world.safe_until(a, b)->probed);
   const double before = p.world.safe_until(a, b)->time;
   const auto probed = p.world.safe_until(a, b, p.probe());

@@ -67,7 +67,7 @@ struct Approaching : Playground {
   Approaching() {
     a = add({.radius = 1, .acceleration_limit = 0.01, .velocity = {1, 0, 0}});
     b = add({.radius = 1, .acceleration_limit = 0.01, .position = {2.5, 0.25, 0}});
-    run(0.1);
+    for (double t = 0.01; world.certificates().empty(); t += 0.01) run(t);
   }
   BodyId a, b;
 };

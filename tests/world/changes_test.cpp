@@ -179,7 +179,7 @@ TEST(Change, BrokenNewPromiseIsTold) {
   p.run(1.0);
   p.world.set_motion_limits(a, {}).value();
   p.add({.radius = 1, .position = {6, 0, 0}});
-  EXPECT_EQ(of_kind(p.run(3.0), EventKind::bound_violation).size(), 1u);
+  EXPECT_GE(of_kind(p.run(3.0), EventKind::bound_violation).size(), 1u);
 }
 
 TEST(Change, DisabledBodyTouchesNobodyAndIsNotProbed) {

@@ -171,7 +171,7 @@ TEST(WrongPlane, IsRefused) {
   refused("velocity", {.velocity = {0, 0, -1}});
   refused("planned_acceleration", {.planned_acceleration = {0, 0, -9.81}});
   const BodyId id = p.add({.radius = 1, .acceleration_limit = 1});
-  p.run(1.0);
+  p.run(1.01);
   const auto bytes = p.world.save().value();
   expect_error(p.world.set_velocity(id, {0, 0, 1}), ErrorCode::out_of_range, "velocity", "set_velocity", id);
   expect_error(p.world.teleport(id, {{0, 0, 1}, {}}), ErrorCode::out_of_range, "position", "teleport", id);

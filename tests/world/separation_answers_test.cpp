@@ -109,13 +109,13 @@ TEST(SafeSeparation, AProbeDecides) {
   Playground p;
   const BodyId a = p.add({.radius = 1, .acceleration_limit = 1, .position = {0, 0, 0}}, Vec3{});
   const BodyId b = p.add({.radius = 1, .acceleration_limit = 1, .position = {30, 0, 0}}, Vec3{});
-  EXPECT_FALSE(p.advance(4.0));
+  EXPECT_FALSE(p.advance(3.9));
   const auto open = p.world.safe_until(a, b, 27.9);
-  EXPECT_EQ(open->time, 4.0);
+  EXPECT_EQ(open->time, 3.9);
   EXPECT_FALSE(open->within);
   const auto decided = p.world.safe_until(a, b, 27.9, p.probe());
   EXPECT_TRUE(decided->probed);
-  EXPECT_NEAR(decided->time, 4.0 + std::sqrt(0.1), 1e-9);
+  EXPECT_NEAR(decided->time, 3.9 + std::sqrt(0.1), 1e-9);
   EXPECT_TRUE(p.world.safe_until(a, b, 29.0)->within);
 }
 

@@ -9,18 +9,18 @@ namespace {
 TEST(Kick, OfABodyNotProbedForLongAsksFirst) {
   Playground p;
   const BodyId a = p.add({.radius = 1, .acceleration_limit = 1, .velocity = {1, 0, 0}}, Vec3{0, 0.9, 0});
-  p.run(0.125);
+  p.run(0.13);
   // Where the world thinks it is, nobody is: only its bound holds it.
   const Vec3 there = p.state(a).position;
   p.set_velocity(a, {0, 0, 100});
   p.steer(a, {});
   p.add({.radius = 1, .position = there + Vec3{0, 0, 50}});
   bool asked_at_once = false;
-  p.distort = [&](BodyId id, double time, State&) { asked_at_once |= id == a && time == 0.125; };
+  p.distort = [&](BodyId id, double time, State&) { asked_at_once |= id == a && time == 0.13; };
   const auto events = p.run(10.0);
   EXPECT_TRUE(asked_at_once);
   ASSERT_EQ(events.size(), 2u) << events;
-  EXPECT_NEAR(events[0].time, 0.125 + 0.48, 1e-6);
+  EXPECT_NEAR(events[0].time, 0.13 + 0.48, 1e-6);
 }
 
 TEST(Kick, DoesNotTrustTheVelocityOfTheKickForAStaleBody) {
