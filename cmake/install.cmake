@@ -7,13 +7,20 @@ install(TARGETS kinesphere EXPORT kinesphere INCLUDES DESTINATION ${CMAKE_INSTAL
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/ ${PROJECT_BINARY_DIR}/include/
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
 
-# The library needs no other package, so its list of targets is all that its config file has to hold.
-install(EXPORT kinesphere NAMESPACE kinesphere:: FILE kinesphere-config.cmake DESTINATION ${package_dir})
+install(EXPORT kinesphere NAMESPACE kinesphere:: FILE kinesphere-targets.cmake DESTINATION ${package_dir})
+install(FILES ${PROJECT_SOURCE_DIR}/cmake/kinesphere-config.cmake DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/kinesphere-config-version.cmake
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/kinesphere-config-version.cmake DESTINATION ${package_dir})
 
 set(pkgconfig_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH prefix_from_pkgconfig /prefix/${pkgconfig_dir} /prefix)
+# Whoever links a static library links what it uses, too.
+get_target_property(type kinesphere TYPE)
+if(type STREQUAL "STATIC_LIBRARY")
+  set(libraries "-lkinesphere -lhwy")
+else()
+  set(libraries "-lkinesphere")
+endif()
 configure_file(${PROJECT_SOURCE_DIR}/cmake/kinesphere.pc.in ${PROJECT_BINARY_DIR}/kinesphere.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/kinesphere.pc DESTINATION ${pkgconfig_dir})

@@ -3,7 +3,7 @@
 # Usage: setup.sh run | bench | test | coverage
 set -euo pipefail
 
-packages=(g++ cmake ninja-build libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev libgeographiclib-dev)
+packages=(g++ cmake ninja-build libhwy-dev libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev libgeographiclib-dev)
 testing=(libgtest-dev librapidcheck-dev clang clang-format clang-tidy pkg-config valgrind)
 case ${1:-} in
   run) ;;

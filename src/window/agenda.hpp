@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <limits>
 #include <tuple>
-#include <type_traits>
 #include <vector>
 
 #include "number/infinity.hpp"
@@ -73,19 +72,6 @@ class Agenda {
   std::size_t bytes() const {
     return (sorted_.capacity() + heap_.capacity()) * sizeof(HotPair) + nodes_.capacity() * sizeof(Node) +
            heads_.capacity() * sizeof(std::uint32_t);
-  }
-  /// Bytes hold the pairs, not their slices.
-  template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
-    std::vector<HotPair> all;
-    self.for_each([&](const HotPair& pair) { all.push_back(pair); });
-    std::sort(all.begin(), all.end());
-    archive(all);
-    if constexpr (!std::is_const_v<Self>) {
-      self = {};
-      std::erase_if(all, [](const HotPair& pair) { return !(pair.time < infinity); });
-      self.add_all(all);
-    }
   }
 
  private:

@@ -40,10 +40,11 @@ struct Capsule {
 
 /// A capsule that contains a body from `now`, the time to which `moved` has been moved on, for `duration`,
 /// with `room` around it. The radius has 2^-18 of the size of all numbers that go into a search beyond that,
-/// which covers its roundings (docs/guarantee.md, "The search").
+/// which covers its roundings, and 2^-100 units, which cover what underflows (docs/guarantee.md, "The search").
 inline Capsule capsule_of(const MovedBound& moved, double now, double duration, double room,
                           const CapsuleFrame& frame) {
   constexpr double part_lost = 0x1p-18;
+  constexpr double underflow = 0x1p-100;
   const double back = now - frame.origin;
   const Vec3 centre = moved.centre - frame.base - moved.velocity * back;
   const double radius = moved.radius_after(duration) + room;
@@ -55,7 +56,7 @@ inline Capsule capsule_of(const MovedBound& moved, double now, double duration, 
     capsule.centre[static_cast<std::size_t>(axis)] = static_cast<float>(centre[axis] * frame.per_length);
     capsule.velocity[static_cast<std::size_t>(axis)] = static_cast<float>(moved.velocity[axis] * per_way);
   }
-  capsule.radius = static_cast<float>((radius + part_lost * size) * frame.per_length);
+  capsule.radius = static_cast<float>((radius + part_lost * size) * frame.per_length + underflow);
   return capsule;
 }
 

@@ -23,13 +23,13 @@ double length_of(int tier) { return power_of_two(tier); }
 
 }  // namespace
 
-void Tempo::choose(double way, const Pace& typical, double longest_way) {
+void Tempo::choose(double way, const Pace& typical) {
+  way = std::min(way, longest_way_);
   const double squared_speed = typical.speed * typical.speed;
   const double time =
       2.0 * way / (typical.speed + std::sqrt(squared_speed + 2.0 * typical.acceleration * way));
   main_tier_ = time < infinity ? std::clamp(exponent_of(time), -most_powers, most_powers) : most_powers;
   typical_way_ = way;
-  longest_way_ = longest_way;
 }
 
 int Tempo::tier_for(const Pace& pace) const {
@@ -73,14 +73,14 @@ void Tempo::adapt(const SearchCost& starts, const SearchCost& later, double elap
   main_tier_ += change;
   const double magnitude =
       std::clamp(static_cast<double>(magnitudes_) / count, -1.0 * most_powers, 1.0 * most_powers);
-  typical_way_ = power_of_two(static_cast<int>(std::lround(magnitude)) + change);
+  typical_way_ = std::min(power_of_two(static_cast<int>(std::lround(magnitude)) + change), longest_way_);
   bodies_ = in_main_ = 0;
   ways_ = widths_ = 0.0;
   magnitudes_ = 0;
 }
 
 bool Tempo::is_sound() const {
-  return std::abs(main_tier_) <= most_powers && typical_way_ >= 0.0 && typical_way_ < infinity &&
+  return std::abs(main_tier_) <= most_powers && typical_way_ >= 0.0 && typical_way_ <= longest_way_ &&
          ways_ >= 0.0 && widths_ >= 0.0;
 }
 

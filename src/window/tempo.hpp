@@ -42,10 +42,12 @@ class Tempo {
  public:
   static constexpr int powers_between_tiers = 3;
 
+  /// Most bodies never go farther than `longest_way` (length, > 0) in a main window.
+  explicit Tempo(double longest_way) : longest_way_(longest_way) {}
+
   bool is_chosen() const { return typical_way_ > 0.0; }
-  /// Before anything is known: windows in which a body of this pace goes this way (> 0). Later ones will not
-  /// let most bodies go farther than `longest_way`.
-  void choose(double way, const Pace& typical, double longest_way);
+  /// Before anything is known: windows in which a body of this pace goes this way (> 0) or the longest one.
+  void choose(double way, const Pace& typical);
   int tier_for(const Pace& pace) const;
   /// The way of most bodies in a main window (length).
   double typical_way() const { return typical_way_; }
@@ -58,16 +60,16 @@ class Tempo {
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [tier, way, longest, bodies, in_main, ways, widths, magnitudes] = self;
-    archive(tier, way, longest, bodies, in_main, ways, widths, magnitudes);
+    auto& [longest, tier, way, bodies, in_main, ways, widths, magnitudes] = self;
+    archive(tier, way, bodies, in_main, ways, widths, magnitudes);
   }
   /// For one that was read.
   bool is_sound() const;
 
  private:
+  double longest_way_;
   int main_tier_ = 0;
   double typical_way_ = 0.0;
-  double longest_way_ = 0.0;
   // Of those that have started.
   std::uint64_t bodies_ = 0;
   std::uint64_t in_main_ = 0;  ///< in a main window

@@ -171,10 +171,11 @@ void Windows::sort(std::uint32_t layer) {
       [this](std::uint32_t number, std::uint32_t place) { registrations_[number].place = place; });
 }
 
-/// Calls finds(place, shifted) for what may be near in one layer, in all images; `shifted` in another one.
+/// Calls finds(place) for what may be near in one layer, in this image of it, from now on until `end` or until
+/// the window of the layer ends.
 template <class Finds>
-void Windows::search(const Member& member, const RoomyBound& bound, double now, double end, Finds finds,
-                     Scratch& scratch) const {
+void Windows::search_image(const Member& member, const RoomyBound& bound, double now, double end, Finds finds,
+                           Scratch& scratch) const {
   const Layer& layer = member.layer;
   CapsuleFrame frame = layer.frame();
   float from = 0.0f;
@@ -188,16 +189,25 @@ void Windows::search(const Member& member, const RoomyBound& bound, double now, 
     from = frame.time(now);
     to = frame.time(std::min(end, member.end));
   }
-  const double duration = duration_until(end, now);
-  const auto search_image = [&](const Vec3& shift) {
-    MovedBound image = bound.moved;
-    image.centre += shift;
-    const CapsuleQuery query{capsule_of(image, now, duration, bound.room, frame), from, to};
-    const auto found = layer.search(query, scratch.layer);
-    note_cost(scratch, found.size());
-    for (const std::uint32_t place : found) finds(place, shift != Vec3{});
+  const CapsuleQuery query{capsule_of(bound.moved, now, duration_until(end, now), bound.room, frame), from,
+                           to};
+  const auto found = layer.search(query, scratch.layer);
+  note_cost(scratch, found.size());
+  for (const std::uint32_t place : found) finds(place);
+}
+
+/// Calls finds(place, shifted) for what may be near in one layer, in all images; `shifted` in another one.
+template <class Finds>
+void Windows::search(const Member& member, const RoomyBound& bound, double now, double end, Finds finds,
+                     Scratch& scratch) const {
+  const auto search_shifted = [&](const Vec3& shift) {
+    RoomyBound image = bound;
+    image.moved.centre += shift;
+    search_image(
+        member, image, now, end, [&](std::uint32_t place) { finds(place, shift != Vec3{}); }, scratch);
   };
-  if (!space_.repeats()) return search_image({});
+  if (!space_.repeats()) return search_shifted({});
+  const double duration = duration_until(end, now);
   const double radius = bound.moved.radius_after(duration) + bound.room;
   const Vec3 last = bound.moved.centre + bound.moved.velocity * duration;
   Box box;
@@ -205,8 +215,8 @@ void Windows::search(const Member& member, const RoomyBound& bound, double now, 
     box.lower[axis] = std::min(bound.moved.centre[axis], last[axis]) - radius;
     box.upper[axis] = std::max(bound.moved.centre[axis], last[axis]) + radius;
   }
-  space_.for_each_image(box, layer.widest() / frame.per_length,
-                        [&](const Box&, const Vec3& shift) { search_image(shift); });
+  space_.for_each_image(box, member.layer.widest() / member.layer.frame().per_length,
+                        [&](const Box&, const Vec3& shift) { search_shifted(shift); });
 }
 
 std::span<const std::uint32_t> Windows::near(std::uint32_t number, const RoomyBound& bound, double now,
@@ -226,16 +236,19 @@ std::span<const std::uint32_t> Windows::near(std::uint32_t number, const RoomyBo
 
 std::span<const std::uint32_t> Windows::in_box(const Box& box, double now, Scratch& scratch) const {
   scratch.numbers.clear();
-  Bound ball{.time = now, .position = 0.5 * (box.lower + box.upper)};
-  ball.radius = 0.5 * norm(box.upper - box.lower);
-  const RoomyBound around{MovedBound(ball, now), 0.0};
   for (const Member& member : layers_) {
     if (member.layer.size() == 0) continue;
-    const auto note = [&](std::uint32_t place, bool) {
-      const std::uint32_t number = member.layer.number_at(place);
-      if (number != Layer::nobody) scratch.numbers.push_back(number);
+    const double end = member.end < infinity ? now : infinity;
+    const auto search_near = [&](const Box& image, const Vec3&) {
+      Bound ball{.time = now, .position = 0.5 * (image.lower + image.upper)};
+      ball.radius = 0.5 * norm(image.upper - image.lower);
+      const auto note = [&](std::uint32_t place) {
+        const std::uint32_t number = member.layer.number_at(place);
+        if (number != Layer::nobody) scratch.numbers.push_back(number);
+      };
+      search_image(member, {MovedBound(ball, now), 0.0}, now, end, note, scratch);
     };
-    search(member, around, now, member.end < infinity ? now : infinity, note, scratch);
+    space_.for_each_image(box, member.layer.widest() / member.layer.frame().per_length, search_near);
   }
   return scratch.numbers;
 }

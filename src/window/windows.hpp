@@ -189,6 +189,9 @@ class Windows {
   void near_behind(const Started& at, Scratch& scratch) const;
   void near_behind(const Started& at, const RoomyBound& bound, double now, Scratch& scratch) const;
   template <class Finds>
+  void search_image(const Member& member, const RoomyBound& bound, double now, double end, Finds finds,
+                    Scratch& scratch) const;
+  template <class Finds>
   void search(const Member& member, const RoomyBound& bound, double now, double end, Finds finds,
               Scratch& scratch) const;
 

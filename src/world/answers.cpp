@@ -22,7 +22,8 @@ bool fits_grid(const Box& box) {
 
 }  // namespace
 
-World::Engine::Answers::Answers(const Engine& engine) : engine_(engine), now_(engine.time_) {
+World::Engine::Answers::Answers(const Engine& engine)
+    : engine_(engine), now_(engine.time_), hot_(engine.hot_pairs()) {
   for (const auto& [a, b] : engine.book_.changed()) open_.insert(std::minmax(a, b));
   engine.book_.pending().for_each([this](const Event& event) {
     const std::uint32_t a = event.first.index;
@@ -44,21 +45,18 @@ Bound World::Engine::Answers::guarded(std::uint32_t number) const {
 }
 
 bool World::Engine::Answers::settled(std::uint32_t a, std::uint32_t b) const {
-  return !engine_.marks_[a].dirty && !engine_.marks_[b].dirty && !open_.contains(std::minmax(a, b));
+  return !body(a).dirty && !body(b).dirty && !open_.contains(std::minmax(a, b));
 }
 
 /// The engine looks at the pair no sooner than this, so it tells of no begin before.
 double World::Engine::Answers::recorded(std::uint32_t a, std::uint32_t b) const {
   if (!settled(a, b)) return now_;
-  const auto place = engine_.neighbours_.find(a, b);
-  double watched = place ? engine_.neighbours_.watched_until(a, *place) : infinity;
-  if (watched == infinity) watched = engine_.unwatched_until(a, b);
-  return std::max(watched, now_);
+  return std::max(std::min(hot_.of(a, b), engine_.windows_end(a, b)), now_);
 }
 
 double World::Engine::Answers::recorded_of_walls(std::uint32_t number) const {
   if (!settled(number, number)) return now_;
-  return std::max(now_, std::min(body(number).wall_time, body(number).box_end));
+  return std::max(now_, std::min(hot_.of(number, HotPair::walls), engine_.windows_.end_of(number)));
 }
 
 void World::Engine::Answers::consider_touching(std::uint32_t number, Onset& first) const {
@@ -147,7 +145,9 @@ Onset World::Engine::Answers::of_body(std::uint32_t number) const {
   if (first.touching) return first;
   consider_walls(number, first);
   // Those that are near leave little to compute of the others.
-  for (const Neighbour& one : engine_.neighbours_.of(number)) consider(number, one.partner, first);
+  for (const HotPair& pair : hot_.pairs())
+    if (pair.second != HotPair::walls && (pair.first == number || pair.second == number))
+      consider(number, pair.first == number ? pair.second : pair.first, first);
   for (std::uint32_t other = 0; other < engine_.bodies_.size(); ++other)
     if (other != number && body(other).present()) consider(number, other, first);
   return first;
@@ -161,10 +161,10 @@ Onset World::Engine::Answers::of_world() const {
   for (const std::uint32_t number : present) consider_touching(number, first);
   if (first.touching) return first;
   // Any pair limits the answer; those at hand limit it well.
+  for (const HotPair& pair : hot_.pairs())
+    if (pair.second != HotPair::walls) consider(pair.first, pair.second, first);
   for (std::size_t k = 0; k < present.size(); ++k) {
     consider_walls(present[k], first);
-    for (const Neighbour& one : engine_.neighbours_.of(present[k]))
-      if (one.watches()) consider(present[k], one.partner, first);
     if (k > 0) consider(present[k - 1], present[k], first);
   }
   consider_all_within(present, first);
@@ -180,7 +180,7 @@ void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t
   std::vector<std::uint32_t> beyond_grid;
   for (auto at = numbers.begin(); at != numbers.end(); ++at) {
     const std::uint32_t number = *at;
-    const Box box = body(number).is_fixed() ? engine_.box(number)
+    const Box box = body(number).is_fixed() ? engine_.box_of_fixed(number)
                     : horizon < infinity    ? swept_box(guarded(number), now_, horizon)
                                             : everywhere;
     if (fits_grid(box) && engine_.space_.is_narrow(box)) {

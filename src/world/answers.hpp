@@ -75,6 +75,7 @@ class World::Engine::Answers {
 
   const Engine& engine_;
   double now_;
+  PairTimes hot_;
   /// Pairs (a body and itself: its walls) about which an event of this instant is on its way, or has been
   /// delivered since the engine last looked: no fact is recorded of them.
   std::set<std::pair<std::uint32_t, std::uint32_t>> open_;

@@ -29,7 +29,7 @@ std::string times(double recorded, double computed) {
 
 class World::Engine::Audit {
  public:
-  explicit Audit(const Engine& engine) : engine_(engine), now_(engine.time_) {}
+  explicit Audit(const Engine& engine) : engine_(engine), now_(engine.time_), hot_(engine.hot_pairs()) {}
 
   std::optional<AuditFinding> run() {
     const auto count = static_cast<std::uint32_t>(engine_.bodies_.size());
@@ -39,12 +39,10 @@ class World::Engine::Audit {
         continue;
       }
       check_registration(a);
-      check_schedule(a);
       check_walls(a);
       for (std::uint32_t b = a + 1; b < count && !finding_; ++b)
         if (body(b).present()) check_pair(a, b);
     }
-    check_earliest();
     return finding_;
   }
 
@@ -60,9 +58,7 @@ class World::Engine::Audit {
   static bool exact(const Body& body) { return body.position_error == 0.0 && body.bound.growth_speed == 0.0; }
 
   void check_absence(std::uint32_t number) {
-    if (engine_.grid_.contains(number)) find("registration", name(number) + " is not here but registered");
-    if (engine_.schedule_.time_of(number) < infinity)
-      find("queue", name(number) + " is not here but scheduled");
+    if (engine_.windows_.contains(number)) find("registration", name(number) + " is not here but registered");
     if (!engine_.book_.partners_of(number).empty() || engine_.book_.walls_of(number) != 0)
       find("contact", name(number) + " is not here but touches something");
     if (!engine_.book_.crossings_of(number).empty())
@@ -71,52 +67,32 @@ class World::Engine::Audit {
 
   void check_registration(std::uint32_t number) {
     const Body& b = body(number);
-    if (const auto wrong = engine_.grid_.check(number, engine_.box(number)))
-      find("registration", name(number) + " " + *wrong);
-    if (b.is_fixed()) return check_fixed(number);
-    if (engine_.marks_[number].dirty) return;
+    if (b.dirty) return;
+    if (!engine_.windows_.contains(number)) return find("registration", name(number) + " is in no window");
+    if (const auto wrong = engine_.windows_.check(number)) find("registration", name(number) + " " + *wrong);
+    const double end = engine_.windows_.end_of(number);
+    if (end < now_) find("queue", name(number) + " is in a window that has ended" + times(now_, end));
     if (b.is_resting() && !(b.is_at_rest() && b.bound.velocity == Vec3{} && b.largest_acceleration() == 0.0))
       find("registration", name(number) + " rests, but its bound does not stand still");
+    if (b.is_fixed()) return check_fixed(number, end);
     if (!engine_.space_.is_narrow(engine_.box(number)))
       find("registration", name(number) + " has too wide a box");
-    if (!(engine_.sketches_[number] == engine_.sketch_of(b)))
-      find("registration", name(number) + " is not where others see it at a glance");
-    if (engine_.space_.repeats() && engine_.homes_[number] != engine_.home_of(number))
-      find("registration", name(number) + " is not in the image in which others see it at a glance");
     if (!exact(b)) return;
     const Vec3 room = Vec3{1.0, 1.0, 1.0} * (0.25 * engine_.definition_.contact_tolerance);
     Box box{engine_.box(number).lower - room, engine_.box(number).upper + room};
     if (engine_.space_.is_flat()) std::tie(box.lower.z, box.upper.z) = std::pair(-infinity, infinity);
-    const double exit = earliest_exit(engine_.reach(b), box, now_, b.box_end);
-    if (too_late(b.box_end, exit, now_))
-      find("registration", name(number) + " leaves its box" + times(b.box_end, exit));
+    Bound reach = b.bound;
+    reach.radius += engine_.sensors_.reach(b.sensor_class);
+    const double exit = earliest_exit(reach, box, now_, end);
+    if (too_late(end, exit, now_)) find("registration", name(number) + " leaves its box" + times(end, exit));
   }
 
-  void check_fixed(std::uint32_t number) {
-    const Body& b = body(number);
-    if (FloatBox(engine_.box(number)) != FloatBox(engine_.box_of_fixed(number)) || b.box_end != infinity)
-      find("registration", name(number) + " is fixed but not registered where its shape is");
-    for (const Neighbour& one : engine_.neighbours_.of(number))
-      if (one.watches()) find("certificate", name(number) + " is fixed but watches another");
-  }
-
-  void check_schedule(std::uint32_t number) {
-    const Body& b = body(number);
-    if (engine_.marks_[number].dirty) return;
-    double wanted = std::min({b.box_end, b.wall_time, b.look_time});
-    for (const Neighbour& one : engine_.neighbours_.of(number))
-      if (one.watches()) wanted = std::min(wanted, one.watch);
-    const double found = engine_.schedule_.time_of(number);
-    if (found > wanted) find("queue", name(number) + " is scheduled too late" + times(found, wanted));
-    if (found < now_) find("queue", name(number) + " is scheduled in the past" + times(now_, found));
-  }
-
-  void check_earliest() {
-    double first = infinity;
-    for (std::uint32_t number = 0; number < engine_.bodies_.size(); ++number)
-      if (body(number).present()) first = std::min(first, engine_.schedule_.time_of(number));
-    if (engine_.schedule_.next_time() != first)
-      find("queue", "its next time is not the least" + times(engine_.schedule_.next_time(), first));
+  void check_fixed(std::uint32_t number, double end) {
+    const Box box = engine_.box(number);
+    const Box shape = engine_.box_of_fixed(number);
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(box.lower[axis] <= shape.lower[axis] && shape.upper[axis] <= box.upper[axis]) || end != infinity)
+        return find("registration", name(number) + " is fixed but not registered where its shape is");
   }
 
   void check_walls(std::uint32_t number) {
@@ -128,12 +104,16 @@ class World::Engine::Audit {
     if (impacts() &&
         until_reports_of_walls(engine_.book_.rule(), b.bound, *engine_.walls_, now_, infinity) <= now_)
       return;
+    const double end = engine_.windows_.end_of(number);
     const double within = impacts() ? engine_.definition_.contact_tolerance : 0.0;
     const Vec3 room = Vec3{1.0, 1.0, 1.0} * within;
     const Box box{engine_.walls_->lower - room, engine_.walls_->upper + room};
-    const double reached = earliest_exit(b.bound, box, now_, b.box_end);
-    if (too_late(b.wall_time, reached, now_) && reached > now_)
-      find("wall", name(number) + " may reach a wall unseen" + times(b.wall_time, reached));
+    const double reached = earliest_exit(b.bound, box, now_, end);
+    const double recorded = std::min(hot_.of(number, HotPair::walls), end);
+    if (recorded < end && too_late(recorded, reached, now_) && reached > now_)
+      find("wall", name(number) + " may reach a wall unseen" + times(recorded, reached));
+    if (recorded == end && reached < end && too_late(end, reached, now_) && reached > now_)
+      find("wall", name(number) + " may reach a wall, which is not due" + times(end, reached));
   }
 
   void check_pair(std::uint32_t a, std::uint32_t b) {
@@ -146,22 +126,7 @@ class World::Engine::Audit {
     check_crossings(a, b);
     check_crossings(b, a);
     if (!engine_.may_meet(a, b) || !settled(a, b)) return;
-    if (engine_.space_.repeats()) check_image(a, b);
     engine_.for_each_threshold(a, b, [&](const Threshold& threshold) { check_threshold(a, b, threshold); });
-  }
-
-  /// Bodies whose boxes overlap must be seen in the image in which these do, also at a glance.
-  void check_image(std::uint32_t a, std::uint32_t b) {
-    const Vec3 shift = engine_.shift_to_meet(a, b);
-    const Box& own = engine_.boxes_[a];
-    const Box& other = engine_.boxes_[b];
-    const auto overlap = [&](int axis) {
-      return own.lower[axis] <= other.upper[axis] + shift[axis] &&
-             other.lower[axis] + shift[axis] <= own.upper[axis];
-    };
-    if (!(overlap(0) && overlap(1) && overlap(2))) return;
-    if (shift_at_a_glance(engine_.homes_[b], engine_.homes_[a], engine_.space_.period()) != shift)
-      find("certificate", pair(a, b) + " are seen in another image at a glance");
   }
 
   void check_crossings(std::uint32_t a, std::uint32_t b) {
@@ -176,26 +141,17 @@ class World::Engine::Audit {
   }
 
   void check_threshold(std::uint32_t a, std::uint32_t b, const Threshold& threshold) {
-    if (!checkable(a, b, threshold)) return;
+    // It is to be looked at before time moves on.
+    if (!checkable(a, b, threshold) || hot_.of(a, b) <= now_) return;
     const Extent first = engine_.extent(a);
     const Extent second = engine_.extent(b);
     const PlainGap gap(first, second, engine_.space_.period());
     check_state(a, b, threshold, gap);
-    const auto place = engine_.neighbours_.find(a, b);
-    const double watched = place ? engine_.neighbours_.watched_until(a, *place) : infinity;
-    if (watched < infinity) {
-      // Else the two may meet in another image.
-      if (engine_.space_.repeats() && watched > std::min(body(a).box_end, body(b).box_end))
-        find("certificate", pair(a, b) + " are watched beyond the end of a box");
-      if (const auto change = certain_change(a, b, threshold, gap, watched))
-        find("certificate", pair(a, b) + " may change unseen" + times(watched, *change));
-      return;
-    }
-    const bool for_ever = threshold.within && !engine_.facts_end_with_boxes();
-    const double until = for_ever ? infinity : engine_.unwatched_until(a, b);
+    // Beyond the end of a window the two may meet in another image, and will have been found again.
+    const double recorded = std::min(hot_.of(a, b), engine_.windows_end(a, b));
     if (!threshold.within && !boxes_overlap(a, b)) return;
-    if (const auto change = certain_change(a, b, threshold, gap, until))
-      find("certificate", pair(a, b) + " are not watched" + times(until, *change));
+    if (const auto change = certain_change(a, b, threshold, gap, recorded))
+      find("certificate", pair(a, b) + " may change unseen" + times(recorded, *change));
   }
 
   /// What the events have told of the two is what their bounds tell now, wherever in them the bodies are.
@@ -217,7 +173,7 @@ class World::Engine::Audit {
   double slack_of_gaps() const { return 0.25 * engine_.definition_.contact_tolerance; }
 
   bool boxes_overlap(std::uint32_t a, std::uint32_t b) const {
-    const Vec3 shift = engine_.shift_to_meet(a, b);
+    const Vec3 shift = engine_.space_.repeats() ? engine_.shift_to_meet(a, b) : Vec3{};
     const Box other{engine_.box(b).lower + shift, engine_.box(b).upper + shift};
     return FloatBox(engine_.box(a)).overlaps(FloatBox(other));
   }
@@ -236,7 +192,7 @@ class World::Engine::Audit {
     const bool doubtful = recorded > computed;
     double end = recorded;
     if (end == infinity && doubtful) end = now_ + 8.0 * (computed - now_);
-    if (end == infinity) end = std::min(body(a).box_end, body(b).box_end);
+    if (end == infinity) end = engine_.windows_end(a, b);
     const double least_step = (end - now_) / (doubtful ? 512.0 : 16.0);
     const double last = end - 0x1p-20 * (end - now_);
     for (double time = now_; time < end;) {
@@ -274,7 +230,7 @@ class World::Engine::Audit {
       return event.first.index == a && (a == b ? event.wall != Wall::none : event.second.index == b);
     };
     const auto& changed = engine_.book_.changed();
-    return !engine_.marks_[a].dirty && !engine_.marks_[b].dirty &&
+    return !body(a).dirty && !body(b).dirty &&
            std::find(changed.begin(), changed.end(), std::pair(a, b)) == changed.end() &&
            engine_.book_.pending().none_of(concerns);
   }
@@ -284,6 +240,7 @@ class World::Engine::Audit {
 
   const Engine& engine_;
   double now_;
+  PairTimes hot_;
   std::optional<AuditFinding> finding_;
 };
 

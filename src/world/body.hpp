@@ -1,31 +1,29 @@
 // A body as the engine keeps it.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
 
 #include "kinesphere/body.hpp"
 #include "kinesphere/bound.hpp"
-#include "world/horizon.hpp"
 
 namespace kinesphere {
 
 /// What the bound tells is not kept again: the state of the last report and, but for position_error, the
-/// promise. What others need to know of a body to settle a pair comes first, in two cache lines of three.
-struct alignas(64) Body {
+/// promise.
+struct Body {
   /// In place of a number in a table.
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-  Bound bound{};           ///< since the last report
-  double box_end = 0.0;    ///< the body stays in its box until then
-  double wall_time = 0.0;  ///< no wall contact begins or ends before this or, if it is infinite, box_end
-  double look_time = std::numeric_limits<double>::infinity();  ///< of the next look around
+  Bound bound{};  ///< since the last report
+  /// Changes when all that is known about the body becomes void (HotPair).
+  std::uint32_t stamp = 0;
 
   bool alive = false;
   bool enabled = true;
-  bool turned = false;  ///< kicked since its box was made
+  bool dirty = false;    ///< in the list of those to settle before time moves on
+  bool settled = false;  ///< in the present round
   // As in BodyDefinition.
   bool solid = true;
   SensorClass sensor_class = 0;
@@ -36,26 +34,30 @@ struct alignas(64) Body {
   double radius = 0.0;
   double position_error = 0.0;
   std::uint64_t user_data = 0;
-  Horizon horizon{};
 
   bool present() const { return alive && enabled; }
   bool is_fixed() const { return shape_number != none; }
   bool is_resting() const { return rest_number != none; }
   /// It rests, and the world has known where since it does. Then its bound stands still.
   bool is_at_rest() const { return is_resting() && change_number == none; }
+  /// Its bound neither moves nor grows.
+  bool stands_still() const {
+    return bound.velocity == Vec3{} && bound.planned_acceleration == Vec3{} && bound.growth_speed == 0.0 &&
+           bound.growth_acceleration == 0.0;
+  }
   /// The world knows its present state.
   bool fresh(double time) const { return bound.time == time || is_fixed() || is_at_rest(); }
   double largest_acceleration() const { return bound.growth_acceleration + norm(bound.planned_acceleration); }
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [since_report, place_end, walls_until, looks_at, lives, takes_part, turns, touches, senses_as,
-           own_shape, own_change, own_generation, own_rest, size, error, data, ahead] = self;
-    archive(since_report, place_end, walls_until, looks_at, lives, takes_part, turns, touches, senses_as,
-            own_shape, own_change, own_generation, own_rest, size, error, data, ahead);
+    auto& [since_report, own_stamp, lives, takes_part, unsettled, is_settled, touches, senses_as, own_shape,
+           own_change, own_generation, own_rest, size, error, data] = self;
+    archive(since_report, own_stamp, lives, takes_part, unsettled, is_settled, touches, senses_as, own_shape,
+            own_change, own_generation, own_rest, size, error, data);
   }
 };
-static_assert(sizeof(Body) == 192);
+static_assert(sizeof(Body) <= 168);
 
 /// What the caller has changed about a body since its last report; the next report, or its return after it
 /// was disabled, puts it into force.
@@ -80,18 +82,6 @@ struct Rest {
   static void transfer(Self& self, Archive& archive) {
     auto& [whose, awake] = self;
     archive(whose, awake);
-  }
-};
-
-/// How far settling a body has come.
-struct Marks {
-  bool dirty = false;    ///< in the list of those to settle before time moves on
-  bool settled = false;  ///< in the present round
-
-  template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
-    auto& [unsettled, is_settled] = self;
-    archive(unsettled, is_settled);
   }
 };
 

@@ -96,7 +96,7 @@ void World::Engine::disable(BodyId id) {
 void World::Engine::enable(BodyId id, const State& state) {
   Body& body = bodies_[id.index];
   body.enabled = true;
-  if (body.is_fixed()) return appear_fixed(id.index);
+  if (body.is_fixed()) return appear(id.index, body.bound);
   if (space_.repeats()) images_[id.index] = {};
   const BodyDefinition definition = definition_of(id.index);
   forget_change(id.index);
@@ -154,7 +154,6 @@ void World::Engine::refilter(BodyId id) {
   book_.end_contacts(
       number, time_, [this](std::uint32_t other) { return sphere(other); }, walls_,
       [this](const Event& end) { return !may_hold(end); });
-  if (bodies_[number].is_fixed()) register_shape(number);
   void_facts(number);
 }
 

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "world/lookout.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 
@@ -25,22 +25,19 @@ World::Engine::Engine(const WorldDefinition& definition)
       space_(definition),
       walls_(walls_of(definition)),
       book_(definition),
-      time_(definition.start_time) {}
+      time_(definition.start_time),
+      windows_(space_),
+      tempo_(longest_way()) {}
 
 void World::Engine::reserve(std::size_t bodies) {
   bodies_.reserve(bodies);
-  marks_.reserve(bodies);
-  sketches_.reserve(bodies);
   dirty_.reserve(bodies);
   if (space_.repeats()) {
-    boxes_.reserve(bodies);
-    homes_.reserve(bodies);
+    middles_.reserve(bodies);
     images_.reserve(bodies);
   }
   book_.reserve(bodies);
-  grid_.reserve(bodies);
-  neighbours_.reserve(bodies);
-  schedule_.reserve(bodies);
+  windows_.reserve(bodies);
 }
 
 /// A body that lives and has nothing else yet.
@@ -49,14 +46,10 @@ std::uint32_t World::Engine::take_number() {
   if (free_.empty()) {
     number = static_cast<std::uint32_t>(bodies_.size());
     bodies_.emplace_back();
-    marks_.emplace_back();
-    sketches_.emplace_back();
     if (space_.repeats()) {
-      boxes_.emplace_back();
-      homes_.emplace_back();
+      middles_.emplace_back();
       images_.emplace_back();
     }
-    neighbours_.make_room(bodies_.size());
   } else {
     number = free_.back();
     free_.pop_back();
@@ -91,12 +84,30 @@ BodyId World::Engine::next_id(std::size_t additions_before) const {
   return {static_cast<std::uint32_t>(bodies_.size() + (additions_before - free_.size())), 0, tag_};
 }
 
-/// The body is where `bound` says, for everyone to find. The next advance looks what it meets there.
+/// The body is where `bound` says. The next advance looks what it meets there.
 void World::Engine::appear(std::uint32_t number, const Bound& bound) {
-  Body& body = bodies_[number];
-  body.bound = bound;
-  body.box_end = body.wall_time = body.look_time = time_;
-  set_box(number, bring_home(number, box_now(bound)));
+  bodies_[number].bound = bound;
+  if (windows_.contains(number)) windows_.leave(number);
+  void_facts(number);
+  if (definition_.allow_overlap) return;
+  // Others that are added before then have to find it.
+  const Window window =
+      bodies_[number].is_fixed() ? Windows::endless() : Windows::window_at(time_, Windows::shortest);
+  if (space_.repeats()) bring_home(number, 0.0);
+  windows_.enter(number, roomy_bound(number), time_, window);
+  windows_.tidy();
+}
+
+/// The body must be settled before time moves on. Facts about it stay.
+void World::Engine::mark_dirty(std::uint32_t number) {
+  if (bodies_[number].dirty) return;
+  bodies_[number].dirty = true;
+  dirty_.push_back(number);
+}
+
+/// A discontinuity: nothing that was certified about the body holds any more.
+void World::Engine::void_facts(std::uint32_t number) {
+  ++bodies_[number].stamp;
   mark_dirty(number);
 }
 
@@ -104,10 +115,9 @@ void World::Engine::appear(std::uint32_t number, const Bound& bound) {
 void World::Engine::withdraw(std::uint32_t number) {
   book_.depart(
       number, time_, [this](std::uint32_t other) { return sphere(other); }, walls_);
-  grid_.remove(number);
-  neighbours_.remove_all(number);
-  schedule_.remove(number);
-  marks_[number].dirty = false;
+  if (windows_.contains(number)) windows_.leave(number);
+  ++bodies_[number].stamp;
+  bodies_[number].dirty = false;
 }
 
 void World::Engine::remove(BodyId id) {
@@ -121,8 +131,10 @@ void World::Engine::remove(BodyId id) {
   keep_filter(number, {});
   if (space_.repeats()) images_[number] = {};
   const std::uint32_t generation = body.generation + 1;
+  const std::uint32_t stamp = body.stamp;
   body = Body{};
   body.generation = generation;
+  body.stamp = stamp;
   free_.push_back(number);
   --size_;
 }
@@ -170,9 +182,12 @@ BodyDefinition World::Engine::definition_of(std::uint32_t number) const {
 /// The body with its last report in the primary box, wherever the engine keeps it.
 BodyView World::Engine::view(std::uint32_t number) const {
   const Body& body = bodies_[number];
-  BodyView view{
-      definition_of(number), body.bound,      box(number),      std::min(body.box_end, body.look_time), {},
-      body.enabled,          body.is_fixed(), body.is_resting()};
+  BodyView view{definition_of(number), body.bound,       {}, time_, {}, body.enabled,
+                body.is_fixed(),       body.is_resting()};
+  if (windows_.contains(number)) {
+    view.box = box(number);
+    view.box_end = windows_.end_of(number);
+  }
   if (!space_.repeats()) return view;
   const auto [position, images] = space_.wrapped(body.bound.position);
   const Vec3 shift = space_.shift_of(images);
@@ -190,34 +205,39 @@ std::optional<BodyId> World::Engine::certain_overlap(BodyId id, const Extent& ex
                                                      const BodyDefinition& definition) const {
   std::optional<BodyId> found;
   const Box box = extent.shape ? box_of(*extent.shape) : box_now(extent.bound);
-  space_.for_each_overlap(grid_, box, [&](std::uint32_t other) {
+  Windows::Scratch scratch;
+  for (const std::uint32_t other : windows_.in_box(box, time_, scratch)) {
     const Body& body = bodies_[other];
     const bool certain = other != id.index && !(extent.fixed && body.is_fixed()) &&
                          certainly_overlap(extent, this->extent(other)) &&
                          may_touch(id, definition, id_of(other), definition_of(other));
     if (certain && (!found || other < found->index)) found = id_of(other);
-  });
+  }
   return found;
 }
 
-/// A registered box holds its body until box_end, which is not past; only a change or a broken promise leaves
-/// a body outside, and dirty.
+/// A capsule holds its body until its window ends, which is not past; only a change or a broken promise
+/// leaves a body outside, and dirty.
 std::vector<std::uint32_t> World::Engine::bodies_in(const Box& box) const {
   std::vector<std::uint32_t> numbers;
   for (const std::uint32_t number : dirty_)
-    if (marks_[number].dirty) numbers.push_back(number);
-  space_.for_each_overlap(grid_, box, [&](std::uint32_t number) {
-    if (!marks_[number].dirty) numbers.push_back(number);
-  });
+    if (bodies_[number].dirty) numbers.push_back(number);
+  Windows::Scratch scratch;
+  for (const std::uint32_t number : windows_.in_box(box, time_, scratch))
+    if (!bodies_[number].dirty) numbers.push_back(number);
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   return numbers;
 }
 
+std::size_t World::Engine::present_count() const {
+  return static_cast<std::size_t>(
+      std::count_if(bodies_.begin(), bodies_.end(), [](const Body& body) { return body.present(); }));
+}
+
 void World::Engine::set_velocity(BodyId id, const Vec3& velocity) {
   Body& body = bodies_[id.index];
   if (body.is_resting()) wake_island(id.index);
-  body.turned = true;
   if (body.fresh(time_)) {
     body.bound.velocity = velocity;
   } else {
@@ -237,15 +257,15 @@ Result<std::optional<Event>> World::Engine::advance(double until, const Probe& p
     if (!book_.is_quiet()) {
       if (std::optional<Event> event = deliver()) return event;
     }
-    gathering_ = true;
     if (auto settled = settle_all(); !settled) return settled.error();
-    gathering_ = false;
     if (!book_.pending().empty()) continue;
-    if (schedule_.next_time() > until) {
+    agenda_.open([this](const HotPair& pair) { return is_void(pair); });
+    const double next = std::min(windows_.next_end(), agenda_.next_time());
+    if (next > until) {
       move_on_to(until);
       return std::optional<Event>();
     }
-    move_on_to(schedule_.next_time());
+    move_on_to(std::max(next, time_));
     gathering_ = true;
   }
 }
@@ -255,72 +275,44 @@ void World::Engine::move_on_to(double time) {
   time_ = time;
 }
 
-/// Has the cache fetch what is kept of the body that is probably due next, which is somewhere in much memory.
-std::optional<std::uint32_t> World::Engine::fetch_coming() const {
-  constexpr std::size_t few = std::size_t{1} << 14;
-  if (bodies_.size() <= few) return std::nullopt;
-  const auto coming = schedule_.soon();
-  if (coming) fetch(*coming);
-  return coming;
-}
-
-/// Wakes all bodies that are due, so that every event of this instant is known before the first is delivered.
+/// Looks at all pairs that are due, so that every event of this instant is known before the first is
+/// delivered.
 Result<void> World::Engine::gather() {
-  const auto coming = fetch_coming();
-  while (schedule_.next_time() <= time_) {
-    if (auto woken = wake(schedule_.next_body()); !woken) return woken;
+  for (;;) {
+    if (windows_.next_end() <= time_) {
+      if (auto started = start_windows(false); !started) return started;
+    }
+    if (auto settled = settle_all(); !settled) return settled;
+    agenda_.open([this](const HotPair& pair) { return is_void(pair); });
+    if (agenda_.next_time() > time_) break;
+    const HotPair pair = agenda_.first();
+    agenda_.drop_first();
+    if (is_void(pair)) continue;
+    if (auto looked = look(pair); !looked) return looked;
   }
-  if (coming) neighbours_.fetch_sides(*coming);
-  // Bodies whose boxes end at this instant may add to its events.
-  if (auto settled = settle_all(); !settled) return settled;
   gathering_ = false;
   return {};
 }
 
-Result<void> World::Engine::wake(std::uint32_t number) {
-  if (marks_[number].dirty) {
-    schedule_.remove(number);
-    return {};
+/// After it, all facts are as they should be.
+Result<void> World::Engine::settle_all() {
+  auto& changed = book_.changed();
+  while (!changed.empty()) {
+    const auto [a, b] = changed.back();
+    settle_changed(a, b);
+    changed.pop_back();
   }
-  ++counters_.wakes;
-  if (bodies_[number].box_end <= time_) {
-    ++counters_.box_ends;
-    mark_dirty(number);
-    schedule_.remove(number);
-    return {};
+  // Reports may show broken promises, which make further bodies dirty.
+  while (!dirty_.empty()) {
+    if (auto settled = settle_dirty(); !settled) return settled;
   }
-  const std::uint64_t checks_before = counters_.pair_checks + counters_.wall_checks;
-  if (bodies_[number].wall_time <= time_) {
-    ++counters_.wall_checks;
-    if (auto settled = settle_walls(number); !settled) return settled;
-  }
-  if (bodies_[number].look_time <= time_) {
-    ++counters_.pair_checks;
-    if (auto settled = look_around(number); !settled) return settled;
-  }
-  double earliest_watch = 0.0;
-  while ((earliest_watch = neighbours_.earliest_watch(number)) <= time_) {
-    const Neighbours::Place place = neighbours_.place_of_watch(number, earliest_watch);
-    const std::uint32_t partner = neighbours_.of(number)[place].partner;
-    if (marks_[partner].dirty) {
-      neighbours_.unwatch(number, place);
-      continue;
-    }
-    if (const double until = Lookout(*this, number).left_alone_until(partner); until > time_) {
-      neighbours_.watch(number, place, until);
-      continue;
-    }
-    ++counters_.pair_checks;
-    if (auto settled = settle_pair(number, place); !settled) return settled;
-  }
-  if (counters_.pair_checks + counters_.wall_checks == checks_before) ++counters_.stale_wakes;
-  if (!marks_[number].dirty) reschedule(number, earliest_watch);
   return {};
 }
 
-void World::Engine::reschedule(std::uint32_t number, double earliest_watch) {
-  const Body& body = bodies_[number];
-  schedule_.set(number, std::min({body.box_end, body.wall_time, body.look_time, earliest_watch}));
+/// Body and body, or a body and (itself) its walls: what was certified concerns the contact as it was.
+void World::Engine::settle_changed(std::uint32_t a, std::uint32_t b) {
+  if (!bodies_[a].present() || !bodies_[b].present() || bodies_[a].dirty || bodies_[b].dirty) return;
+  agenda_.add(hot_pair(time_, a, a == b ? HotPair::walls : b));
 }
 
 }  // namespace kinesphere

@@ -1,28 +1,23 @@
 // The engine behind World: what it keeps, and what must always hold.
 //
-// For every pair of living bodies one of these facts is recorded whenever time moves on:
-//   - their boxes do not overlap, and each body stays in its box until its box_end; or
-//   - they are neighbours, and one of the two watches the other: whether they touch, and which sensor
-//     distances they are within, cannot change before the watch's time; or
-//   - they are neighbours, both apart, and cross no sensor distance until the earliest of the two box ends
-//     and the two next looks around; or
+// For every pair of living bodies one of these facts holds whenever time moves on:
+//   - their capsules do not touch before the window of either ends, and each body stays in its capsule until
+//     its own window ends; or
+//   - they cannot change between touching and not touching, nor cross a sensor distance, before the window of
+//     either ends; or
+//   - they cannot do so before the time of a hot pair in the agenda; or
 //   - the filters keep them from touching and sensing each other.
-// A box has room for all that its body can sense around it. Neighbours are those whose boxes overlap, and
-// those that touch or sense each other. A fact is about the true bodies, so later probes leave it true. Only
-// a discontinuity (a kick, a broken promise, a change that the caller makes) ends it: it takes away all
-// watches of the body from both sides, and makes the body dirty. A dirty body settles all its pairs again
-// before time moves on (a disabled one is out of the grid and the schedule instead), in its old box if that
-// still holds it for a good while, or in a new one after it has looked for its neighbours; so does a body
-// whose box has run out, which renews the first and the third kind of fact. A body that looks around renews
-// the third kind in its old box. Each body is scheduled at the earliest of its box end, its wall time, its
-// next look around and its watches. A fixed body has a shape in a table of its own and
-// a box for ever. It is never probed and watches nobody: its partners, which move, watch it. A body that
-// rests has a bound that stands still (rest.cpp), and is otherwise like any other.
+// A capsule has room for all that its body can sense around it. A fact is about the true bodies, so later
+// probes leave it true. Only a discontinuity (a kick, a broken promise, a change that the caller makes) ends
+// it: the body gets another stamp, which voids its hot pairs, and becomes dirty. A dirty body gets a capsule
+// and its hot pairs anew before time moves on (a disabled one has left the windows instead); so do all bodies
+// whose window has ended. A fixed body has a shape in a table of its own and a capsule for ever; it is never
+// probed. A body that rests has a bound that stands still (rest.cpp), and is otherwise like any other.
 //
-// Where space repeats, the image in which two bodies can meet is the one in which their boxes are nearest
-// (space/space.hpp). It may be another one after either box has ended, so there no watch outlives the boxes.
-// A body's bound and box are in one image: reports are moved to that nearest to the bound, and a new box
-// brings both home to the primary box. Of fixed bodies there are only balls there, which are bounds at rest.
+// Where space repeats, the image in which two bodies can meet is the one in which the middles of their
+// capsules are nearest (space/space.hpp). A body's bound is in one image: reports are moved to that nearest
+// to the bound, and a new capsule brings both home to the primary box. Of fixed bodies there are only balls
+// there, which are bounds at rest.
 #pragma once
 
 #include <algorithm>
@@ -36,19 +31,17 @@
 #include <vector>
 
 #include "bound/encounter.hpp"
-#include "bound/glance.hpp"
 #include "contact/contact_book.hpp"
 #include "contact/outlook.hpp"
 #include "contact/sensor_table.hpp"
 #include "kinesphere/shape.hpp"
 #include "kinesphere/world.hpp"
-#include "memory/prefetch.hpp"
-#include "schedule/schedule.hpp"
 #include "space/space.hpp"
+#include "window/agenda.hpp"
+#include "window/windows.hpp"
 #include "world/activity.hpp"
 #include "world/body.hpp"
 #include "world/extent.hpp"
-#include "world/neighbours.hpp"
 
 namespace kinesphere {
 
@@ -112,14 +105,17 @@ class World::Engine {
     return number < filters_.size() ? filters_[number] : none;
   }
   /// Contains the body, and all that it senses.
-  Box box(std::uint32_t number) const { return space_.repeats() ? boxes_[number] : grid_.box(number); }
+  Box box(std::uint32_t number) const { return windows_.box_of(number, time_); }
   const Space& space() const { return space_; }
   /// All that may be in a box now, by number. Cost: a search, and those that were added or changed since the
   /// last advance.
   std::vector<std::uint32_t> bodies_in(const Box& box) const;
-  std::size_t present_count() const { return grid_.size(); }
+  std::size_t present_count() const;
   /// About the size of the smallest bodies (length).
-  double finest_length() const { return grid_.finest_edge(); }
+  double finest_length() const {
+    return std::clamp(windows_.least_width(), definition_.contact_tolerance,
+                      0x1p30 * definition_.contact_tolerance);
+  }
   /// Where a body with this definition would be now.
   Bound bound_now(const BodyDefinition& body) const;
   /// The body's bound, if its radius and errors were those of `changed`.
@@ -175,7 +171,7 @@ class World::Engine {
   // inspection.cpp
   Memory memory() const;
   std::vector<Certificate> certificates() const;
-  const HashGrid& grid() const { return grid_; }
+  const Windows& windows() const { return windows_; }
 
   // What is known at the current time.
   class Answers;
@@ -188,31 +184,17 @@ class World::Engine {
 
  private:
   class Audit;
-  class RoundInProgress;
-
-  /// What is kept of a body that will soon be settled.
-  [[gnu::always_inline]] void fetch(std::uint32_t number) const {
-    prefetch(bodies_[number]);
-    prefetch(sketches_[number]);
-    prefetch(marks_[number]);
-    neighbours_.fetch(number);
-    grid_.fetch(number);
-    book_.fetch(number);
-    schedule_.fetch(number);
-  }
+  class StillDue;
 
   // engine.cpp: the clock.
   void move_on_to(double time);
-  std::optional<std::uint32_t> fetch_coming() const;
   Result<void> gather();
-  Result<void> wake(std::uint32_t number);
-  void reschedule(std::uint32_t number) { reschedule(number, neighbours_.earliest_watch(number)); }
-  void reschedule(std::uint32_t number, double earliest_watch);
+  Result<void> settle_all();
   std::uint32_t take_number();
   void appear(std::uint32_t number, const Bound& bound);
-  void appear_fixed(std::uint32_t number);
-  void register_shape(std::uint32_t number);
   void withdraw(std::uint32_t number);
+  void mark_dirty(std::uint32_t number);
+  void void_facts(std::uint32_t number);
 
   // changes.cpp
   void replace(std::uint32_t number, const Bound& bound);
@@ -242,84 +224,54 @@ class World::Engine {
   /// The limits of the gap of the two now, in the image in which they are nearest.
   GapLimits gap_now(const Extent& a, const Extent& b) const;
 
-  // boxes.cpp: registrations.
-  void choose_first_horizons(const std::vector<std::uint32_t>& round);
-  Bound reach(const Body& body) const;
-  double reach_of_pair(const Body& a, const Body& b) const;
   /// More than what rounding does to positions and ways, which are at most 2^45 contact tolerances; and so
   /// much less than a tolerance that a certificate for two bodies that are not near spans most of it.
   double rounding_room() const { return definition_.contact_tolerance / 16.0; }
-  double box_length(const Body& body) const;
-  bool renew_box(std::uint32_t number);
-  bool keep_box(std::uint32_t number, double length);
-  void register_box(std::uint32_t number, double length);
-  /// Those whose boxes overlap that of a body.
-  struct Crowd {
-    std::size_t candidates;
-    std::size_t larger;  ///< those of them with much larger boxes
-    double extent;       ///< of the body's own box
-  };
-  Crowd gather_candidates(std::uint32_t number);
-  bool shorten_way(std::uint32_t number, std::span<const std::uint32_t> crowd);
-  void shrink_boxes(const std::vector<std::uint32_t>& crowded);
-  void shrink_first_boxes(const std::vector<std::uint32_t>& searching);
-  void find_neighbours(std::uint32_t number);
-  void set_box(std::uint32_t number, const Box& box);
-  Box bring_home(std::uint32_t number, const Box& box);
-  Box box_of_way(const MovedBound& moved, double length) const;
-  Box box_until_end(const Body& body) const;
+  /// How far the gap of the two can be from one that means something: no sensor distance of either is larger.
+  double reach_of_pair(const Body& a, const Body& b) const;
+
+  // starting.cpp: windows, and the hot pairs in them.
+  Result<void> start_windows(bool all, std::span<const std::uint32_t> joining = {});
+  Result<void> settle_dirty();
+  void enter(std::uint32_t number);
+  double sensor_reach(const Body& body) const {
+    return sensors_.any() ? sensors_.reach(body.sensor_class) : 0.0;
+  }
+  void settle_changed(std::uint32_t a, std::uint32_t b);
+  Pace pace_of(const Body& body) const;
+  /// The place of a body that has gone farther since its last report could not be computed well (length).
+  double longest_way() const { return 0x1p40 * definition_.contact_tolerance; }
+  void choose_tempo(std::span<const std::uint32_t> round);
+  Window window_for(std::uint32_t number) const;
+  Window window_to_start(std::uint32_t number) const;
+  bool needs_report(std::uint32_t number) const;
+  RoomyBound roomy_bound(std::uint32_t number) const;
   double widest_in_period(const Body& body, int axis) const;
   double longest_in_period(const Body& body, double length) const;
-
-  Sketch sketch_of(const Body& body) const;
-  Home home_of(std::uint32_t number) const;
-  void sketch_box(std::uint32_t number);
-
-  // settling.cpp: facts.
-  void mark_dirty(std::uint32_t number);
-  void void_facts(std::uint32_t number);
-  Result<void> settle_all() {
-    return dirty_.empty() && book_.changed().empty() ? Result<void>() : settle_everything();
-  }
-  Result<void> settle_everything();
-  void order_in_space(std::vector<std::uint32_t>& round);
-  void fetch_ahead(const std::vector<std::uint32_t>& round, std::size_t k) const;
-  Result<void> settle_round(std::vector<std::uint32_t>& round);
+  void bring_home(std::uint32_t number, double length);
+  void find_hot_pairs(std::uint32_t number, std::span<const std::uint32_t> others);
+  void find_known_pairs(std::uint32_t number);
+  void find_walls(std::uint32_t number);
   Vec3 shift_to_meet(std::uint32_t a, std::uint32_t b) const;
   Bound seen_from(std::uint32_t a, std::uint32_t b) const;
-  /// Whether the facts about a pair hold no longer than its boxes, also while it touches: one watch stands
-  /// for all its thresholds, or for one image.
-  bool facts_end_with_boxes() const { return sensors_.any() || space_.repeats(); }
-  /// A sphere that touches and senses nothing.
-  bool is_bare(std::uint32_t number) const {
-    return !bodies_[number].is_fixed() && book_.partners_of(number).empty() &&
-           book_.crossings_of(number).empty();
+  /// Both stay in their capsules until then.
+  double windows_end(std::uint32_t a, std::uint32_t b) const {
+    return std::min(windows_.end_of(a), windows_.end_of(b));
   }
-  bool lookout_tells_all(std::uint32_t number, std::uint32_t partner) const;
-  Result<void> settle_changed(std::uint32_t a, std::uint32_t b);
-  Result<void> settle_body(std::uint32_t number);
-  Result<void> look_around(std::uint32_t number);
-  /// A neighbour, and where it stands in the list.
-  struct Unwatched {
-    Neighbours::Place place;
-    std::uint32_t partner;
-  };
-  std::span<const Unwatched> unwatched(std::uint32_t number);
-  class Glances;
-  class Lookout;
-  /// A dirty partner will settle the pair itself; one that has been settled in this round has done so.
-  bool settles_itself(std::uint32_t partner) const {
-    return marks_[partner].dirty || marks_[partner].settled;
-  }
-  Result<void> settle_pair(std::uint32_t number, Neighbours::Place place);
-  /// What is known of two neighbours that nobody watches, and that are apart, holds until then.
-  double unwatched_until(std::uint32_t a, std::uint32_t b) const {
-    return std::min({bodies_[a].box_end, bodies_[b].box_end, bodies_[a].look_time, bodies_[b].look_time});
-  }
-  template <class Partner>
-  bool look_at_pair(std::uint32_t number, Neighbours::Place place, const Bound& bound, const Partner& other);
-  Result<void> settle_walls(std::uint32_t number);
-  double judge_walls(std::uint32_t number);
+
+  // looking.cpp: pairs that are due.
+  HotPair hot_pair(double time, std::uint32_t a, std::uint32_t b) const;
+  bool is_void(const HotPair& pair) const;
+  /// Those that hold.
+  std::vector<HotPair> hot_pairs() const;
+  bool is_linked(std::uint32_t a, std::uint32_t b) const;
+  double unchanged_until(std::uint32_t a, std::uint32_t b) const;
+  double unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const;
+  Result<void> look(const HotPair& pair);
+  Result<void> look_at_pair(std::uint32_t a, std::uint32_t b);
+  Result<void> look_at_walls(std::uint32_t number);
+  std::optional<double> judge_pair(std::uint32_t a, std::uint32_t b);
+  std::optional<double> judge_walls(std::uint32_t number);
   template <class Visit>
   void for_each_threshold(std::uint32_t a, std::uint32_t b, Visit visit) const;
   template <class Partner>
@@ -343,14 +295,13 @@ class World::Engine {
   static void transfer(Self& self, Archive& archive);
   const char* contradiction() const;
   bool bodies_are_sound() const;
+  bool agenda_is_sound() const;
   bool shapes_are_sound() const;
-  bool neighbours_are_sound() const;
   bool is_sound(std::uint32_t number) const;
   bool changes_are_sound() const;
   bool rests_are_sound() const;
   bool contacts_of_fixed_are_sound() const;
   bool is_sound_fixed(std::uint32_t number) const;
-  bool box_is_sound(std::uint32_t number) const;
   bool image_is_sound(std::uint32_t number) const;
   bool was_given_out(BodyId id) const;
 
@@ -365,20 +316,19 @@ class World::Engine {
   std::vector<Change> changes_;
   std::vector<Rest> rests_;
   std::vector<Filter> filters_;  ///< of all bodies up to the last one that has another than the default
-  std::vector<Marks> marks_;
-  std::vector<Sketch> sketches_;  ///< of their bounds, until their boxes end; of no use while a body is dirty
   // Where space repeats.
-  std::vector<Box> boxes_;   ///< to the last digit: elsewhere the grid has them, rounded outward
-  std::vector<Home> homes_;  ///< of the boxes
+  std::vector<Vec3> middles_;  ///< of the capsules, which tell in which image two bodies can meet
   /// Whole numbers: bound.position + image * period is on the path since the caller
   /// placed the body.
   std::vector<Vec3> images_;
   std::vector<std::uint32_t> free_;
   std::vector<Shape> shapes_;  ///< of fixed bodies
   std::vector<std::uint32_t> free_shapes_;
-  HashGrid grid_;
-  Neighbours neighbours_;
-  TreeSchedule schedule_;
+  Windows windows_;
+  Tempo tempo_;
+  double main_start_ = 0.0;  ///< when most bodies started
+  SearchCost start_cost_;    ///< what their searches cost then
+  Agenda agenda_;
   std::vector<std::uint32_t> dirty_;
   Counters counters_;
   SensorTable sensors_;
@@ -391,10 +341,9 @@ class World::Engine {
   // Kept for their memory only.
   std::vector<BodyId> probe_ids_;
   std::vector<State> probe_states_;
-  std::vector<std::uint32_t> partners_;
   std::vector<std::uint32_t> round_;
-  std::vector<std::uint32_t> chosen_;
-  std::vector<Unwatched> unwatched_;
+  std::vector<HotPair> hot_;
+  Windows::Scratch scratch_;
 };
 
 /// What comes next between two bodies that may meet: their contact, the next sensor distance inward, and the

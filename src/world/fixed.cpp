@@ -60,17 +60,8 @@ BodyId World::Engine::add_fixed(const FixedDefinition& definition) {
   filtering_ = true;
   book_.add(number, 0.0);
   book_.set_fixed(number);
-  body.bound = bound_now(at_rest);
-  appear_fixed(number);
+  appear(number, bound_now(at_rest));
   return id_of(number);
-}
-
-/// It is where it always was, for everyone to find, and looks itself once for those that are there.
-void World::Engine::appear_fixed(std::uint32_t number) {
-  bodies_[number].box_end = infinity;
-  bodies_[number].wall_time = infinity;
-  register_shape(number);
-  mark_dirty(number);
 }
 
 /// Of a fixed body, with room for all that it senses around it.
@@ -79,7 +70,5 @@ Box World::Engine::box_of_fixed(std::uint32_t number) const {
   const Box box = box_of(shape(number));
   return space_.within({box.lower - room, box.upper + room});
 }
-
-void World::Engine::register_shape(std::uint32_t number) { set_box(number, box_of_fixed(number)); }
 
 }  // namespace kinesphere

@@ -31,24 +31,21 @@ class Stopwatch {
 
 Memory World::Engine::memory() const {
   Memory memory;
-  memory.watches = heap_bytes(neighbours_);
-  memory.bodies = heap_bytes(bodies_, boxes_, changes_, rests_, filters_, marks_, sketches_, homes_, images_);
+  memory.watches = agenda_.bytes();
+  memory.bodies = heap_bytes(bodies_, middles_, changes_, rests_, filters_, images_);
   memory.contacts = heap_bytes(book_);
-  memory.grid = heap_bytes(grid_);
-  memory.schedule = heap_bytes(schedule_);
+  memory.grid = windows_.bytes();
   memory.other = sizeof *this + heap_bytes(sensors_, free_, shapes_, free_shapes_, dirty_, probe_ids_,
-                                           probe_states_, partners_, round_, chosen_, unwatched_);
+                                           probe_states_, round_, hot_);
   return memory;
 }
 
 std::vector<Certificate> World::Engine::certificates() const {
   std::vector<Certificate> all;
-  for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
-    for (const Neighbour& one : neighbours_.of(number)) {
-      if (!one.watches()) continue;
-      const auto [first, second] = std::minmax({id_of(number), id_of(one.partner)});
-      all.push_back({first, second, one.watch});
-    }
+  for (const HotPair& pair : hot_pairs()) {
+    if (pair.second == HotPair::walls) continue;
+    const auto [first, second] = std::minmax({id_of(pair.first), id_of(pair.second)});
+    all.push_back({first, second, pair.time});
   }
   return all;
 }
@@ -61,7 +58,7 @@ Memory World::memory() const {
 
 std::vector<CellView> World::cells() const {
   std::vector<CellView> all;
-  engine("cells").grid().for_each_cell([&](const Box& box, std::size_t bodies) {
+  engine("cells").windows().for_each_cell([&](const Box& box, std::size_t bodies) {
     all.push_back({box, bodies});
   });
   return all;

@@ -86,8 +86,6 @@ void World::Engine::apply_report(std::uint32_t number, const State& answer) {
     body.bound.position = state.position;
     body.bound.velocity = state.velocity;
   }
-  // A dirty body gets a new one with its box.
-  if (!marks_[number].dirty) sketches_[number] = sketch_of(body);
   const auto broken =
       broken_promise(before, body.bound, body.radius, kicked_to, definition_.contact_tolerance);
   if (body.is_resting()) stand_still(body);

@@ -96,13 +96,11 @@ std::vector<std::uint32_t> World::Engine::resting_in_touch(std::uint32_t number)
   const Vec3 room = Vec3{1.0, 1.0, 1.0} * apart;
   const Extent own = extent(number);
   const Box box = own.shape ? box_of(*own.shape) : box_now(own.bound);
-  space_.for_each_overlap(grid_, {box.lower - room, box.upper + room}, [&](std::uint32_t other) {
+  for (const std::uint32_t other : bodies_in({box.lower - room, box.upper + room})) {
     if (other != number && bodies_[other].is_resting() && may_touch(number, other) &&
         gap_now(own, extent(other)).lower <= apart)
       found.push_back(other);
-  });
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  }
   return found;
 }
 

@@ -23,7 +23,7 @@ namespace {
 /// Raise the version when the fields change, or when the engine would go on from the same fields in another
 /// way.
 constexpr Envelope envelope{{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'},
-                            9,
+                            10,
                             "world",
                             "World::restore",
                             "snapshot",
@@ -51,23 +51,26 @@ bool same(const T& a, const T& b) {
   return bytes_of_a.bytes() == bytes_of_b.bytes();
 }
 
-bool is_sound(const Box& box) {
-  if (!is_finite(box.lower) || !is_finite(box.upper)) return false;
-  return box.lower.x <= box.upper.x && box.lower.y <= box.upper.y && box.lower.z <= box.upper.z;
-}
-
 }  // namespace
 
 template <class Self, class Archive>
 void World::Engine::transfer(Self& self, Archive& archive) {
   // The definition comes first, as an engine is made from it, space and walls too. The tag is left out
   // (BodyId::world). The last ones matter only during advance().
-  auto& [definition, tag, space, enclosure, book, time, size, bodies, changes, rests, filters, marks,
-         sketches, boxes, homes, images, free, shapes, free_shapes, grid, neighbours, schedule, dirty,
-         counters, sensors, pair_filter, filtering, gathering, probe, probing_call, probing, probe_ids,
-         probe_states, partners, round, chosen, unwatched] = self;
-  archive(book, time, size, bodies, changes, rests, filters, marks, boxes, images, free, shapes, free_shapes,
-          grid, neighbours, schedule, dirty, counters, sensors, filtering, gathering);
+  auto& [definition, tag, space, enclosure, book, time, size, bodies, changes, rests, filters, middles,
+         images, free, shapes, free_shapes, windows, tempo, main_start, start_cost, agenda, dirty, counters,
+         sensors, pair_filter, filtering, gathering, probe, probing_call, probing, probe_ids, probe_states,
+         round, hot, scratch] = self;
+  archive(book, time, size, bodies, changes, rests, filters, middles, images, free, shapes, free_shapes,
+          windows, tempo, main_start, start_cost, scratch.cost, dirty, counters, sensors, filtering, gathering);
+  // Of the agenda what counts, in an order of its own: not what is void, nor how it has divided time.
+  if constexpr (std::is_const_v<Self>) {
+    std::vector<HotPair> pairs = self.hot_pairs();
+    std::sort(pairs.begin(), pairs.end());
+    archive(pairs);
+  } else {
+    archive(hot);
+  }
 }
 
 std::vector<std::byte> World::Engine::save() const {
@@ -94,9 +97,7 @@ Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const st
     return refusal("must hold a world, but its content does not have the form of one");
   if (const char* where = engine->contradiction())
     return refusal(std::string("must hold a world that can be, but contradicts itself in its ") + where);
-  engine->sketches_.resize(engine->bodies_.size());
-  if (engine->space_.repeats()) engine->homes_.resize(engine->bodies_.size());
-  for (std::uint32_t number = 0; number < engine->bodies_.size(); ++number) engine->sketch_box(number);
+  engine->agenda_.add_all(engine->hot_);
   engine->tag_ = 0;
   if (pair_filter) engine->filtering_ = true;
   engine->pair_filter_ = std::move(pair_filter);
@@ -114,15 +115,13 @@ const char* World::Engine::contradiction() const {
   const auto known = [this](BodyId id) { return was_given_out(id); };
   if (!book_.is_sound(bodies_.size(), time_, walls_, known) || !contacts_of_fixed_are_sound())
     return "contacts";
-  const auto present = static_cast<std::size_t>(
-      std::count_if(bodies_.begin(), bodies_.end(), [](const Body& body) { return body.present(); }));
-  if (!grid_.is_sound() || grid_.size() != present || grid_.numbers() != bodies_.size()) return "grid";
-  if (!neighbours_.is_sound(bodies_.size()) || !neighbours_are_sound()) return "neighbours";
-  if (!schedule_.is_sound(bodies_.size()) || schedule_.next_time() < time_) return "schedule";
+  if (!windows_.is_sound(bodies_.size()) || !tempo_.is_sound() || std::isnan(main_start_)) return "windows";
+  if (!agenda_is_sound()) return "agenda";
   for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
     const bool takes_part = bodies_[number].present();
-    if (grid_.contains(number) != takes_part || (takes_part && !box_is_sound(number))) return "grid";
-    if (!takes_part && schedule_.time_of(number) < infinity) return "schedule";
+    const bool registered = windows_.contains(number);
+    if (takes_part ? !registered && !bodies_[number].dirty : registered) return "windows";
+    if (registered && bodies_[number].is_fixed() && windows_.end_of(number) != infinity) return "windows";
     if (!takes_part && (!book_.partners_of(number).empty() || !book_.crossings_of(number).empty() ||
                         book_.walls_of(number) != 0))
       return "contacts";
@@ -130,23 +129,19 @@ const char* World::Engine::contradiction() const {
   return nullptr;
 }
 
-/// All of them take part, fixed ones leave it to others to watch, and bodies that are settled and touch or
-/// sense each other are neighbours.
-bool World::Engine::neighbours_are_sound() const {
-  for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
-    for (const Neighbour& one : neighbours_.of(number))
-      if (!bodies_[number].present() || (bodies_[number].is_fixed() && one.watches())) return false;
-    const auto is_neighbour = [&](std::uint32_t other) {
-      return marks_[number].dirty || marks_[other].dirty || neighbours_.find(number, other).has_value();
-    };
-    const auto touched = book_.partners_of(number);
-    const auto crossed = book_.crossings_of(number);
-    if (!std::all_of(touched.begin(), touched.end(), is_neighbour) ||
-        !std::all_of(crossed.begin(), crossed.end(),
-                     [&](const Crossing& c) { return is_neighbour(c.partner); }))
-      return false;
-  }
-  return true;
+/// Hot pairs, which wait to be put into the agenda, are those of bodies which are registered.
+bool World::Engine::agenda_is_sound() const {
+  const auto takes_part = [this](std::uint32_t number) {
+    return number < bodies_.size() && bodies_[number].present() && windows_.contains(number);
+  };
+  const auto is_sound = [&](const HotPair& pair) {
+    if (!(pair.time < infinity) || !takes_part(pair.first)) return false;
+    if (pair.second == HotPair::walls)
+      return walls_ && !bodies_[pair.first].is_fixed() && !is_void(pair);
+    return pair.first < pair.second && takes_part(pair.second) && !is_void(pair) &&
+           !(bodies_[pair.first].is_fixed() && bodies_[pair.second].is_fixed());
+  };
+  return std::all_of(hot_.begin(), hot_.end(), is_sound);
 }
 
 /// Each shape belongs to one body or is free.
@@ -178,7 +173,7 @@ bool World::Engine::contacts_of_fixed_are_sound() const {
   }
   // One may have got the index of a body that has gone; then it is dirty, and the pair is not looked at.
   const auto settled_fixed = [&](std::uint32_t number) {
-    return fixed(number) && bodies_[number].present() && !marks_[number].dirty;
+    return fixed(number) && bodies_[number].present() && !bodies_[number].dirty;
   };
   return std::none_of(
              book_.changed().begin(), book_.changed().end(),
@@ -191,14 +186,12 @@ bool World::Engine::contacts_of_fixed_are_sound() const {
 /// It must be as it was made.
 bool World::Engine::is_sound_fixed(std::uint32_t number) const {
   const Body& body = bodies_[number];
-  const Marks& marks = marks_[number];
   if (!check_shape(shape(number), definition_, "restore")) return false;
   const BodyDefinition made = body_of(fixed_definition(id_of(number)));
   return same(definition_of(number), made) &&
          same(body.bound, bound_of(made, {made.position, {}}, body.bound.time)) && body.bound.time <= time_ &&
-         std::isfinite(body.bound.time) && body.box_end == infinity && body.wall_time == infinity &&
-         body.look_time == infinity && !body.horizon.is_chosen() && !marks.settled &&
-         body.change_number == Body::none && !(marks.dirty && !body.enabled);
+         std::isfinite(body.bound.time) && !body.settled && body.change_number == Body::none &&
+         !(body.dirty && !body.enabled);
 }
 
 /// Each change is that of one body, which lives.
@@ -233,8 +226,8 @@ bool World::Engine::rests_are_sound() const {
 bool World::Engine::bodies_are_sound() const {
   const auto count = bodies_.size();
   const std::size_t where_space_repeats = space_.repeats() ? count : 0;
-  if (marks_.size() != count || filters_.size() > count) return false;
-  if (boxes_.size() != where_space_repeats || images_.size() != where_space_repeats) return false;
+  if (filters_.size() > count) return false;
+  if (middles_.size() != where_space_repeats || images_.size() != where_space_repeats) return false;
   std::vector<bool> is_free(count, false);
   std::vector<bool> is_listed(count, false);
   for (const std::uint32_t number : free_) {
@@ -247,7 +240,7 @@ bool World::Engine::bodies_are_sound() const {
   }
   for (std::size_t number = 0; number < count; ++number) {
     const Body& body = bodies_[number];
-    if (body.alive == is_free[number] || (marks_[number].dirty && !is_listed[number]) ||
+    if (body.alive == is_free[number] || (body.dirty && !is_listed[number]) ||
         !is_sound(static_cast<std::uint32_t>(number)))
       return false;
   }
@@ -256,11 +249,10 @@ bool World::Engine::bodies_are_sound() const {
 
 bool World::Engine::is_sound(std::uint32_t number) const {
   const Body& body = bodies_[number];
-  const Marks& marks = marks_[number];
   if (body.is_fixed()) return is_sound_fixed(number);
-  if (marks.settled) return false;
+  if (body.settled) return false;
   // An index that is free is as its next body will find it.
-  if (!body.alive) return !marks.dirty && !body.horizon.is_chosen();
+  if (!body.alive) return !body.dirty;
   WorldDefinition unbounded = definition_;
   unbounded.box.reset();
   const BodyDefinition definition = definition_of(number);
@@ -268,20 +260,10 @@ bool World::Engine::is_sound(std::uint32_t number) const {
       !check_radius(definition, no_body, definition_, "restore") ||
       !kinesphere::is_sound(body.bound, time_, unbounded) || !image_is_sound(number))
     return false;
-  if (!body.enabled) return !marks.dirty;
+  if (!body.enabled) return !body.dirty;
   // Before time moves on there is a report.
-  if (body.change_number != Body::none && !marks.dirty) return false;
-  if (!std::isfinite(body.box_end) || body.box_end < time_ || std::isnan(body.wall_time) ||
-      std::isnan(body.look_time))
-    return false;
-  return body.horizon.is_chosen() ? body.horizon.is_sound(definition_.contact_tolerance) : marks.dirty;
-}
-
-/// For one that is in the grid.
-bool World::Engine::box_is_sound(std::uint32_t number) const {
-  const Box exact = bodies_[number].is_fixed() ? box_of_fixed(number) : box(number);
-  if (space_.repeats() && !(kinesphere::is_sound(exact) && same(exact, boxes_[number]))) return false;
-  return FloatBox(grid_.box(number)) == FloatBox(exact);
+  if (body.change_number != Body::none && !body.dirty) return false;
+  return true;
 }
 
 /// Whole numbers, and none on axes that do not repeat.

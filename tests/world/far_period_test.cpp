@@ -37,8 +37,16 @@ std::ostream& operator<<(std::ostream& out, const Place& place) {
 
 class FarPeriod : public testing::TestWithParam<Place> {};
 
-/// One body goes along x at speed 1; the other waits, far from it on y, until it is thrown towards the first
-/// from where its new box will reach into that of the first by `depth`.
+/// How far a body may go in a window: its box may be half a period wide, but for what rounding needs.
+double longest_way(const Place& place) {
+  return (0.5 - 0x1p-10) * place.period - 2.0 * half_width - 10.0 * eps;
+}
+
+/// Of those in which a body of a speed near 1 goes nearly so far, the longest.
+double window_length(const Place& place) { return std::exp2(std::floor(std::log2(longest_way(place)))); }
+
+/// One body goes along x, nearly as far in each window as it may; the other waits, far from it on y, until it
+/// is thrown towards the first from where its new box will reach into that of the first by `depth`.
 class Meeting : public Playground {
  public:
   Meeting(const Place& its_place, double start)
@@ -46,29 +54,29 @@ class Meeting : public Playground {
                     .periodic = {true, false, false},
                     .contact_tolerance = eps}),
         place(its_place),
-        goer(add({.radius = half_width, .position = {place.lower + start, 0, 0}, .velocity = {1, 0, 0}})),
+        speed(0.99995 * longest_way(place) / window_length(place)),
+        goer(add(
+            {.radius = half_width, .position = {place.lower + start, 0, 0}, .velocity = {speed, 0, 0}})),
         waiter(add({.radius = half_width, .position = {place.lower + 7, 900, 0}, .velocity = {-1, 0, 0}})) {
     distort = [this](BodyId, double, State& told) { told.position.x = place.wrapped(told.position.x); };
   }
 
-  /// Runs until the box of the goer is nearly half a period wide, and lasts for a few more of its diameters.
+  /// Runs until the box of the goer is nearly half a period wide, and then until it lasts for a few more of
+  /// its diameters.
   bool gets_ready() {
-    run(400);
-    for (int step = 1; step <= 4000; ++step) {
-      run(400 + 0.05 * step);
-      const BodyView view = world.body(goer).value();
-      box = view.box;
-      left = view.box_end - world.time();
-      if (box.upper.x - box.lower.x > 0.49 * place.period && left > 3.5 && left < 4.0) return true;
-    }
-    return false;
+    const double length = window_length(place);
+    const double start = std::ceil(400.0 / length) * length;
+    run(start);
+    box = world.body(goer).value().box;
+    run(start + length - 3.7);
+    left = world.body(goer).value().box_end - world.time();
+    return box.upper.x - box.lower.x > 0.49 * place.period && left > 3.5 && left < 4.0;
   }
 
   /// Where the waiter goes for the boxes to overlap by `depth`, if single precision would then name another
   /// image than the boxes do.
   std::optional<double> thrown_from(double depth) const {
-    const double widest = (0.5 - 0x1p-10) * place.period - 5.0 * eps;
-    const double way = widest - 2.0 * (half_width + eps / 16.0);
+    const double way = 0.99995 * longest_way(place);
     const double from = box.upper.x - depth + way + half_width;
     const double centre_of_goer = 0.5 * (box.lower.x + box.upper.x);
     const double centre = 0.5 * (from - way - half_width + from + half_width);
@@ -79,16 +87,15 @@ class Meeting : public Playground {
 
   /// Throws it, and runs until both boxes have ended.
   void throw_from(double from) {
-    const double widest = (0.5 - 0x1p-10) * place.period - 5.0 * eps;
-    const double speed = (widest - 2.0 * half_width) / left;
-    const State state{{from, 0, 0}, {-speed, 0, 0}};
+    const double thrown = 0.99995 * longest_way(place) / left;
+    const State state{{from, 0, 0}, {-thrown, 0, 0}};
     world.teleport(waiter, {{place.wrapped(from), 0, 0}, state.velocity}).value();
     set_position(waiter, state.position);
     set_velocity_unseen(waiter, state.velocity);
     double ahead =
         place.wrapped(from) - place.wrapped(world.body(goer).value().bound.centre_at(world.time()).x);
     if (ahead < 0.0) ahead += place.period;
-    const double contact = world.time() + (ahead - 2.0 * half_width) / (1.0 + speed);
+    const double contact = world.time() + (ahead - 2.0 * half_width) / (speed + thrown);
     const auto begins = of_kind(run(world.time() + left + 1.0), EventKind::contact_begin);
     ASSERT_FALSE(begins.empty()) << "never told";
     EXPECT_LE(begins[0].time, contact + eps);
@@ -97,6 +104,7 @@ class Meeting : public Playground {
   }
 
   Place place;
+  double speed;
   BodyId goer, waiter;
   Box box{};
   double left = 0.0;
@@ -104,8 +112,8 @@ class Meeting : public Playground {
 
 TEST_P(FarPeriod, NoContactIsLateWhereSinglePrecisionNamesAnotherImage) {
   int thrown = 0;
-  for (int n = 0; n < 100 && thrown < 25; ++n) {
-    Meeting meeting(GetParam(), 0.013 * n);
+  for (int n = 0; n < 400 && thrown < 25; ++n) {
+    Meeting meeting(GetParam(), 0.413 * n);
     if (!meeting.gets_ready()) continue;
     for (double depth = 0.2; depth > 0.0005; depth -= 0.0005) {
       const auto from = meeting.thrown_from(depth);

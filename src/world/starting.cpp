@@ -71,9 +71,8 @@ void World::Engine::choose_tempo(std::span<const std::uint32_t> round) {
   const auto middle = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() / 2);
   std::nth_element(speeds.begin(), middle, speeds.end());
   const double spacing = spacing_within(upper - lower, static_cast<int>(round.size()));
-  const double way = std::clamp(0.25 * spacing, 0x1p8 * definition_.contact_tolerance,
-                                0x1p40 * definition_.contact_tolerance);
-  tempo_.choose(way, {*middle, acceleration}, 0x1p40 * definition_.contact_tolerance);
+  const double way = std::max(0.25 * spacing, 0x1p8 * definition_.contact_tolerance);
+  tempo_.choose(way, {*middle, acceleration});
 }
 
 /// With room for all that the body can touch or sense.
@@ -172,7 +171,7 @@ bool World::Engine::needs_report(std::uint32_t number) const {
   const double growth = (bound.growth_speed + 0.5 * bound.growth_acceleration * s) * s;
   if (growth > largest_growth * tempo_.typical_way()) return true;
   const double speed = norm(bound.velocity) + bound.growth_speed + body.largest_acceleration() * s;
-  if (!space_.repeats()) return speed * s > 0x1p40 * definition_.contact_tolerance;
+  if (!space_.repeats()) return speed * s > longest_way();
   if (window.tier < tempo_.tier_for(pace_of(body))) return true;
   const Vec3& period = space_.period();
   double half = infinity;
