@@ -10,13 +10,12 @@
 
 namespace kinesphere {
 
-/// The units in which the capsules of one layer are given. Lengths count from `base` in units of
-/// 2^length_exponent, times from `origin` in units of 2^time_exponent: so numbers are of moderate size in
-/// worlds of all scales.
+/// The units in which the capsules of one layer are given: lengths count from `base`, times from `origin`, and
+/// both are multiplied so that numbers are of moderate size in worlds of all scales.
 struct CapsuleFrame {
   Vec3 base{};
   double origin = 0.0;
-  double per_length = 1.0;  ///< powers of two
+  double per_length = 1.0;  ///< a power of two
   double per_time = 1.0;
 
   float time(double t) const { return static_cast<float>((t - origin) * per_time); }

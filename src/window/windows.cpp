@@ -58,8 +58,8 @@ std::size_t Windows::moving() const {
   return all;
 }
 
-/// The layer of this window and level, or an empty one that becomes it.
-std::uint32_t Windows::layer_for(const Window& window, const Vec3& base, int level) {
+/// The layer of this window and level, or an empty one that becomes it now.
+std::uint32_t Windows::layer_for(const Window& window, const Vec3& base, int level, double now) {
   const auto& [tier, end] = window;
   std::uint32_t empty = none;
   for (std::uint32_t k = 0; k < layers_.size(); ++k) {
@@ -81,8 +81,8 @@ std::uint32_t Windows::layer_for(const Window& window, const Vec3& base, int lev
   member.fresh = false;
   CapsuleFrame frame{.base = base, .per_length = power_of_two(-powers_in_a_level * level)};
   if (end < infinity) {
-    frame.origin = end - power_of_two(tier);
-    frame.per_time = power_of_two(-tier);
+    frame.origin = now;
+    frame.per_time = 1.0 / (end - now);
   }
   member.layer.clear(frame);
   next_end_ = std::min(next_end_, end);
@@ -118,7 +118,7 @@ void Windows::enter(std::uint32_t number, const RoomyBound& bound, double now, c
     leave(number);
   }
   const int level = layer_level(level_of(bound, duration_until(window.end, now)));
-  add(number, layer_for(window, bound.moved.centre, level), bound, now);
+  add(number, layer_for(window, bound.moved.centre, level, now), bound, now);
 }
 
 /// Of its size, or of the larger ones that it is merged with.
@@ -294,7 +294,7 @@ void Windows::start(std::uint32_t number, const RoomyBound& bound, double now, c
   if (number >= registrations_.size()) registrations_.resize(number + std::size_t{1});
   const int level = level_of(bound, duration_until(window.end, now));
   ++sizes_[level];
-  const std::uint32_t layer = layer_for(window, bound.moved.centre, layer_level(level));
+  const std::uint32_t layer = layer_for(window, bound.moved.centre, layer_level(level), now);
   if (layers_[layer].layer.size() == 0) layers_[layer].fresh = true;
   add(number, layer, bound, now);
 }

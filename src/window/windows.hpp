@@ -182,7 +182,7 @@ class Windows {
 
   void merge_levels();
   int layer_level(int level) const;
-  std::uint32_t layer_for(const Window& window, const Vec3& base, int level);
+  std::uint32_t layer_for(const Window& window, const Vec3& base, int level, double now);
   void add(std::uint32_t number, std::uint32_t layer, const RoomyBound& bound, double now);
   void sort(std::uint32_t layer);
   Started started_at(std::size_t k) const;
