@@ -45,7 +45,9 @@ void Tempo::note_start(const Pace& pace, double width, int tier) {
   if (tier == main_tier_) ++in_main_;
   widths_ += width;
   ways_ += std::min(way, much_farther * typical_way_);
-  magnitudes_ += std::clamp(way > 0.0 ? exponent_of(way) : -most_powers, -most_powers, most_powers);
+  const int magnitude = way > 0.0 ? exponent_of(way / typical_way_) : -least_magnitude;
+  const int last = static_cast<int>(magnitudes_.size()) - 1;
+  ++magnitudes_[static_cast<std::size_t>(std::clamp(magnitude + least_magnitude, 0, last))];
 }
 
 void Tempo::adapt(const SearchCost& starts, const SearchCost& later, double elapsed, int dimensions) {
@@ -71,12 +73,15 @@ void Tempo::adapt(const SearchCost& starts, const SearchCost& later, double elap
   }
   change = std::max(change, -most_powers - main_tier_);
   main_tier_ += change;
-  const double magnitude =
-      std::clamp(static_cast<double>(magnitudes_) / count, -1.0 * most_powers, 1.0 * most_powers);
-  typical_way_ = std::min(power_of_two(static_cast<int>(std::lround(magnitude)) + change), longest_way_);
+  // An eighth of the bodies may be faster than most.
+  std::size_t magnitude = magnitudes_.size() - 1;
+  for (std::uint64_t faster = magnitudes_[magnitude]; 8 * faster <= bodies_ && magnitude > 0;)
+    faster += magnitudes_[--magnitude];
+  const double way = typical_way_ * power_of_two(static_cast<int>(magnitude) - least_magnitude + change);
+  typical_way_ = std::clamp(way, power_of_two(-most_powers), longest_way_);
   bodies_ = in_main_ = 0;
   ways_ = widths_ = 0.0;
-  magnitudes_ = 0;
+  magnitudes_.fill(0);
 }
 
 bool Tempo::is_sound() const {

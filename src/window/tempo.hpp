@@ -2,6 +2,7 @@
 // all machines.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -49,7 +50,7 @@ class Tempo {
   /// Before anything is known: windows in which a body of this pace goes this way (> 0) or the longest one.
   void choose(double way, const Pace& typical);
   int tier_for(const Pace& pace) const;
-  /// The way of most bodies in a main window (length).
+  /// Few bodies go farther in a main window (length).
   double typical_way() const { return typical_way_; }
 
   /// A body starts in a window; `width` is that of its capsule without its way.
@@ -67,6 +68,8 @@ class Tempo {
   bool is_sound() const;
 
  private:
+  static constexpr int least_magnitude = 40;
+
   double longest_way_;
   int main_tier_ = 0;
   double typical_way_ = 0.0;
@@ -75,7 +78,8 @@ class Tempo {
   std::uint64_t in_main_ = 0;  ///< in a main window
   double ways_ = 0.0;
   double widths_ = 0.0;
-  std::int64_t magnitudes_ = 0;  ///< of the ways: whole parts of their binary logarithms
+  /// How many went about 2^(k - least_magnitude) times the typical way, or less for k = 0.
+  std::array<std::uint64_t, 64> magnitudes_{};
 };
 
 }  // namespace kinesphere
