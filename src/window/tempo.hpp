@@ -29,6 +29,13 @@ struct SearchCost {
     return static_cast<double>(capsules) + 4.0 * static_cast<double>(rows) +
            12.0 * static_cast<double>(found) + 60.0 * static_cast<double>(hot);
   }
+  SearchCost& operator+=(const SearchCost& more) {
+    capsules += more.capsules;
+    rows += more.rows;
+    found += more.found;
+    hot += more.hot;
+    return *this;
+  }
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
     auto& [seen, runs, near, due] = self;
@@ -38,13 +45,13 @@ struct SearchCost {
 
 /// Most bodies share windows of one length, the main one, 2^main_tier. In longer windows searches find more,
 /// in shorter ones all bodies start more often. Those that are much faster than most have windows 8, 64, ...
-/// times shorter.
+/// times shorter, in which they may go farther than most if there is little in their way.
 class Tempo {
  public:
   static constexpr int powers_between_tiers = 3;
 
-  /// Most bodies never go farther than `longest_way` (length, > 0) in a main window.
-  explicit Tempo(double longest_way) : longest_way_(longest_way) {}
+  /// No body goes farther in a window than `longest_way` (length, > 0) if there is a shorter one.
+  Tempo(double longest_way, int dimensions) : longest_way_(longest_way), dimensions_(dimensions) {}
 
   bool is_chosen() const { return typical_way_ > 0.0; }
   /// Before anything is known: windows in which a body of this pace goes this way (> 0) or the longest one.
@@ -53,16 +60,19 @@ class Tempo {
   /// Few bodies go farther in a main window (length).
   double typical_way() const { return typical_way_; }
 
+  /// Most bodies are going to start. Chooses the length of the main windows, knowing what the searches of
+  /// those that started last time have cost, and all others since then.
+  void start_main(double now, const SearchCost& others);
   /// A body starts in a window; `width` is that of its capsule without its way.
   void note_start(const Pace& pace, double width, int tier);
-  /// Chooses the length of the main windows, knowing what searches have cost since most bodies started: for
-  /// these, and since then, for `elapsed`.
-  void adapt(const SearchCost& starts, const SearchCost& later, double elapsed, int dimensions);
+  /// All have started, and their searches have cost this much.
+  void finish_start(const SearchCost& cost);
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [longest, tier, way, bodies, in_main, ways, widths, magnitudes] = self;
-    archive(tier, way, bodies, in_main, ways, widths, magnitudes);
+    auto& [longest, dimensions, tier, way, fast_way, main, fast, in_main, magnitudes, main_starts, start] =
+        self;
+    archive(tier, way, fast_way, main, fast, in_main, magnitudes, main_starts, start);
   }
   /// For one that was read.
   bool is_sound() const;
@@ -70,16 +80,38 @@ class Tempo {
  private:
   static constexpr int least_magnitude = 40;
 
+  /// Bodies that have started, and what that has cost.
+  struct Starts {
+    std::uint64_t bodies = 0;
+    double ways = 0.0;    ///< sum
+    double widths = 0.0;  ///< sum
+    SearchCost cost;
+
+    /// Per time that is gained by it, in relation to windows of today's length, if windows last so many times
+    /// as long; with the cost of others that grows like searches.
+    double rate(double times_longer, int dimensions, double others = 0.0) const;
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+      auto& [count, way, width, searches] = self;
+      archive(count, way, width, searches);
+    }
+  };
+
+  void adapt_main(double rate_of_others);
+  void adapt_fast();
+
   double longest_way_;
+  int dimensions_;
   int main_tier_ = 0;
   double typical_way_ = 0.0;
-  // Of those that have started.
-  std::uint64_t bodies_ = 0;
-  std::uint64_t in_main_ = 0;  ///< in a main window
-  double ways_ = 0.0;
-  double widths_ = 0.0;
+  double fast_way_ = 0.0;  ///< those that are much faster than most go no farther in their windows
+  Starts main_;            ///< when most bodies started
+  Starts fast_;            ///< of those that have started between
+  std::uint64_t in_main_ = 0;  ///< have started in a main window
   /// How many went about 2^(k - least_magnitude) times the typical way, or less for k = 0.
   std::array<std::uint64_t, 64> magnitudes_{};
+  bool main_starts_ = false;  ///< most bodies are starting
+  double main_start_ = 0.0;   ///< when they did
 };
 
 }  // namespace kinesphere

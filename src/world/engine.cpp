@@ -27,7 +27,7 @@ World::Engine::Engine(const WorldDefinition& definition)
       book_(definition),
       time_(definition.start_time),
       windows_(space_),
-      tempo_(longest_way()) {}
+      tempo_(longest_way(), definition.dimensions) {}
 
 void World::Engine::reserve(std::size_t bodies) {
   bodies_.reserve(bodies);

@@ -326,8 +326,6 @@ class World::Engine {
   std::vector<std::uint32_t> free_shapes_;
   Windows windows_;
   Tempo tempo_;
-  double main_start_ = 0.0;  ///< when most bodies started
-  SearchCost start_cost_;    ///< what their searches cost then
   Agenda agenda_;
   std::vector<std::uint32_t> dirty_;
   Counters counters_;

@@ -58,11 +58,11 @@ void World::Engine::transfer(Self& self, Archive& archive) {
   // The definition comes first, as an engine is made from it, space and walls too. The tag is left out
   // (BodyId::world). The last ones matter only during advance().
   auto& [definition, tag, space, enclosure, book, time, size, bodies, changes, rests, filters, middles,
-         images, free, shapes, free_shapes, windows, tempo, main_start, start_cost, agenda, dirty, counters,
+         images, free, shapes, free_shapes, windows, tempo, agenda, dirty, counters,
          sensors, pair_filter, filtering, gathering, probe, probing_call, probing, probe_ids, probe_states,
          round, hot, scratch] = self;
   archive(book, time, size, bodies, changes, rests, filters, middles, images, free, shapes, free_shapes,
-          windows, tempo, main_start, start_cost, scratch.cost, dirty, counters, sensors, filtering, gathering);
+          windows, tempo, scratch.cost, dirty, counters, sensors, filtering, gathering);
   // Of the agenda what counts, in an order of its own: not what is void, nor how it has divided time.
   if constexpr (std::is_const_v<Self>) {
     std::vector<HotPair> pairs = self.hot_pairs();
@@ -115,7 +115,7 @@ const char* World::Engine::contradiction() const {
   const auto known = [this](BodyId id) { return was_given_out(id); };
   if (!book_.is_sound(bodies_.size(), time_, walls_, known) || !contacts_of_fixed_are_sound())
     return "contacts";
-  if (!windows_.is_sound(bodies_.size()) || !tempo_.is_sound() || std::isnan(main_start_)) return "windows";
+  if (!windows_.is_sound(bodies_.size()) || !tempo_.is_sound()) return "windows";
   if (!agenda_is_sound()) return "agenda";
   for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
     const bool takes_part = bodies_[number].present();

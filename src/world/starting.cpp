@@ -190,12 +190,8 @@ Result<void> World::Engine::start_windows(bool all, std::span<const std::uint32_
   if (!asked.empty()) {
     if (auto probed = probe(asked); !probed) return probed;
   }
-  if (most && time_ > main_start_)
-    tempo_.adapt(start_cost_, scratch_.cost, time_ - main_start_, definition_.dimensions);
-  if (most) {
-    main_start_ = time_;
-    scratch_.cost = {};
-  }
+  if (most) tempo_.start_main(time_, std::exchange(scratch_.cost, {}));
+  const SearchCost of_others = std::exchange(scratch_.cost, {});
   windows_.end_windows(time_, all);
   // Those with a broken promise, too, are settled by themselves.
   std::erase_if(round, [this](std::uint32_t number) { return bodies_[number].dirty; });
@@ -209,8 +205,7 @@ Result<void> World::Engine::start_windows(bool all, std::span<const std::uint32_
     if (space_.repeats()) bring_home(number, window.end - time_);
     const RoomyBound bound = roomy_bound(number);
     windows_.start(number, bound, time_, window);
-    if (most)
-      tempo_.note_start(pace_of(bodies_[number]), 2.0 * (bound.moved.radius + bound.room), window.tier);
+    tempo_.note_start(pace_of(bodies_[number]), 2.0 * (bound.moved.radius + bound.room), window.tier);
   }
   windows_.finish_start();
   hot_.clear();
@@ -219,7 +214,7 @@ Result<void> World::Engine::start_windows(bool all, std::span<const std::uint32_
         k, time_, [this](std::uint32_t number) { return roomy_bound(number); }, scratch_);
     find_hot_pairs(windows_.started_number(k), others);
   }
-  if (most) start_cost_ = std::exchange(scratch_.cost, {});
+  tempo_.finish_start(std::exchange(scratch_.cost, of_others));
   for (const std::uint32_t number : round) {
     find_known_pairs(number);
     find_walls(number);
