@@ -10,8 +10,8 @@
 
 namespace kinesphere {
 
-/// The units in which the capsules of one layer are given: lengths count from `base`, times from `origin`, and
-/// both are multiplied so that numbers are of moderate size in worlds of all scales.
+/// The units in which the capsules of one layer are given: lengths count from `base`, times from `origin`,
+/// and both are multiplied so that numbers are of moderate size in worlds of all scales.
 struct CapsuleFrame {
   Vec3 base{};
   double origin = 0.0;
@@ -39,7 +39,8 @@ struct Capsule {
 
 /// A capsule that contains a body from `now`, the time to which `moved` has been moved on, for `duration`,
 /// with `room` around it. The radius has 2^-18 of the size of all numbers that go into a search beyond that,
-/// which covers its roundings, and 2^-100 units, which cover what underflows (docs/guarantee.md, "The search").
+/// which covers its roundings, and 2^-100 units, which cover what underflows (docs/guarantee.md, "The
+/// search").
 inline Capsule capsule_of(const MovedBound& moved, double now, double duration, double room,
                           const CapsuleFrame& frame) {
   constexpr double part_lost = 0x1p-18;

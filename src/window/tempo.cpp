@@ -55,7 +55,6 @@ void Tempo::start_main(double now, const SearchCost& others) {
   if (now > main_start_ && main_.bodies > 0)
     adapt_main(others.units() / (now - main_start_) * length_of(main_tier_));
   main_ = {};
-  in_main_ = 0;
   magnitudes_.fill(0);
   main_starts_ = true;
   main_start_ = now;
@@ -65,13 +64,13 @@ void Tempo::note_start(const Pace& pace, double width, int tier) {
   Starts& starts = main_starts_ ? main_ : fast_;
   ++starts.bodies;
   starts.widths += width;
+  if (tier == main_tier_) ++starts.in_main;
   if (!main_starts_) {
     starts.ways += std::min(pace.way(length_of(tier)), longest_way_);
     return;
   }
   const double way = pace.way(length_of(main_tier_));
   starts.ways += std::min(way, much_farther * typical_way_);
-  if (tier == main_tier_) ++in_main_;
   const int magnitude = way > 0.0 ? exponent_of(way / typical_way_) : -least_magnitude;
   const int last = static_cast<int>(magnitudes_.size()) - 1;
   ++magnitudes_[static_cast<std::size_t>(std::clamp(magnitude + least_magnitude, 0, last))];
@@ -92,7 +91,7 @@ void Tempo::adapt_main(double others) {
   int change = 0;
   double least = enough_cheaper * main_.rate(1.0, dimensions_, others);
   // Longer ones have to be tried: what searches find in them is not known well.
-  const bool may_grow = 2 * in_main_ > main_.bodies && 2.0 * typical_way_ <= longest_way_;
+  const bool may_grow = 2 * main_.in_main > main_.bodies && 2.0 * typical_way_ <= longest_way_;
   for (int powers = may_grow ? 1 : -1; powers >= -most_change; --powers) {
     const double changed = main_.rate(power_of_two(powers), dimensions_, others);
     if (powers == 0 || !(changed < least)) continue;
@@ -116,7 +115,11 @@ void Tempo::adapt_main(double others) {
 void Tempo::adapt_fast() {
   const double factor = power_of_two(powers_between_tiers);
   const double least = enough_cheaper * fast_.rate(1.0, dimensions_);
-  if (fast_.rate(factor, dimensions_) < least) {
+  if (2 * fast_.in_main > fast_.bodies) {
+    // Most bodies are in windows that are longer than the main one, which must be far too short.
+    main_tier_ = std::min(main_tier_ + powers_between_tiers, most_powers);
+    typical_way_ = std::min(typical_way_ * factor, longest_way_);
+  } else if (fast_.rate(factor, dimensions_) < least) {
     fast_way_ = std::min(fast_way_ * factor, longest_way_);
   } else if (fast_.rate(1.0 / factor, dimensions_) < least) {
     fast_way_ = std::max(fast_way_ / factor, typical_way_);

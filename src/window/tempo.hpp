@@ -70,9 +70,8 @@ class Tempo {
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [longest, dimensions, tier, way, fast_way, main, fast, in_main, magnitudes, main_starts, start] =
-        self;
-    archive(tier, way, fast_way, main, fast, in_main, magnitudes, main_starts, start);
+    auto& [longest, dimensions, tier, way, fast_way, main, fast, magnitudes, main_starts, start] = self;
+    archive(tier, way, fast_way, main, fast, magnitudes, main_starts, start);
   }
   /// For one that was read.
   bool is_sound() const;
@@ -83,8 +82,9 @@ class Tempo {
   /// Bodies that have started, and what that has cost.
   struct Starts {
     std::uint64_t bodies = 0;
-    double ways = 0.0;    ///< sum
-    double widths = 0.0;  ///< sum
+    std::uint64_t in_main = 0;  ///< of them, in a main window
+    double ways = 0.0;          ///< sum
+    double widths = 0.0;        ///< sum
     SearchCost cost;
 
     /// Per time that is gained by it, in relation to windows of today's length, if windows last so many times
@@ -92,8 +92,8 @@ class Tempo {
     double rate(double times_longer, int dimensions, double others = 0.0) const;
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
-      auto& [count, way, width, searches] = self;
-      archive(count, way, width, searches);
+      auto& [count, most, way, width, searches] = self;
+      archive(count, most, way, width, searches);
     }
   };
 
@@ -107,7 +107,6 @@ class Tempo {
   double fast_way_ = 0.0;  ///< those that are much faster than most go no farther in their windows
   Starts main_;            ///< when most bodies started
   Starts fast_;            ///< of those that have started between
-  std::uint64_t in_main_ = 0;  ///< have started in a main window
   /// How many went about 2^(k - least_magnitude) times the typical way, or less for k = 0.
   std::array<std::uint64_t, 64> magnitudes_{};
   bool main_starts_ = false;  ///< most bodies are starting

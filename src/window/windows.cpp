@@ -171,8 +171,8 @@ void Windows::sort(std::uint32_t layer) {
       [this](std::uint32_t number, std::uint32_t place) { registrations_[number].place = place; });
 }
 
-/// Calls finds(place) for what may be near in one layer, in this image of it, from now on until `end` or until
-/// the window of the layer ends.
+/// Calls finds(place) for what may be near in one layer, in this image of it, from now on until `end` or
+/// until the window of the layer ends.
 template <class Finds>
 void Windows::search_image(const Member& member, const RoomyBound& bound, double now, double end, Finds finds,
                            Scratch& scratch) const {

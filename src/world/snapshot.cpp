@@ -58,9 +58,9 @@ void World::Engine::transfer(Self& self, Archive& archive) {
   // The definition comes first, as an engine is made from it, space and walls too. The tag is left out
   // (BodyId::world). The last ones matter only during advance().
   auto& [definition, tag, space, enclosure, book, time, size, bodies, changes, rests, filters, middles,
-         images, free, shapes, free_shapes, windows, tempo, agenda, dirty, counters,
-         sensors, pair_filter, filtering, gathering, probe, probing_call, probing, probe_ids, probe_states,
-         round, hot, scratch] = self;
+         images, free, shapes, free_shapes, windows, tempo, agenda, dirty, counters, sensors, pair_filter,
+         filtering, gathering, probe, probing_call, probing, probe_ids, probe_states, round, hot, scratch] =
+      self;
   archive(book, time, size, bodies, changes, rests, filters, middles, images, free, shapes, free_shapes,
           windows, tempo, scratch.cost, dirty, counters, sensors, filtering, gathering);
   // Of the agenda what counts, in an order of its own: not what is void, nor how it has divided time.
@@ -136,8 +136,7 @@ bool World::Engine::agenda_is_sound() const {
   };
   const auto is_sound = [&](const HotPair& pair) {
     if (!(pair.time < infinity) || !takes_part(pair.first)) return false;
-    if (pair.second == HotPair::walls)
-      return walls_ && !bodies_[pair.first].is_fixed() && !is_void(pair);
+    if (pair.second == HotPair::walls) return walls_ && !bodies_[pair.first].is_fixed() && !is_void(pair);
     return pair.first < pair.second && takes_part(pair.second) && !is_void(pair) &&
            !(bodies_[pair.first].is_fixed() && bodies_[pair.second].is_fixed());
   };
