@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "bound/encounter.hpp"
 #include "kinesphere/vec3.hpp"
@@ -40,17 +41,22 @@ struct Capsule {
 /// A capsule that contains a body from `now`, the time to which `moved` has been moved on, for `duration`,
 /// with `room` around it. The radius has 2^-18 of the size of all numbers that go into a search beyond that,
 /// which covers its roundings, and 2^-100 units, which cover what underflows (docs/guarantee.md, "The
-/// search").
+/// search"). Where the numbers are so large that a search could not compute with them, the capsule is
+/// everywhere: where the square of a velocity overflows, a search does not see that bodies meet.
 inline Capsule capsule_of(const MovedBound& moved, double now, double duration, double room,
                           const CapsuleFrame& frame) {
   constexpr double part_lost = 0x1p-18;
   constexpr double underflow = 0x1p-100;
+  constexpr double largest_speed = 0x1p60;
+  constexpr double largest_size = 0x1p120;
   const double back = now - frame.origin;
   const Vec3 centre = moved.centre - frame.base - moved.velocity * back;
   const double radius = moved.radius_after(duration) + room;
   const double speed = norm_one(moved.velocity);
   const double size = norm_one(moved.centre - frame.base) + 2.0 * speed * back + speed * duration + radius;
   const double per_way = frame.per_length / frame.per_time;
+  if (!(speed * per_way < largest_speed && size * frame.per_length < largest_size))
+    return {.radius = std::numeric_limits<float>::infinity()};
   Capsule capsule;
   for (int axis = 0; axis < 3; ++axis) {
     capsule.centre[static_cast<std::size_t>(axis)] = static_cast<float>(centre[axis] * frame.per_length);

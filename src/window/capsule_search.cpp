@@ -11,8 +11,8 @@
 
 // Two capsules are apart during the span if the distance of their centres, which is least at a time s that
 // one division gives, is more than the sum of their radii. As squares: no root. Where numbers are too small
-// for their squares nothing is certain; neither where they are too large: no comparison with what is not a
-// number holds.
+// for their squares nothing is certain; neither where radii are too large for that, or something is not a
+// number: then no comparison holds.
 #ifndef KINESPHERE_WINDOW_CAPSULE_SEARCH_CONSTANTS
 #define KINESPHERE_WINDOW_CAPSULE_SEARCH_CONSTANTS
 namespace kinesphere::capsule_search {

@@ -21,7 +21,7 @@ struct Run {
 using CapsuleColumns = std::array<const float*, 7>;
 inline constexpr std::size_t capsule_padding = 16;
 
-/// A capsule, and a span of time in which to look at it, both in the frame of the table.
+/// A capsule, and a span of time in which to look at it, from <= to, both in the frame of the table.
 struct CapsuleQuery {
   Capsule capsule;
   float from;
@@ -30,9 +30,8 @@ struct CapsuleQuery {
 
 /// Writes the places, in the order of the runs, of all capsules that may touch the query's during the span;
 /// `found` has room for all places of all runs. Returns how many there are. Every capsule that does touch it
-/// is among them, and a number that overflows makes a capsule one of them. The same on all processors, to the
-/// bit: the best vectors of this one are used (Google Highway), and near_capsules_plain() is the same
-/// without.
+/// is among them, if speeds are as capsule_of() lets them be. The same on all processors, to the bit: the
+/// best vectors of this one are used (Google Highway), and near_capsules_plain() is the same without.
 std::size_t near_capsules(const CapsuleColumns& table, std::span<const Run> runs, const CapsuleQuery& query,
                           std::uint32_t* found);
 std::size_t near_capsules_plain(const CapsuleColumns& table, std::span<const Run> runs,

@@ -151,7 +151,19 @@ Layer::Cell Layer::Grid::cell_at(std::uint32_t index) const {
   return cell;
 }
 
-/// How far corners reach out of a cell, or of one that shares its capsules.
+bool Layer::Grid::is_sound() const {
+  constexpr auto most = static_cast<std::int32_t>(most_cells);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float size = edge[axis];
+    if (!(size > 0.0f && size < std::numeric_limits<float>::infinity() && per_edge[axis] == 1.0f / size) ||
+        first[axis] < -most || first[axis] > most)
+      return false;
+  }
+  return true;
+}
+
+/// How far corners reach out of a cell, or of one that shares its capsules; a little more, as what is added
+/// to it or taken from it may be lost in rounding.
 float Layer::overhang(std::uint32_t cell, const Corners& corners) const {
   const Cell wrapped = grid_.cell_at(cell);
   float most = 0.0f;
@@ -168,7 +180,7 @@ float Layer::overhang(std::uint32_t cell, const Corners& corners) const {
     for (const float out : {below, above})
       if (!(out <= most)) most = out;
   }
-  return most < infinity ? most : std::numeric_limits<float>::infinity();
+  return most < infinity ? most * (1.0f + 0x1p-20f) : std::numeric_limits<float>::infinity();
 }
 
 Layer::Corners Layer::corners_at(std::uint32_t place) const {
@@ -373,9 +385,7 @@ bool Layer::is_sound() const {
   }
   return starts_.size() == cells + 1 && starts_.front() == 0 && starts_.back() == sorted_ &&
          std::is_sorted(starts_.begin(), starts_.end()) &&
-         std::all_of(
-             grid_.edge.begin(), grid_.edge.end(),
-             [](float edge) { return edge > 0.0f && edge < std::numeric_limits<float>::infinity(); }) &&
+         grid_.is_sound() &&
          reach_ >= 0.0f && widest_ >= 0.0f && coarseness_ >= 1.0f;
 }
 

@@ -126,6 +126,7 @@ class Layer {
     Cell cell_around(const Corners& corners) const;
     std::uint32_t index_of(const Corners& corners) const;
     Cell cell_at(std::uint32_t index) const;
+    bool is_sound() const;
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
       auto& [edge, per_edge, first, count] = self;

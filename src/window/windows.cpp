@@ -41,6 +41,12 @@ void note_cost(Windows::Scratch& scratch, std::size_t found) {
 /// What stands still is as large as it is, for however long.
 double duration_until(double end, double now) { return end < infinity ? end - now : 0.0; }
 
+bool is_within_a_period(const Box& box, const Space& space) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (space.repeats(axis) && !(box.upper[axis] - box.lower[axis] < space.period()[axis])) return false;
+  return true;
+}
+
 }  // namespace
 
 void Windows::reserve(std::size_t bodies) { registrations_.reserve(bodies); }
@@ -214,6 +220,11 @@ void Windows::search(const Member& member, const RoomyBound& bound, double now, 
   for (int axis = 0; axis < 3; ++axis) {
     box.lower[axis] = std::min(bound.moved.centre[axis], last[axis]) - radius;
     box.upper[axis] = std::max(bound.moved.centre[axis], last[axis]) + radius;
+  }
+  if (!is_within_a_period(box, space_)) {
+    // It may overlap several images of all: a search of one would not do.
+    for (std::uint32_t place = 0; place < member.layer.places(); ++place) finds(place, true);
+    return;
   }
   space_.for_each_image(box, member.layer.widest() / member.layer.frame().per_length,
                         [&](const Box&, const Vec3& shift) { search_shifted(shift); });

@@ -1,0 +1,463 @@
+// Whoever may meet before a window ends is found: bodies of all sizes and speeds that enter, leave and start
+// anew, in all kinds of space, against a plain look at all pairs.
+#include "window/windows.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "archive/archive.hpp"
+#include "archive/fields.hpp"
+#include "kinesphere/random.hpp"
+#include "number/powers.hpp"
+#include "support/bound_cases.hpp"
+#include "support/true_balls.hpp"
+
+namespace kinesphere {
+namespace {
+
+constexpr std::uint64_t seed = 4501;
+
+/// Sizes and speeds as powers of two of `unit`, a length, and of that in a unit of time. The room around the
+/// smallest is more than the roundings of its place.
+struct Kind {
+  const char* name;
+  int dimensions = 3;
+  Axes periodic{};
+  std::array<int, 2> radius{-2, -1};
+  std::array<int, 2> speed{-2, 1};
+  double standing = 0.1;  ///< part of the bodies
+  bool curved = false;
+  std::uint32_t bodies = 50;
+  double unit = 1.0;
+  double start_time = 0.0;
+  Vec3 place{};
+
+  friend std::ostream& operator<<(std::ostream& out, const Kind& kind) { return out << kind.name; }
+};
+
+const std::vector<Kind> kinds{
+    {.name = "alike", .standing = 0.0, .bodies = 200},
+    {.name = "mixed", .radius = {-8, 2}, .speed = {-10, 6}},
+    {.name = "flat", .dimensions = 2, .radius = {-3, 0}, .bodies = 200},
+    {.name = "periodic", .periodic = {true, true, true}, .radius = {-5, 0}},
+    {.name = "periodic_and_flat", .dimensions = 2, .periodic = {true, true, false}, .radius = {-5, 0}},
+    {.name = "periodic_on_one_axis", .periodic = {false, true, false}, .radius = {-5, 0}, .speed = {-10, 6}},
+    {.name = "curved", .radius = {-4, 0}, .curved = true},
+    {.name = "periodic_and_curved", .periodic = {true, true, true}, .radius = {-4, 0}, .curved = true},
+    {.name = "far_away", .start_time = 1e6, .place = {1e7, -1e7, 1e7}},
+    {.name = "tiny", .radius = {-8, 2}, .unit = 0x1p-60, .start_time = -3e4, .place = {1e-12, 0, 0}},
+    {.name = "immense", .radius = {-8, 2}, .unit = 0x1p90},
+    {.name = "of_all_speeds", .speed = {-90, 60}},
+    {.name = "of_all_sizes", .radius = {-35, 3}, .speed = {-30, 10}},
+    {.name = "standing", .standing = 1.0},
+};
+
+/// Half the edge of the box in which bodies are, in units.
+constexpr double half_edge = 8.0;
+
+Space space_of(const Kind& kind) {
+  const double half = half_edge * kind.unit;
+  const Vec3 corner{half, half, half};
+  return Space({.box = Box{kind.place - corner, kind.place + corner},
+                .periodic = kind.periodic,
+                .dimensions = kind.dimensions});
+}
+
+class Playground {
+ public:
+  Playground(const Kind& kind, Random& random)
+      : kind_(kind), random_(random), space_(space_of(kind)), windows_(space_), now_(kind.start_time) {
+    room_ = kind.unit * std::ldexp(1.0, kind.radius[0] - 3);
+    for (int z = -1; z <= 1; ++z)
+      for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x) {
+          const Vec3 images{double(x), double(y), double(z)};
+          const Vec3 shift = space_.shift_of(images);
+          if (shift != Vec3{}) shifts_.push_back(shift);
+        }
+    std::sort(shifts_.begin(), shifts_.end(),
+              [](const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
+    shifts_.erase(std::unique(shifts_.begin(), shifts_.end()), shifts_.end());
+    shifts_.push_back({});
+    bounds_.resize(kind_.bodies);
+    registered_.resize(kind_.bodies);
+    for (Bound& bound : bounds_) bound = draw();
+  }
+
+  void act() {
+    const std::uint64_t choice = random_.bits() % 100;
+    if (choice < 35) return enter(any());
+    if (choice < 42) return leave(any());
+    if (choice < 45) return start(true);
+    if (choice < 50) return windows_.tidy();
+    if (choice < 60) return expect_in_box();
+    if (choice < 65) return read_back();
+    if (choice < 70) return expect_near(any());
+    const double ahead = now_ + random_.uniform();
+    if (windows_.next_end() > ahead) {
+      now_ = ahead;
+    } else {
+      now_ = windows_.next_end();
+      start(false);
+    }
+  }
+
+  void expect_sound() {
+    EXPECT_TRUE(windows_.is_sound(kind_.bodies));
+    std::size_t registered = 0, moving = 0;
+    for (std::uint32_t number = 0; number < kind_.bodies; ++number) {
+      ASSERT_EQ(windows_.contains(number), registered_[number]) << number;
+      if (!registered_[number]) continue;
+      ++registered;
+      if (windows_.end_of(number) < infinity) ++moving;
+      EXPECT_EQ(windows_.check(number), std::nullopt);
+      EXPECT_GT(windows_.end_of(number), now_);
+      EXPECT_GE(windows_.end_of(number), windows_.next_end());
+      expect_in_its_box(number);
+    }
+    EXPECT_EQ(windows_.size(), registered);
+    EXPECT_FALSE(registered > 0 && windows_.is_sound(registered - 1)) << "more are registered than there are";
+    EXPECT_EQ(windows_.moving(), moving);
+    std::size_t in_cells = 0;
+    windows_.for_each_cell([&](const Box&, std::size_t count) { in_cells += count; });
+    EXPECT_EQ(in_cells, registered);
+    if (registered == 0) {
+      EXPECT_EQ(windows_.least_width(), infinity);
+    } else {
+      EXPECT_GT(windows_.least_width(), 0.0);
+    }
+  }
+
+  std::size_t met() const { return met_; }
+  std::size_t apart() const { return apart_; }
+
+ private:
+  Bound draw() {
+    const auto centre = [&] { return half_edge * random_.uniform(-1.0, 1.0); };
+    const double speed = kind_.unit * log_uniform(random_, kind_.speed[0], kind_.speed[1]);
+    Bound bound{.time = now_,
+                .position = kind_.place + kind_.unit * Vec3{centre(), centre(), centre()},
+                .velocity = speed * random_.unit_vector(),
+                .radius = kind_.unit * log_uniform(random_, kind_.radius[0], kind_.radius[1])};
+    if (kind_.curved) {
+      bound.planned_acceleration = speed * random_.point_in_ball();
+      bound.growth_speed = 0.1 * speed * random_.uniform();
+      bound.growth_acceleration = 0.5 * speed * random_.uniform();
+    }
+    if (chance(random_, kind_.standing)) {
+      bound.velocity = bound.planned_acceleration = {};
+      bound.growth_speed = bound.growth_acceleration = 0.0;
+    }
+    if (space_.is_flat()) bound.position.z = bound.velocity.z = bound.planned_acceleration.z = 0.0;
+    return bound;
+  }
+  std::uint32_t any() { return static_cast<std::uint32_t>(random_.bits() % kind_.bodies); }
+  RoomyBound roomy(std::uint32_t number) const { return {MovedBound(bounds_[number], now_), room_}; }
+  static bool stands(const Bound& bound) {
+    return bound.velocity == Vec3{} && bound.growth_speed + bound.growth_acceleration == 0.0;
+  }
+
+  /// The body goes on as before, perhaps with a new report, or is somewhere else.
+  void report(std::uint32_t number) {
+    Bound& bound = bounds_[number];
+    // What has grown for too long is so large that nobody asks for it.
+    const bool old = now_ - bound.time > 1.0;
+    if (!old && chance(random_, 0.3)) return;
+    if (chance(random_, 0.4)) {
+      bound = draw();
+    } else {
+      bound.position = bound.centre_at(now_);
+      bound.time = now_;
+      if (!stands(bound) && norm_one(bound.position - kind_.place) > 100.0 * half_edge * kind_.unit)
+        bound = draw();
+    }
+  }
+
+  double width(std::uint32_t number, double duration) const {
+    const auto [moved, room] = roomy(number);
+    const Vec3& v = moved.velocity;
+    return 2.0 * (moved.radius_after(duration) + room) +
+           std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) * duration;
+  }
+  /// As in the engine: where space repeats, no body's capsule is as wide as half a period.
+  Window window_to_start(std::uint32_t number) const {
+    if (stands(bounds_[number])) return Windows::endless();
+    const double speed = norm(bounds_[number].velocity_at(now_)) + bounds_[number].growth_speed;
+    const int tier = std::clamp(exponent_of(kind_.unit / speed), -70, 2);
+    Window window = Windows::window_at(now_, tier + static_cast<int>(number % 3));
+    while (space_.repeats() && width(number, window.end - now_) > 0.9 * half_edge * kind_.unit)
+      window = Windows::window_at(now_, window.tier - 1);
+    return window;
+  }
+  void bring_home(std::uint32_t number, double duration) {
+    const auto [moved, room] = roomy(number);
+    const Vec3 middle = moved.centre + 0.5 * duration * moved.velocity;
+    bounds_[number].position -= space_.shift_of(space_.wrapped(middle).images);
+  }
+  static double duration_until(double end, double now) { return end < infinity ? end - now : 0.0; }
+
+  void enter(std::uint32_t number) {
+    report(number);
+    Window window = window_to_start(number);
+    if (registered_[number] && window.end < infinity && windows_.end_of(number) <= window.end)
+      window = {windows_.tier_of(number), windows_.end_of(number)};
+    bring_home(number, duration_until(window.end, now_));
+    windows_.enter(number, roomy(number), now_, window);
+    registered_[number] = true;
+    EXPECT_EQ(windows_.end_of(number), window.end);
+    EXPECT_EQ(windows_.tier_of(number), window.tier);
+    expect_near(number);
+  }
+  void leave(std::uint32_t number) {
+    if (!registered_[number]) return;
+    windows_.leave(number);
+    registered_[number] = false;
+  }
+
+  /// Whether two kind_.bodies, with the room around them, truly come together while both are in their
+  /// windows.
+  bool meet(std::uint32_t a, std::uint32_t b) {
+    const double until = std::min(windows_.end_of(a), windows_.end_of(b));
+    Extended least = infinity;
+    for (const Vec3& shift : shifts_)
+      least = std::min(least,
+                       least_true_gap(bounds_[a], bounds_[b], now_, until < infinity ? until : now_, shift));
+    const bool together = least <= Extended{2.0 * room_};
+    ++(together ? met_ : apart_);
+    return together;
+  }
+  void expect_near(std::uint32_t number) {
+    if (!registered_[number]) return;
+    const auto found = windows_.near(number, roomy(number), now_, scratch_);
+    const std::set<std::uint32_t> near(found.begin(), found.end());
+    EXPECT_TRUE(space_.repeats() || near.size() == found.size()) << "found twice";
+    EXPECT_FALSE(near.contains(number));
+    for (std::uint32_t other = 0; other < kind_.bodies; ++other) {
+      if (!registered_[other]) {
+        EXPECT_FALSE(near.contains(other));
+      } else if (other != number && !near.contains(other)) {
+        ASSERT_FALSE(meet(number, other)) << bounds_[number] << "\n" << bounds_[other];
+      }
+    }
+  }
+
+  void start(bool all) {
+    std::vector<std::uint32_t> round = windows_.ended(now_, all);
+    std::set<std::uint32_t> expected;
+    for (std::uint32_t number = 0; number < kind_.bodies; ++number) {
+      const double end = registered_[number] ? windows_.end_of(number) : infinity;
+      if (all ? end < infinity : end <= now_) expected.insert(number);
+    }
+    ASSERT_EQ(std::set(round.begin(), round.end()), expected);
+    ASSERT_EQ(round.size(), expected.size());
+    windows_.end_windows(now_, all);
+    for (std::uint32_t number = 0; number < kind_.bodies; ++number)
+      ASSERT_EQ(windows_.contains(number), registered_[number] && !expected.contains(number));
+    // Some join them.
+    for (std::uint32_t number = 0; number < kind_.bodies; ++number)
+      if (!registered_[number] && !stands(bounds_[number]) && chance(random_, all ? 0.8 : 0.1))
+        round.push_back(number);
+    std::set<std::uint32_t> started;
+    for (const std::uint32_t number : round) {
+      report(number);
+      registered_[number] = false;
+      Window window = window_to_start(number);
+      if (window.end == infinity) continue;
+      while (!windows_.is_free(window)) window = Windows::window_at(now_, window.tier - 3);
+      bring_home(number, window.end - now_);
+      windows_.start(number, roomy(number), now_, window);
+      registered_[number] = true;
+      started.insert(number);
+      EXPECT_EQ(windows_.end_of(number), window.end);
+    }
+    windows_.finish_start();
+    expect_pairs_of(started);
+  }
+  void expect_pairs_of(const std::set<std::uint32_t>& started) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> pairs;
+    std::set<std::uint32_t> numbers;
+    for (std::size_t k = 0; k < windows_.started(); ++k) {
+      const std::uint32_t number = windows_.started_number(k);
+      EXPECT_TRUE(numbers.insert(number).second);
+      const auto bound_of = [this](std::uint32_t body) { return roomy(body); };
+      for (const std::uint32_t other : windows_.near_started(k, now_, bound_of, scratch_)) {
+        ASSERT_TRUE(other < kind_.bodies && registered_[other]);
+        ++pairs[std::minmax(number, other)];
+      }
+    }
+    ASSERT_EQ(numbers, started);
+    for (const auto& [pair, times] : pairs) {
+      EXPECT_NE(pair.first, pair.second);
+      EXPECT_TRUE(space_.repeats() || times == 1) << "found twice";
+    }
+    for (const std::uint32_t a : started)
+      for (std::uint32_t b = 0; b < kind_.bodies; ++b) {
+        if (a == b || !registered_[b] || (b < a && started.contains(b))) continue;
+        if (pairs.contains(std::minmax(a, b))) continue;
+        ASSERT_FALSE(meet(a, b)) << bounds_[a] << "\n" << bounds_[b];
+      }
+  }
+
+  void expect_in_its_box(std::uint32_t number) {
+    const Box box = windows_.box_of(number, now_);
+    const double duration = duration_until(windows_.end_of(number), now_);
+    constexpr int samples = 4;
+    for (int k = 0; k <= samples; ++k) {
+      const TrueBall ball = true_ball(bounds_[number], Extended{now_} + Extended{duration} * k / samples);
+      for (int axis = 0; axis < kind_.dimensions; ++axis) {
+        const auto along = static_cast<std::size_t>(axis);
+        ASSERT_LE(Extended{box.lower[axis]}, ball.centre[along] - ball.radius) << bounds_[number];
+        ASSERT_GE(Extended{box.upper[axis]}, ball.centre[along] + ball.radius) << bounds_[number];
+      }
+    }
+    if (space_.is_flat()) {
+      EXPECT_EQ(box.lower.z, 0.0);
+      EXPECT_EQ(box.upper.z, 0.0);
+    }
+  }
+
+  void expect_in_box() {
+    const auto half = [&] { return kind_.unit * log_uniform(random_, -4, 4); };
+    const Vec3 size{half(), half(), half()};
+    const auto centre = [&] { return half_edge * random_.uniform(-2.0, 2.0); };
+    Vec3 middle = kind_.place + kind_.unit * Vec3{centre(), centre(), centre()};
+    if (space_.is_flat()) middle.z = 0.0;
+    const Box box{middle - size, middle + size};
+    const auto found = windows_.in_box(box, now_, scratch_);
+    const std::set<std::uint32_t> numbers(found.begin(), found.end());
+    for (std::uint32_t number = 0; number < kind_.bodies; ++number) {
+      if (!registered_[number]) {
+        EXPECT_FALSE(numbers.contains(number));
+      } else if (!numbers.contains(number)) {
+        ASSERT_FALSE(reaches(number, box)) << bounds_[number];
+      }
+    }
+  }
+  /// In any image.
+  bool reaches(std::uint32_t number, const Box& box) const {
+    const TrueBall ball = true_ball(bounds_[number], now_);
+    Extended square = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Extended period = space_.period()[axis];
+      Extended least = infinity;
+      for (int image = -6; image <= 6; ++image) {
+        const Extended at = ball.centre[static_cast<std::size_t>(axis)] + image * period;
+        const Extended below = Extended{box.lower[axis]} - at, above = at - Extended{box.upper[axis]};
+        least = std::min(least, std::max({below, above, Extended{0}}));
+      }
+      square += least * least;
+    }
+    return std::sqrt(square) <= ball.radius;
+  }
+
+  /// What went to bytes and back does the same from there on.
+  void read_back() {
+    ByteWriter writer;
+    writer(windows_);
+    Windows back(space_);
+    back.enter(3, roomy(3), now_, Windows::endless());  // what was there before is forgotten
+    ByteReader reader(writer.bytes());
+    reader(back);
+    ASSERT_FALSE(reader.failed());
+    EXPECT_EQ(reader.remaining(), 0u);
+    ASSERT_TRUE(back.is_sound(kind_.bodies));
+    ByteWriter again;
+    again(back);
+    ASSERT_EQ(again.bytes(), writer.bytes());
+    for (std::uint32_t number = 0; number < kind_.bodies; ++number) {
+      if (!registered_[number]) continue;
+      Windows::Scratch scratch;
+      const auto here = windows_.near(number, roomy(number), now_, scratch_);
+      const auto there = back.near(number, roomy(number), now_, scratch);
+      ASSERT_TRUE(std::equal(here.begin(), here.end(), there.begin(), there.end()));
+    }
+    windows_ = back;
+  }
+
+  const Kind& kind_;
+  Random& random_;
+  Space space_;
+  Windows windows_;
+  Windows::Scratch scratch_;
+  double now_;
+  double room_ = 0.0;
+  std::vector<Vec3> shifts_;
+  std::vector<Bound> bounds_;
+  std::vector<bool> registered_;
+  std::size_t met_ = 0;
+  std::size_t apart_ = 0;
+};
+
+class WindowsOf : public testing::TestWithParam<Kind> {};
+
+TEST_P(WindowsOf, OverlookNobody) {
+  std::size_t apart = 0;
+  for (std::uint64_t stream = 0; stream < 3; ++stream) {
+    Random random = Random::at(seed, stream, 0);
+    Playground playground(GetParam(), random);
+    for (int action = 0; action < 250; ++action) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", stream " << stream << ", action " << action);
+      playground.act();
+      if (action % 10 == 9) playground.expect_sound();
+      if (HasFailure()) return;
+    }
+    apart += playground.apart();
+  }
+  EXPECT_GT(apart, 0u) << "not all are near all";
+}
+
+std::string kind_name(const testing::TestParamInfo<Kind>& info) { return info.param.name; }
+INSTANTIATE_TEST_SUITE_P(Windows, WindowsOf, testing::ValuesIn(kinds), kind_name);
+
+TEST(Windows, OfOneLengthBeginAndEndAtItsMultiples) {
+  Random random(seed);
+  for (int k = 0; k < 20000; ++k) {
+    const double size = log_uniform(random, -100, 100);
+    const double now = chance(random, 0.1) ? 0.0 : random.uniform(-1.0, 1.0) * size;
+    const int tier = static_cast<int>(random.bits() % 300) - 150;
+    const Window window = Windows::window_at(now, tier);
+    const double length = std::ldexp(1.0, window.tier);
+    ASSERT_GE(window.tier, tier) << "seed " << seed << ", case " << k;
+    if (std::ldexp(1.0, tier) > 0x1p-49 * std::abs(now)) {
+      ASSERT_EQ(window.tier, tier);
+    }
+    ASSERT_LT(now, window.end);
+    ASSERT_LE(window.end - length, now);
+    ASSERT_EQ(window.end / length, std::floor(window.end / length));
+    // Where it ends all shorter ones end.
+    const Window shorter = Windows::window_at(now, tier - 3);
+    ASSERT_LE(shorter.end, window.end);
+    ASSERT_EQ(Windows::window_at(now, Windows::shortest).tier, Windows::window_at(now, -310).tier);
+  }
+}
+
+TEST(Windows, SearchesLookAtFewOfMany) {
+  for (const bool mixed : {false, true}) {
+    Random random(seed);
+    Windows windows{Space{}};
+    std::vector<RoomyBound> bounds;
+    constexpr std::uint32_t many = 3000;
+    for (std::uint32_t number = 0; number < many; ++number) {
+      const Bound bound{.position = 25.0 * random.point_in_ball(),
+                        .velocity = random.point_in_ball(),
+                        .radius = log_uniform(random, mixed ? -8 : -1, -1)};
+      bounds.push_back({MovedBound(bound, 0.0), 0.0});
+      windows.start(number, bounds.back(), 0.0, Windows::window_at(0.0, 0));
+    }
+    windows.finish_start();
+    Windows::Scratch scratch;
+    for (std::size_t k = 0; k < windows.started(); ++k)
+      windows.near_started(
+          k, 0.0, [&](std::uint32_t number) { return bounds[number]; }, scratch);
+    EXPECT_LT(scratch.cost.capsules, std::uint64_t{many} * many / 20) << mixed;
+    EXPECT_LT(scratch.cost.found, std::uint64_t{many} * 20) << mixed;
+    EXPECT_GT(scratch.cost.found, 100u) << mixed;
+  }
+}
+
+}  // namespace
+}  // namespace kinesphere
