@@ -19,6 +19,8 @@ constexpr std::size_t too_few_in_a_cell = 3;
 /// So few are in one cell: a search looks at all of them.
 constexpr std::size_t few = 32;
 constexpr std::size_t too_many_in_a_cell = 24;
+/// Many times the widest capsule, which may be far less wide than a unit.
+constexpr float coarsest = 0x1p100f;
 
 /// Whole numbers of cells stay below this, so that sums of some do not overflow.
 constexpr float most_cells = 0x1p29f;
@@ -199,6 +201,7 @@ void Layer::choose_grid() {
     const Corners corners = corners_at(place);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const float middle = 0.5f * (corners.lower[axis] + corners.upper[axis]);
+      if (!(std::abs(middle) < most_cells)) continue;
       lower[axis] = std::min(lower[axis], middle);
       upper[axis] = std::max(upper[axis], middle);
       const float width = corners.upper[axis] - corners.lower[axis];
@@ -268,7 +271,7 @@ void Layer::sort_places() {
     filled_ = filled_cubes();
     const std::size_t filled = filled_;
     const float before = coarseness_;
-    if (cell_count > 1 && size() < too_few_in_a_cell * filled) {
+    if (cell_count > 1 && size() < too_few_in_a_cell * filled && coarseness_ < coarsest) {
       coarseness_ *= 2.0f;
       choose_grid();
       if (coarseness_ > before) continue;
@@ -376,6 +379,7 @@ bool Layer::is_sound() const {
     if (column.size() < filled) return false;
   const auto holes = static_cast<std::size_t>(std::count(numbers_.begin(), numbers_.end(), nobody));
   if (holes != holes_ || sorted_ > numbers_.size()) return false;
+  if (!(reach_ >= 0.0f && widest_ >= 0.0f && coarseness_ >= 1.0f && coarseness_ <= coarsest)) return false;
   if (sorted_ == 0) return true;
   std::size_t cells = 1;
   for (const std::int32_t count : grid_.count) {
@@ -384,9 +388,8 @@ bool Layer::is_sound() const {
     if (cells >= starts_.size()) return false;
   }
   return starts_.size() == cells + 1 && starts_.front() == 0 && starts_.back() == sorted_ &&
-         std::is_sorted(starts_.begin(), starts_.end()) &&
-         grid_.is_sound() &&
-         reach_ >= 0.0f && widest_ >= 0.0f && coarseness_ >= 1.0f;
+         std::is_sorted(starts_.begin(), starts_.end()) && grid_.is_sound() && reach_ >= 0.0f &&
+         widest_ >= 0.0f && coarseness_ >= 1.0f && coarseness_ <= coarsest;
 }
 
 std::size_t Layer::bytes() const {
