@@ -180,9 +180,9 @@ TEST(Divergence, IsNamedWithStepAndTime) {
     EXPECT_TRUE(message.starts_with("Replay::advance: recording, step ")) << message;
     EXPECT_NE(message.find(parts), std::string::npos) << message << " instead of " << parts;
   };
-  expect("step 3 of ", [](auto& steps) { std::get<step::Add>(steps[0]).body.position.x = -2.5; });
+  expect("step 3 of ", [](auto& steps) { std::get<step::Add>(steps[0]).body.position.x = -3.5; });
   expect(", but found a probe of body ",
-         [](auto& steps) { std::get<step::Add>(steps[0]).body.position.x = -2.5; });
+         [](auto& steps) { std::get<step::Add>(steps[0]).body.acceleration_limit = 2; });
   expect("expected a probe of body 9 at time ",
          [&](auto& steps) { asking(steps).answers[0].report.body.index = 9; });
   expect("expected a probe of body ", [&](auto& steps) { asking(steps).answers[0].last ^= true; });
