@@ -13,16 +13,20 @@ struct Counters {
   std::array<std::uint64_t, event_kind_count> events{};
   /// States asked for, one per body and call.
   std::uint64_t probes = 0;
-  /// Scheduled times that came due, and those of them that found nothing left to do.
-  std::uint64_t wakes = 0;
-  std::uint64_t stale_wakes = 0;
-  /// Why a body woke: its box ran out, a certificate of a pair did, a wall came within reach.
-  std::uint64_t box_ends = 0;
+  /// Times at which windows ended, and bodies whose windows did: for each of them a new one started.
+  std::uint64_t window_ends = 0;
+  std::uint64_t starts = 0;
+  /// Bodies about which nothing was known any more within their windows: new ones, kicked or changed ones,
+  /// those that broke a promise.
+  std::uint64_t restarts = 0;
+  /// Certified times that came due: of a pair, of a body and the walls.
   std::uint64_t pair_checks = 0;
   std::uint64_t wall_checks = 0;
-  /// Searches of the grid, and candidate pairs they gave.
+  /// Searches for all who may come near a body before a window ends, and how many they found; those of them
+  /// that may change before it does.
   std::uint64_t searches = 0;
   std::uint64_t candidates = 0;
+  std::uint64_t hot_pairs = 0;
   /// Certificates of pairs that were computed.
   std::uint64_t certificates = 0;
   /// Looks at a contact that the Zeno guard put off to the smallest step.
@@ -30,6 +34,8 @@ struct Counters {
   /// Contacts that came within the Zeno interval of an earlier one of the same body.
   std::uint64_t repeated_contacts = 0;
 
+  /// How often the world had to do something about a body, a pair or a body and the walls.
+  std::uint64_t steps() const { return starts + restarts + pair_checks + wall_checks; }
   std::uint64_t count(EventKind kind) const { return events[static_cast<std::size_t>(kind)]; }
 };
 

@@ -22,15 +22,14 @@ namespace kinesphere {
 /// Memory by part (bytes): what has been asked of the allocator, used yet or not, and 16 bytes a block, which
 /// is what allocators usually take for themselves; a node of a tree counts with four pointers.
 struct Memory {
-  std::size_t bodies = 0;     ///< definitions, bounds and boxes
-  std::size_t watches = 0;    ///< certificates of pairs
+  std::size_t bodies = 0;     ///< definitions and bounds
+  std::size_t windows = 0;    ///< until when each body is where, in the cells of layers
+  std::size_t pairs = 0;      ///< that may change before a window ends, and when
   std::size_t contacts = 0;   ///< who touches whom, and events on their way
-  std::size_t grid = 0;       ///< cells, and the boxes in them
-  std::size_t schedule = 0;   ///< who is due when
   std::size_t recording = 0;  ///< what has been recorded so far
   std::size_t other = 0;
 
-  std::size_t total() const { return bodies + watches + contacts + grid + schedule + recording + other; }
+  std::size_t total() const { return bodies + windows + pairs + contacts + recording + other; }
 };
 
 /// Real time spent (seconds) since World::set_timing(true).
@@ -40,10 +39,11 @@ struct Timings {
   double probes = 0.0;         ///< in the caller's probes
 };
 
-/// A cell of the grid that holds something. Cells are cubes, on levels each four times as large as the next.
+/// A cell that holds something. Bodies of about one size and speed share a layer, and each layer has cells of
+/// its own, which are cubes cut into four slices.
 struct CellView {
   Box box{};
-  std::size_t bodies = 0;  ///< whose registered boxes meet it
+  std::size_t bodies = 0;  ///< the middles of whose boxes lie in it
 };
 
 /// What is recorded of a pair: whether the two touch or sense each other does not change before `until`, as

@@ -83,16 +83,19 @@ SimulationObserver observer_of(const RunOptions& options, const Scene& scene, At
   return observer;
 }
 
-/// Why bodies were looked at, for detectors that schedule that.
-void add_wakes(Summary& summary, const Counters& counters) {
-  if (counters.wakes == 0) return;
-  const auto share = [&](std::uint64_t count) {
-    return percent(static_cast<double>(count), static_cast<double>(counters.wakes));
+/// Why the world had something to do.
+void add_steps(Summary& summary, const Counters& counters) {
+  if (counters.starts == 0) return;
+  const auto row = [&](const char* kind, std::uint64_t count) {
+    summary.row(kind, grouped(count),
+                percent(static_cast<double>(count), static_cast<double>(counters.steps())));
   };
-  summary.row("wakes", grouped(counters.wakes), fmt::format("{} stale", share(counters.stale_wakes)));
-  summary.row("  box ends", grouped(counters.box_ends), share(counters.box_ends));
-  summary.row("  pair checks", grouped(counters.pair_checks), share(counters.pair_checks));
-  summary.row("  wall checks", grouped(counters.wall_checks), share(counters.wall_checks));
+  summary.row("steps", grouped(counters.steps()),
+              fmt::format("{} ends of windows", grouped(counters.window_ends)));
+  row("  starts", counters.starts);
+  row("  restarts", counters.restarts);
+  row("  pair checks", counters.pair_checks);
+  row("  wall checks", counters.wall_checks);
 }
 
 /// What came to pass in the detectors of the papers.
@@ -129,7 +132,7 @@ std::string summary_of(const SceneParameters& parameters, const RunOptions& opti
   summary.space();
   summary.row("probes", grouped(counters.probes),
               fmt::format("{} per body-second", number(probes / result.body_time)));
-  add_wakes(summary, counters);
+  add_steps(summary, counters);
   add_paper_events(summary, counters);
   if (counters.searches > 0) {
     summary.row("searches", grouped(counters.searches),

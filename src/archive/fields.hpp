@@ -126,10 +126,10 @@ void transfer(Self& self, Archive& archive) {
 
 template <Some<Counters> Self, class Archive>
 void transfer(Self& self, Archive& archive) {
-  auto& [events, probes, wakes, stale_wakes, box_ends, pair_checks, wall_checks, searches, candidates,
-         certificates, zeno_steps, repeated_contacts] = self;
-  archive(events, probes, wakes, stale_wakes, box_ends, pair_checks, wall_checks, searches, candidates,
-          certificates, zeno_steps, repeated_contacts);
+  auto& [events, probes, window_ends, starts, restarts, pair_checks, wall_checks, searches, candidates,
+         hot_pairs, certificates, zeno_steps, repeated_contacts] = self;
+  archive(events, probes, window_ends, starts, restarts, pair_checks, wall_checks, searches, candidates,
+          hot_pairs, certificates, zeno_steps, repeated_contacts);
 }
 
 }  // namespace kinesphere

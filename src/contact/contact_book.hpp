@@ -17,7 +17,6 @@
 #include "contact/crossings.hpp"
 #include "contact/event_set.hpp"
 #include "contact/outlook.hpp"
-#include "memory/prefetch.hpp"
 
 namespace kinesphere {
 
@@ -44,9 +43,6 @@ class ContactBook {
     entries_[body].zeno_interval = Coarse();
     entries_[body].fixed = true;
   }
-
-  /// Of a body that will soon be asked for.
-  [[gnu::always_inline]] void fetch(std::uint32_t body) const { prefetch(entries_[body]); }
 
   // Who touches whom.
   bool touch(std::uint32_t a, std::uint32_t b) const;

@@ -20,7 +20,6 @@
 #include <cmath>
 
 #include "kinesphere/world_definition.hpp"
-#include "space/hash_grid.hpp"
 
 namespace kinesphere {
 
@@ -87,17 +86,6 @@ class Space {
   template <class Visit>
   void for_each_shift(const Box& box, const Box& other, Visit visit) const;
 
-  /// Calls visit(body) for each body whose box in the grid, registered with its centre in the primary box,
-  /// overlaps an image of `box`: once if both are narrower than half a period (and floats can tell), perhaps
-  /// several times otherwise. Cost: as HashGrid::for_each_overlap, for each image of the box that comes near
-  /// the primary one.
-  template <class Visit>
-  void for_each_overlap(const HashGrid& grid, const Box& box, Visit visit) const {
-    if (!repeats_)
-      return flat_ ? grid.for_each_overlap(within(box), visit) : grid.for_each_overlap(box, visit);
-    for_each_image(box, grid.largest_extent(),
-                   [&](const Box& image, const Vec3&) { grid.for_each_overlap(image, visit); });
-  }
   /// Calls visit(image, shift) for each image of a box that may overlap one of this extent at most with its
   /// centre in the primary box: the box itself where space does not repeat.
   template <class Visit>

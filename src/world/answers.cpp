@@ -8,20 +8,6 @@
 #include "world/present.hpp"
 
 namespace kinesphere {
-namespace {
-
-/// Within this the single precision of the grid can hold coordinates.
-constexpr double grid_limit = 1e37;
-constexpr Box everywhere{{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}};
-
-bool fits_grid(const Box& box) {
-  for (int axis = 0; axis < 3; ++axis)
-    if (!(box.lower[axis] >= -grid_limit && box.upper[axis] <= grid_limit)) return false;
-  return true;
-}
-
-}  // namespace
-
 World::Engine::Answers::Answers(const Engine& engine)
     : engine_(engine), now_(engine.time_), hot_(engine.hot_pairs()) {
   for (const auto& [a, b] : engine.book_.changed()) open_.insert(std::minmax(a, b));
@@ -171,28 +157,41 @@ Onset World::Engine::Answers::of_world() const {
   return first;
 }
 
+/// Until a horizon, in the image in which the middle of its way lies in the primary box.
+RoomyBound World::Engine::Answers::until_horizon(std::uint32_t number, double horizon) const {
+  if (body(number).is_fixed()) return engine_.roomy_bound(number);
+  Bound bound = guarded(number);
+  const Box box = swept_box(bound, now_, horizon);
+  bound.position -= engine_.space_.shift_of(engine_.space_.wrapped(0.5 * (box.lower + box.upper)).images);
+  return {MovedBound(bound, now_), 0.0};
+}
+
 /// Only bodies whose bounds come to the same place before first.time can make it sooner.
 void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t>& numbers,
                                                  Onset& first) const {
   if (first.time <= now_) return;
   const double horizon = first.time;
-  HashGrid grid;
-  std::vector<std::uint32_t> beyond_grid;
-  for (auto at = numbers.begin(); at != numbers.end(); ++at) {
-    const std::uint32_t number = *at;
-    const Box box = body(number).is_fixed() ? engine_.box_of_fixed(number)
-                    : horizon < infinity    ? swept_box(guarded(number), now_, horizon)
-                                            : everywhere;
-    if (fits_grid(box) && engine_.space_.is_narrow(box)) {
-      engine_.space_.for_each_overlap(grid, box,
-                                      [&](std::uint32_t other) { consider(number, other, first); });
-      for (const std::uint32_t other : beyond_grid) consider(number, other, first);
-      grid.set(number, engine_.space_.home(box));
+  Windows windows(engine_.space_);
+  std::vector<std::uint32_t> anywhere;
+  for (const std::uint32_t number : numbers) {
+    const bool fixed = body(number).is_fixed();
+    if (fixed ||
+        (horizon < infinity && engine_.space_.is_narrow(swept_box(guarded(number), now_, horizon)))) {
+      const Window window = fixed ? Windows::endless() : Window{0, horizon};
+      windows.start(number, until_horizon(number, horizon), now_, window);
     } else {
-      std::for_each(numbers.begin(), at, [&](std::uint32_t other) { consider(number, other, first); });
-      beyond_grid.push_back(number);
+      anywhere.push_back(number);
     }
   }
+  windows.finish_start();
+  Windows::Scratch scratch;
+  const auto bound_of = [&](std::uint32_t number) { return until_horizon(number, horizon); };
+  for (std::size_t k = 0; k < windows.started(); ++k)
+    for (const std::uint32_t other : windows.near_started(k, now_, bound_of, scratch))
+      consider(windows.started_number(k), other, first);
+  for (const std::uint32_t number : anywhere)
+    for (const std::uint32_t other : numbers)
+      if (other != number) consider(number, other, first);
 }
 
 DistanceLimits World::Engine::Answers::distance(std::uint32_t a, std::uint32_t b, double time) const {

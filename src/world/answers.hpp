@@ -71,6 +71,7 @@ class World::Engine::Answers {
   void consider(std::uint32_t a, std::uint32_t b, Onset& first) const;
   void consider_approach(std::uint32_t a, std::uint32_t b, double distance, Onset& first) const;
   void consider_approach_to_walls(std::uint32_t number, double distance, Onset& first) const;
+  RoomyBound until_horizon(std::uint32_t number, double horizon) const;
   void consider_all_within(const std::vector<std::uint32_t>& numbers, Onset& first) const;
 
   const Engine& engine_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <tuple>
 
 #include "number/infinity.hpp"
 
@@ -214,6 +215,32 @@ std::optional<BodyId> World::Engine::certain_overlap(BodyId id, const Extent& ex
     if (certain && (!found || other < found->index)) found = id_of(other);
   }
   return found;
+}
+
+std::optional<std::pair<std::size_t, std::size_t>> World::Engine::first_overlap(
+    std::span<const BodyDefinition> bodies) const {
+  const auto ball_of = [&](std::uint32_t number) {
+    const Bound bound = bound_now(bodies[number]);
+    const Vec3 centre = space_.wrapped(bound.centre_at(time_)).position;
+    const Bound ball{.time = time_, .position = centre, .radius = bound.radius};
+    return RoomyBound{MovedBound(ball, time_), definition_.contact_tolerance};
+  };
+  Windows windows(space_);
+  for (std::uint32_t number = 0; number < bodies.size(); ++number)
+    windows.start(number, ball_of(number), time_, Windows::endless());
+  windows.finish_start();
+  std::optional<std::pair<std::size_t, std::size_t>> least;
+  Windows::Scratch scratch;
+  for (std::size_t k = 0; k < windows.started(); ++k) {
+    for (const std::uint32_t other : windows.near_started(k, time_, ball_of, scratch)) {
+      const auto [first, second] = std::minmax(windows.started_number(k), other);
+      if (least && std::tie(least->second, least->first) <= std::tie(second, first)) continue;
+      if (certainly_overlap({bound_now(bodies[first])}, {bound_now(bodies[second])}) &&
+          may_touch(next_id(first), bodies[first], next_id(second), bodies[second]))
+        least = {first, second};
+    }
+  }
+  return least;
 }
 
 /// A capsule holds its body until its window ends, which is not past; only a change or a broken promise

@@ -155,6 +155,10 @@ class World::Engine {
   /// it.
   std::optional<BodyId> certain_overlap(BodyId id, const Extent& extent,
                                         const BodyDefinition& definition) const;
+  /// The first of new bodies that certainly overlaps one before it, and may touch it: as the second of a
+  /// pair, beside the first that it overlaps. Cost: a search for each.
+  std::optional<std::pair<std::size_t, std::size_t>> first_overlap(
+      std::span<const BodyDefinition> bodies) const;
   /// Whether the filters, and the predicate, let two bodies touch or sense each other.
   bool may_meet(BodyId a, const Filter& filter_a, BodyId b, const Filter& filter_b) const {
     return passes(filter_a, filter_b) && (!pair_filter_ || lets_meet(a, b));

@@ -31,10 +31,10 @@ class Stopwatch {
 
 Memory World::Engine::memory() const {
   Memory memory;
-  memory.watches = agenda_.bytes();
+  memory.pairs = agenda_.bytes();
   memory.bodies = heap_bytes(bodies_, middles_, changes_, rests_, filters_, images_);
   memory.contacts = heap_bytes(book_);
-  memory.grid = windows_.bytes();
+  memory.windows = windows_.bytes();
   memory.other = sizeof *this + heap_bytes(sensors_, free_, shapes_, free_shapes_, dirty_, probe_ids_,
                                            probe_states_, round_, hot_);
   return memory;

@@ -195,6 +195,9 @@ Result<void> World::Engine::start_windows(bool all, std::span<const std::uint32_
   windows_.end_windows(time_, all);
   // Those with a broken promise, too, are settled by themselves.
   std::erase_if(round, [this](std::uint32_t number) { return bodies_[number].dirty; });
+  ++counters_.window_ends;
+  counters_.starts += round.size();
+  counters_.restarts += joining.size();
   round.insert(round.end(), joining.begin(), joining.end());
   for (const std::uint32_t number : round) {
     if (windows_.contains(number)) windows_.leave(number);
@@ -249,6 +252,7 @@ Result<void> World::Engine::settle_dirty() {
     (alone ? round_ : joining).push_back(number);
   }
   if (anew || !tempo_.is_chosen()) choose_tempo(anew ? joining : round_);
+  counters_.restarts += round_.size();
   for (const std::uint32_t number : round_) enter(number);
   if (!joining.empty()) {
     if (auto started = start_windows(true, joining); !started) return started;
@@ -285,6 +289,7 @@ void World::Engine::find_hot_pairs(std::uint32_t number, std::span<const std::ui
     if (until == infinity) continue;
     hot_.push_back(hot_pair(until, number, other));
     ++scratch_.cost.hot;
+    ++counters_.hot_pairs;
   }
 }
 

@@ -74,25 +74,22 @@ Result<void> World::reserve(std::size_t bodies) {
 
 Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodies) {
   if (auto idle = Check(*this, "add_all").idle(); !idle) return idle.error();
-  HashGrid earlier;
-  for (std::uint32_t number = 0; number < bodies.size(); ++number) {
-    const std::string call = "add_all: bodies[" + std::to_string(number) + "]";
-    if (auto valid = Check(*this, call).new_body(bodies[number], engine_->next_id(number)); !valid)
-      return valid.error();
-    if (engine_->definition().allow_overlap) continue;
-    const Bound bound = engine_->bound_now(bodies[number]);
-    const Box box = engine_->box_now(bound);
-    std::optional<std::uint32_t> other;
-    engine_->space().for_each_overlap(earlier, box, [&](std::uint32_t candidate) {
-      const Bound placed = engine_->bound_now(bodies[candidate]);
-      const bool overlap = engine_->certainly_overlap({bound}, {placed}) &&
-                           engine_->may_touch(engine_->next_id(number), bodies[number],
-                                              engine_->next_id(candidate), bodies[candidate]);
-      if (overlap && (!other || candidate < *other)) other = candidate;
-    });
-    if (other) return overlap_error(call, no_body, "bodies[" + std::to_string(*other) + "]");
-    earlier.set(number, engine_->space().home(box));
+  const auto call_for = [](std::size_t number) { return "add_all: bodies[" + std::to_string(number) + "]"; };
+  std::size_t valid = 0;
+  std::optional<Error> wrong;
+  for (; valid < bodies.size() && !wrong; ++valid) {
+    const auto checked = Check(*this, call_for(valid)).new_body(bodies[valid], engine_->next_id(valid));
+    if (!checked) {
+      wrong = checked.error();
+      break;
+    }
   }
+  if (!engine_->definition().allow_overlap) {
+    if (const auto overlap = engine_->first_overlap(bodies.first(valid)))
+      return overlap_error(call_for(overlap->second), no_body,
+                           "bodies[" + std::to_string(overlap->first) + "]");
+  }
+  if (wrong) return *wrong;
   std::vector<BodyId> ids;
   ids.reserve(bodies.size());
   // Room for each of many small batches would be made one by one.

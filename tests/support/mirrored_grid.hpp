@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "space/hash_grid.hpp"
+#include "lab/index/hash_grid.hpp"
 
 namespace kinesphere {
 

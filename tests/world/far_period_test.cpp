@@ -55,8 +55,7 @@ class Meeting : public Playground {
                     .contact_tolerance = eps}),
         place(its_place),
         speed(0.99995 * longest_way(place) / window_length(place)),
-        goer(add(
-            {.radius = half_width, .position = {place.lower + start, 0, 0}, .velocity = {speed, 0, 0}})),
+        goer(add({.radius = half_width, .position = {place.lower + start, 0, 0}, .velocity = {speed, 0, 0}})),
         waiter(add({.radius = half_width, .position = {place.lower + 7, 900, 0}, .velocity = {-1, 0, 0}})) {
     distort = [this](BodyId, double, State& told) { told.position.x = place.wrapped(told.position.x); };
   }

@@ -137,7 +137,7 @@ TEST(PairFilter, MayReadBodiesOfTheWorldThatAsksIt) {
         }
         EXPECT_EQ(p.world.bodies().size(), p.world.size());
         EXPECT_GE(p.world.time(), p.world.definition().start_time);
-        EXPECT_LE(p.world.counters().wakes, 1000u);
+        EXPECT_LE(p.world.counters().steps(), 1000u);
         return p.world.sensor(0).distances.empty();
       })
       .value();

@@ -19,7 +19,7 @@ struct BusyCrowd : Crowd {
 TEST(Memory, GrowsWithTheBodiesAndBelongsToParts) {
   World world = World::create({}).value();
   const Memory none = world.memory();
-  EXPECT_EQ(none.bodies + none.watches + none.contacts + none.grid + none.schedule + none.recording, 0u);
+  EXPECT_EQ(none.bodies + none.windows + none.pairs + none.contacts + none.recording, 0u);
   EXPECT_GT(none.other, 0u);
   EXPECT_EQ(none.total(), none.other);
   BusyCrowd crowd;
@@ -27,14 +27,13 @@ TEST(Memory, GrowsWithTheBodiesAndBelongsToParts) {
   const std::size_t count = crowd.world.size();
   // What each part needs at least.
   EXPECT_GE(memory.bodies, count * sizeof(Bound));
-  EXPECT_GE(memory.watches, crowd.world.certificates().size() * 16);
+  EXPECT_GE(memory.pairs, crowd.world.certificates().size() * 16);
   EXPECT_GE(memory.contacts, count * 24);
-  EXPECT_GE(memory.grid, count * 2 * 28);
+  EXPECT_GE(memory.windows, count * 2 * 28);
   EXPECT_EQ(memory.recording, 0u);
   // And no more than a few times that.
   EXPECT_LT(memory.total(), count * 4000);
-  EXPECT_EQ(memory.total(),
-            memory.bodies + memory.watches + memory.contacts + memory.grid + memory.schedule + memory.other);
+  EXPECT_EQ(memory.total(), memory.bodies + memory.windows + memory.pairs + memory.contacts + memory.other);
 }
 
 TEST(Memory, ShowsARecordingGrow) {

@@ -66,7 +66,7 @@ TEST_P(FlightThroughNeedle, IsToldInTime) {
         << events << "seed " << seed << ", world " << k << ", " << needle;
     ASSERT_EQ(events[0].kind, EventKind::contact_begin);
     ASSERT_TRUE(!leaves || events[1].kind == EventKind::contact_end) << events;
-    ASSERT_LE(p.world.counters().wakes, 2 * most_probes)
+    ASSERT_LE(p.world.counters().steps(), 2 * most_probes)
         << "seed " << seed << ", world " << k << ", " << needle;
   }
   EXPECT_GT(flights, worlds / 2);

@@ -186,7 +186,7 @@ TEST_P(RandomSurroundings, NothingIsMissed) {
   EXPECT_GT(begins, 100u);
   // Nobody crawls: a body that is far from all changes, or deep in a box, is left alone.
   const Counters& counters = p.world.counters();
-  EXPECT_LE(counters.wakes, 2 * counters.probes);
+  EXPECT_LE(counters.steps(), 2 * counters.probes);
 }
 
 INSTANTIATE_TEST_SUITE_P(, RandomSurroundings,

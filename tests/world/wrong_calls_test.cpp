@@ -181,7 +181,7 @@ TEST(WrongCalls, LeaveNoTrace) {
     EXPECT_EQ(world.bodies(), bodies);
     EXPECT_EQ(world.counters().probes, counters.probes);
     EXPECT_EQ(world.counters().events, counters.events);
-    EXPECT_EQ(world.counters().wakes, counters.wakes);
+    EXPECT_EQ(world.counters().steps(), counters.steps());
     EXPECT_EQ(world.counters().certificates, counters.certificates);
     EXPECT_TRUE(is_clean(world));
   };

@@ -8,9 +8,9 @@
 #include "contact/contact_event.hpp"
 #include "input/input_check.hpp"
 #include "kinesphere/bound.hpp"
+#include "lab/index/hash_grid.hpp"
 #include "lab/truth/gap_course.hpp"
 #include "number/infinity.hpp"
-#include "space/hash_grid.hpp"
 
 namespace kinesphere {
 namespace {

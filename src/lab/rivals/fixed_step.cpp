@@ -7,9 +7,9 @@
 #include "input/input_check.hpp"
 #include "lab/detector/checked_detector.hpp"
 #include "lab/detector/detector.hpp"
+#include "lab/index/hash_grid.hpp"
 #include "lab/rivals/rivals.hpp"
 #include "number/infinity.hpp"
-#include "space/hash_grid.hpp"
 #include "world/validation.hpp"
 
 namespace kinesphere {

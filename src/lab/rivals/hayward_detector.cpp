@@ -8,9 +8,9 @@
 #include <string>
 
 #include "lab/detector/checked_detector.hpp"
+#include "lab/index/schedule.hpp"
 #include "lab/rivals/bound_detector.hpp"
 #include "lab/rivals/rivals.hpp"
-#include "schedule/schedule.hpp"
 
 namespace kinesphere {
 namespace {

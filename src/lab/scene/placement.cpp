@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "kinesphere/random.hpp"
+#include "lab/index/hash_grid.hpp"
 #include "lab/scene/relaxation.hpp"
-#include "space/hash_grid.hpp"
 
 namespace kinesphere {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "kinesphere/random.hpp"
-#include "space/hash_grid.hpp"
+#include "lab/index/hash_grid.hpp"
 
 namespace kinesphere {
 namespace {

@@ -9,11 +9,11 @@
 #include "contact/contact_rule.hpp"
 #include "lab/detector/checked_detector.hpp"
 #include "lab/detector/detector.hpp"
+#include "lab/index/schedule.hpp"
 #include "lab/truth/gap_course.hpp"
 #include "lab/truth/oracle.hpp"
 #include "lab/truth/pair_table.hpp"
 #include "number/infinity.hpp"
-#include "schedule/schedule.hpp"
 
 namespace kinesphere {
 namespace {

@@ -1,5 +1,5 @@
 // The least of a few times and the place of one, with vector instructions as without.
-#include "schedule/time_group.hpp"
+#include "lab/index/time_group.hpp"
 
 #include <gtest/gtest.h>
 

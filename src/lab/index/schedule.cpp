@@ -1,5 +1,5 @@
 // The two schedules.
-#include "schedule/schedule.hpp"
+#include "lab/index/schedule.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -10,9 +10,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "memory/prefetch.hpp"
+#include "lab/index/time_group.hpp"
 #include "number/infinity.hpp"
-#include "schedule/time_group.hpp"
 
 namespace kinesphere {
 
@@ -52,10 +51,6 @@ class TreeSchedule {
   void reserve(std::size_t bodies) { levels_[0].reserve((bodies + width - 1) / width); }
   void set(std::uint32_t body, double time);
   void remove(std::uint32_t body) { set(body, infinity); }
-  /// Of a body that will soon be set.
-  [[gnu::always_inline]] void fetch(std::uint32_t body) const {
-    if (body < room()) prefetch(levels_[0][body / width]);
-  }
   double next_time() const { return next_time_; }
   std::uint32_t next_body() const;
   /// Someone else who is due soon: most often the next one after next_body(). Perhaps nobody.

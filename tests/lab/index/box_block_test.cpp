@@ -1,5 +1,5 @@
 // A block of boxes compares them all at once as it would one by one, whatever the numbers are.
-#include "space/box_block.hpp"
+#include "lab/index/box_block.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "space/morton.hpp"
+#include "lab/index/morton.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Every schedule answers as the plain reference does, whatever is asked of it.
-#include "schedule/schedule.hpp"
+#include "lab/index/schedule.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -1,5 +1,5 @@
 // Registration in the hierarchical hash grid.
-#include "space/hash_grid.hpp"
+#include "lab/index/hash_grid.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -18,9 +18,9 @@
 #include <vector>
 
 #include "kinesphere/vec3.hpp"
-#include "memory/prefetch.hpp"
-#include "space/box_block.hpp"
-#include "space/float_box.hpp"
+#include "lab/index/box_block.hpp"
+#include "lab/index/float_box.hpp"
+#include "lab/index/prefetch.hpp"
 
 namespace kinesphere {
 
@@ -30,8 +30,6 @@ class HashGrid {
   /// Registers body number `body`, or moves it to a new box. Cost: O(1), amortised.
   void set(std::uint32_t body, const Box& box);
   void remove(std::uint32_t body);
-  /// Of a body that will soon be asked for.
-  [[gnu::always_inline]] void fetch(std::uint32_t body) const { prefetch(places_[body]); }
   bool contains(std::uint32_t body) const { return body < places_.size() && places_[body].level >= 0; }
   std::size_t size() const { return size_; }
   /// Each body that was ever registered has a number below this.

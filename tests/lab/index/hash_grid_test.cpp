@@ -1,5 +1,5 @@
 // The hash grid finds what a plain list of boxes finds, each once, for boxes of any kind.
-#include "space/hash_grid.hpp"
+#include "lab/index/hash_grid.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

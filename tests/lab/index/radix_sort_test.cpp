@@ -1,4 +1,4 @@
-#include "space/radix_sort.hpp"
+#include "lab/index/radix_sort.hpp"
 
 #include <gtest/gtest.h>
 
