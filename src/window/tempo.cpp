@@ -32,7 +32,7 @@ void Tempo::choose(double way, const Pace& typical) {
       2.0 * way / (typical.speed + std::sqrt(squared_speed + 2.0 * typical.acceleration * way));
   main_tier_ = time < infinity ? std::clamp(exponent_of(time), -most_powers, most_powers) : most_powers;
   typical_way_ = way;
-  fast_way_ = much_farther * way;
+  fast_way_ = std::min(much_farther * way, longest_way_);
 }
 
 int Tempo::tier_for(const Pace& pace) const {

@@ -50,7 +50,8 @@ class Tempo {
  public:
   static constexpr int powers_between_tiers = 3;
 
-  /// No body goes farther in a window than `longest_way` (length, > 0) if there is a shorter one.
+  /// No body goes more than four times as far in a window as `longest_way` (length, > 0) if there is a
+  /// shorter one.
   Tempo(double longest_way, int dimensions) : longest_way_(longest_way), dimensions_(dimensions) {}
 
   bool is_chosen() const { return typical_way_ > 0.0; }
