@@ -183,24 +183,31 @@ TEST_P(AgendaOrder, IsThatOfASortedList) {
 std::string times_name(const testing::TestParamInfo<Times>& info) { return info.param.name; }
 INSTANTIATE_TEST_SUITE_P(Agenda, AgendaOrder, testing::ValuesIn(all_times), times_name);
 
-TEST(Agenda, GoesOnAsBeforeAfterItWasBytes) {
+/// As a snapshot has it.
+std::vector<HotPair> pairs_that_hold(const Mirrored& mirrored) {
+  std::vector<HotPair> pairs;
+  mirrored.agenda.for_each([&](const HotPair& pair) {
+    if (!mirrored.is_void(pair)) pairs.push_back(pair);
+  });
+  return pairs;
+}
+
+TEST(Agenda, GoesOnAsBeforeFromThePairsThatHold) {
   for (std::uint64_t stream = 0; stream < 15; ++stream) {
     Random random = Random::at(seed, stream, 1);
     Mirrored mirrored;
     for (int action = 0; action < 60; ++action) act(mirrored, random, all_times[0]);
     ByteWriter writer;
-    writer(mirrored.agenda);
-    Mirrored back = mirrored;
-    back.agenda = {};
-    back.agenda.add({.time = -7.0});  // what was there before is forgotten
+    writer(pairs_that_hold(mirrored));
+    std::vector<HotPair> pairs;
     ByteReader reader(writer.bytes());
-    reader(back.agenda);
+    reader(pairs);
     ASSERT_FALSE(reader.failed());
     EXPECT_EQ(reader.remaining(), 0u);
+    Mirrored back = mirrored;
+    back.agenda = {};
+    back.agenda.add_all(pairs);
     EXPECT_TRUE(back.same_pairs());
-    ByteWriter again;
-    again(back.agenda);
-    EXPECT_EQ(again.bytes(), writer.bytes());
     Random same_random = random;
     for (int action = 0; action < 60; ++action) {
       SCOPED_TRACE(testing::Message() << "seed " << seed << ", stream " << stream << ", action " << action);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "archive/archive.hpp"
@@ -17,16 +18,49 @@ namespace {
 constexpr std::uint64_t seed = 4301;
 constexpr SearchCost nothing{};
 constexpr SearchCost immense{.capsules = 1'000'000'000'000};
+constexpr Pace everyday{1.0, 0.0};
+/// Of everyday bodies in windows of length 1.
+constexpr double usual_width = 0.1;
 
-Tempo chosen(double way = 1.0, const Pace& typical = {1.0, 0.0}) {
-  Tempo tempo;
-  tempo.choose(way, typical, 1e6 * way);
+double length_of(int tier) { return std::ldexp(1.0, tier); }
+int main_tier(const Tempo& tempo) { return tempo.tier_for({0.0, 0.0}); }
+
+Tempo chosen(double way = 1.0, const Pace& typical = everyday, int dimensions = 3) {
+  Tempo tempo(1e6 * way, dimensions);
+  tempo.choose(way, typical);
   return tempo;
 }
 
-/// A round of bodies in main windows.
-void start(Tempo& tempo, int bodies, const Pace& pace, double width) {
-  for (int k = 0; k < bodies; ++k) tempo.note_start(pace, width, tempo.tier_for(pace));
+/// Bodies, most of which start again and again when their main windows end.
+struct Round {
+  std::vector<Pace> paces;
+  double width = usual_width;
+  SearchCost starts;  ///< what their searches cost
+  SearchCost others;  ///< and those of others, until their windows end
+};
+
+void note(Tempo& tempo, const std::vector<Pace>& paces, double width) {
+  for (const Pace& pace : paces) tempo.note_start(pace, width, tempo.tier_for(pace));
+}
+
+/// They start at `now`, and those that start when their windows end know what it has cost.
+void start_main(Tempo& tempo, double& now, const Round& round) {
+  tempo.start_main(now, nothing);
+  note(tempo, round.paces, round.width);
+  tempo.finish_start(round.starts);
+  now += length_of(main_tier(tempo));
+  tempo.start_main(now, round.others);
+  tempo.finish_start(nothing);
+}
+
+/// Bodies start while most do not.
+void start_between(Tempo& tempo, const std::vector<Pace>& paces, const SearchCost& cost) {
+  note(tempo, paces, usual_width);
+  tempo.finish_start(cost);
+}
+
+std::vector<Pace> bodies(std::size_t count, const Pace& pace = everyday) {
+  return std::vector<Pace>(count, pace);
 }
 
 TEST(Tempo, ATypicalBodyGoesAboutTheChosenWay) {
@@ -37,7 +71,7 @@ TEST(Tempo, ATypicalBodyGoesAboutTheChosenWay) {
                        chance(random, 0.5) ? 0.0 : log_uniform(random, -60, 60)};
     const Tempo tempo = chosen(way, typical);
     ASSERT_TRUE(tempo.is_chosen() && tempo.is_sound());
-    const double gone = typical.way(std::ldexp(1.0, tempo.tier_for(typical)));
+    const double gone = typical.way(length_of(tempo.tier_for(typical)));
     ASSERT_LE(gone, 1.001 * way) << "seed " << seed << ", case " << k;
     ASSERT_GE(gone, 0.249 * way) << "seed " << seed << ", case " << k;
   }
@@ -48,16 +82,16 @@ TEST(Tempo, FasterBodiesHaveNoLongerWindows) {
   for (int k = 0; k < 200; ++k) {
     const double way = log_uniform(random, -20, 20);
     const Tempo tempo = chosen(way, {log_uniform(random, -20, 20), 0.0});
-    const int main = tempo.tier_for({0.0, 0.0});
+    const int main = main_tier(tempo);
     int last = main;
     for (double speed = 1e-30; speed < 1e30; speed *= 3.0) {
       const int tier = tempo.tier_for({speed, 0.0});
       ASSERT_LE(tier, last) << "seed " << seed << ", case " << k << ", speed " << speed;
       ASSERT_LE(tempo.tier_for({speed, speed}), tier);
       ASSERT_EQ((main - tier) % Tempo::powers_between_tiers, 0);
-      ASSERT_LE(speed * std::ldexp(1.0, tier), 4.0 * tempo.typical_way()) << "much farther than most";
+      ASSERT_LE(speed * length_of(tier), 4.0 * tempo.typical_way()) << "much farther than most";
       if (tier < main) {
-        ASSERT_GT(speed * std::ldexp(1.0, tier + Tempo::powers_between_tiers), 4.0 * tempo.typical_way())
+        ASSERT_GT(speed * length_of(tier + Tempo::powers_between_tiers), 4.0 * tempo.typical_way())
             << "shorter than needed";
       }
       last = tier;
@@ -68,58 +102,73 @@ TEST(Tempo, FasterBodiesHaveNoLongerWindows) {
 
 TEST(Tempo, ShorterWhereSearchesCostMost) {
   for (const int dimensions : {2, 3}) {
-    Tempo tempo = chosen();
-    const Pace pace{1.0, 0.0};
-    const int before = tempo.tier_for(pace);
-    start(tempo, 100, pace, 0.1);
-    tempo.adapt(immense, immense, 1.0, dimensions);
-    EXPECT_LT(tempo.tier_for(pace), before);
-    EXPECT_GE(tempo.tier_for(pace), before - 6);
-    EXPECT_NEAR(std::log2(tempo.typical_way()), tempo.tier_for(pace) - before, 1e-9);
+    Tempo tempo = chosen(1.0, everyday, dimensions);
+    double now = 0.0;
+    const int before = tempo.tier_for(everyday);
+    start_main(tempo, now, {.paces = bodies(100), .starts = immense, .others = immense});
+    EXPECT_LT(tempo.tier_for(everyday), before);
+    EXPECT_GE(tempo.tier_for(everyday), before - 6);
+    EXPECT_EQ(std::log2(tempo.typical_way()), tempo.tier_for(everyday) - before);
     EXPECT_TRUE(tempo.is_sound());
+  }
+}
+
+/// What others' searches cost in the time of a window counts, not what they cost until the next start.
+TEST(Tempo, CostsOfOthersAreOfAMainWindow) {
+  // In 64 windows it would make windows shorter if it was of one.
+  const SearchCost cost{.capsules = 64 * 5'000};
+  for (const double windows : {1.0, 64.0}) {
+    Tempo tempo = chosen();
+    const int before = main_tier(tempo);
+    tempo.start_main(0.0, nothing);
+    note(tempo, bodies(100), usual_width);
+    tempo.finish_start(nothing);
+    tempo.start_main(windows * length_of(before), cost);
+    tempo.finish_start(nothing);
+    if (windows == 1.0) {
+      EXPECT_LT(main_tier(tempo), before);
+    } else {
+      EXPECT_GE(main_tier(tempo), before);
+    }
   }
 }
 
 /// Where ways make most of the capsules, these grow with the cube of the length of windows, or its square.
 TEST(Tempo, InAPlaneWindowsAreLonger) {
-  const Pace pace{1.0, 0.0};
   std::array<int, 2> tiers{};
   for (const int dimensions : {2, 3}) {
-    Tempo tempo = chosen();
-    start(tempo, 100, pace, 1e-6);
-    tempo.adapt({.capsules = 26'000}, nothing, 1.0, dimensions);
-    tiers[static_cast<std::size_t>(dimensions - 2)] = tempo.tier_for(pace);
+    Tempo tempo = chosen(1.0, everyday, dimensions);
+    double now = 0.0;
+    start_main(tempo, now, {.paces = bodies(100), .width = 1e-6, .starts = {.capsules = 26'000}});
+    tiers[static_cast<std::size_t>(dimensions - 2)] = main_tier(tempo);
   }
   EXPECT_GT(tiers[0], tiers[1]);
 }
 
 TEST(Tempo, LongerWhereStartsCostMostUpToTheLongestWay) {
   Tempo tempo = chosen();
-  const Pace pace{1.0, 0.0};
-  int before = tempo.tier_for(pace);
+  double now = 0.0;
+  int before = main_tier(tempo);
   for (int round = 0; round < 60; ++round) {
-    start(tempo, 100, pace, 0.1);
-    tempo.adapt(nothing, nothing, 1.0, 3);
-    const int tier = tempo.tier_for(pace);
-    EXPECT_EQ(tier, tempo.typical_way() <= 1e6 && round < 19 ? before + 1 : before) << round;
-    before = tier;
+    start_main(tempo, now, {.paces = bodies(100)});
+    EXPECT_EQ(main_tier(tempo), round < 19 ? before + 1 : before) << round;
+    before = main_tier(tempo);
   }
   EXPECT_LE(tempo.typical_way(), 1e6);
   EXPECT_GT(tempo.typical_way(), 0.25e6);
 }
 
 TEST(Tempo, StaysWhereNothingIsMuchCheaper) {
-  const Pace pace{1.0, 0.0};
   int changes = 0;
   Tempo tempo = chosen();
+  double now = 0.0;
   for (int round = 0; round < 100; ++round) {
-    const int before = tempo.tier_for(pace);
-    start(tempo, 100, pace, 0.5);
+    const int before = main_tier(tempo);
     // As in a crowd: what searches find grows with the volume of the capsules.
     const double larger = 0.5 + tempo.typical_way();
-    const auto looked_at = static_cast<std::uint64_t>(100 * 20 * larger * larger * larger);
-    tempo.adapt({.capsules = looked_at}, {.capsules = looked_at}, std::ldexp(1.0, before), 3);
-    if (tempo.tier_for(pace) != before) ++changes;
+    const SearchCost cost{.capsules = static_cast<std::uint64_t>(100 * 20 * larger * larger * larger)};
+    start_main(tempo, now, {.paces = bodies(100), .width = 0.5, .starts = cost, .others = cost});
+    if (main_tier(tempo) != before) ++changes;
   }
   EXPECT_LE(changes, 12);
   EXPECT_LT(tempo.typical_way(), 16.0);
@@ -128,18 +177,177 @@ TEST(Tempo, StaysWhereNothingIsMuchCheaper) {
 
 TEST(Tempo, WithoutStartsNothingIsKnown) {
   Tempo tempo = chosen();
-  const int before = tempo.tier_for({1.0, 0.0});
-  tempo.adapt(immense, immense, 1.0, 3);
-  EXPECT_EQ(tempo.tier_for({1.0, 0.0}), before);
+  double now = 0.0;
+  const int before = main_tier(tempo);
+  start_main(tempo, now, {.starts = immense, .others = immense});
+  EXPECT_EQ(main_tier(tempo), before);
+}
+
+/// Nor without time that has passed: what others cost is a rate.
+TEST(Tempo, AtOneInstantNothingIsKnown) {
+  Tempo tempo = chosen();
+  const int before = main_tier(tempo);
+  for (int round = 0; round < 3; ++round) {
+    tempo.start_main(0.0, immense);
+    note(tempo, bodies(100), usual_width);
+    tempo.finish_start(immense);
+  }
+  EXPECT_EQ(main_tier(tempo), before);
+  EXPECT_EQ(tempo.typical_way(), 1.0);
 }
 
 TEST(Tempo, DoesNotGrowForFewThatAreSlow) {
   Tempo tempo = chosen();
-  const int before = tempo.tier_for({1.0, 0.0});
-  start(tempo, 10, {1.0, 0.0}, 0.1);
-  start(tempo, 20, {1e3, 0.0}, 0.1);
-  tempo.adapt(nothing, nothing, 1.0, 3);
-  EXPECT_LE(tempo.tier_for({1.0, 0.0}), before);
+  double now = 0.0;
+  const int before = main_tier(tempo);
+  std::vector<Pace> paces = bodies(20, {1e3, 0.0});
+  paces.resize(30, everyday);
+  start_main(tempo, now, {.paces = paces});
+  EXPECT_LE(main_tier(tempo), before);
+}
+
+/// The typical way is that of the body that an eighth of all others exceed, about, however slow the rest.
+TEST(Tempo, FewAreFasterThanTypical) {
+  Random random(seed + 4);
+  for (int k = 0; k < 300; ++k) {
+    Tempo tempo = chosen();
+    double now = 0.0;
+    std::vector<Pace> paces;
+    for (std::uint64_t left = 1 + random.bits() % 200; left > 0; --left)
+      paces.push_back({log_uniform(random, -30, 15), 0.0});
+    // With such a cost windows stay as they are.
+    start_main(tempo, now, {.paces = paces, .width = 1e9});
+    std::size_t faster = 0;
+    std::size_t as_fast = 0;
+    for (const Pace& pace : paces) {
+      if (pace.speed * length_of(main_tier(tempo)) >= 2.0 * tempo.typical_way()) ++faster;
+      if (pace.speed * length_of(main_tier(tempo)) >= tempo.typical_way()) ++as_fast;
+    }
+    ASSERT_LE(8 * faster, paces.size()) << "seed " << seed << ", case " << k;
+    ASSERT_GT(8 * as_fast, paces.size()) << "seed " << seed << ", case " << k;
+  }
+}
+
+/// What is slow shares the windows of what is fast, and does not keep them short.
+TEST(Tempo, GrowsBackBesideSlowBodies) {
+  struct Case {
+    std::size_t fast;
+    std::size_t slow;
+  };
+  for (const auto& [fast, slow] : {Case{1, 1}, Case{2, 1}, Case{1, 6}, Case{50, 300}}) {
+    for (const double slower : {1e-12, 1e-3, 0.0}) {
+      SCOPED_TRACE(testing::Message() << fast << " fast, " << slow << " slow: " << slower);
+      std::vector<Pace> paces = bodies(fast);
+      paces.resize(fast + slow, {slower, 0.0});
+      Tempo tempo = chosen();
+      double now = 0.0;
+      const int before = tempo.tier_for(everyday);
+      start_main(tempo, now, {.paces = paces, .others = immense});
+      ASSERT_LT(tempo.tier_for(everyday), before);
+      for (int round = 0; round < 20; ++round) start_main(tempo, now, {.paces = paces});
+      EXPECT_GT(tempo.tier_for(everyday), before + 10);
+      EXPECT_EQ(tempo.tier_for(everyday), main_tier(tempo));
+    }
+  }
+}
+
+/// Also if it is only found out later who is fast: all stood still before.
+TEST(Tempo, FollowsBodiesThatBecomeFaster) {
+  Tempo tempo = chosen();
+  double now = 0.0;
+  for (int round = 0; round < 10; ++round) start_main(tempo, now, {.paces = bodies(100, {0.0, 0.0})});
+  EXPECT_LT(tempo.typical_way(), 1e-80);
+  const int main = main_tier(tempo);
+  EXPECT_LT(tempo.tier_for(everyday), main - 100);
+  for (int round = 0; round < 40; ++round)
+    start_main(tempo, now, {.paces = bodies(100), .width = 1.0, .starts = {.capsules = 12'000}});
+  EXPECT_EQ(tempo.tier_for(everyday), main_tier(tempo));
+}
+
+/// Where no main window holds most bodies, they do not start together, and the tempo learns from those that
+/// start between.
+TEST(Tempo, GrowsWhereMostAreInLongerWindows) {
+  Tempo tempo = chosen();
+  const int before = main_tier(tempo);
+  for (int round = 0; round < 6; ++round) {
+    for (int k = 0; k < 64; ++k) tempo.note_start({1e-3, 0.0}, usual_width, main_tier(tempo));
+    tempo.finish_start(nothing);
+  }
+  EXPECT_EQ(main_tier(tempo), before + 6 * Tempo::powers_between_tiers);
+  EXPECT_EQ(tempo.typical_way(), length_of(main_tier(tempo) - before));
+  EXPECT_TRUE(tempo.is_sound());
+  // Up to the longest way.
+  for (int round = 0; round < 6; ++round) start_between(tempo, bodies(64, {1e-3, 0.0}), nothing);
+  EXPECT_EQ(tempo.typical_way(), 1e6);
+  EXPECT_TRUE(tempo.is_sound());
+}
+
+TEST(Tempo, FastBodiesGoFarWhereNothingIsInTheirWay) {
+  const Pace fast{1000.0, 0.0};
+  Tempo tempo = chosen();
+  const int main = main_tier(tempo);
+  const int first = tempo.tier_for(fast);
+  ASSERT_LT(first, main - Tempo::powers_between_tiers);
+  std::vector<int> tiers;
+  for (int round = 0; round < 5; ++round) {
+    start_between(tempo, bodies(64, fast), nothing);
+    tiers.push_back(tempo.tier_for(fast));
+    ASSERT_TRUE(tempo.is_sound());
+  }
+  EXPECT_EQ(tiers[0], first + Tempo::powers_between_tiers);
+  EXPECT_EQ(tiers[4], main - Tempo::powers_between_tiers) << "shorter than the main one nevertheless";
+  EXPECT_EQ(main_tier(tempo), main);
+  EXPECT_EQ(tempo.typical_way(), 1.0);
+  // Those that are faster go no farther than has been tried.
+  const Pace faster{8e7, 0.0};
+  const double way = faster.way(length_of(tempo.tier_for(faster)));
+  EXPECT_LE(way, std::ldexp(4.0, 5 * Tempo::powers_between_tiers));
+  EXPECT_GT(way, std::ldexp(4.0, 4 * Tempo::powers_between_tiers));
+}
+
+TEST(Tempo, FastBodiesHaveShorterWindowsInDenseSurroundings) {
+  const Pace fast{1000.0, 0.0};
+  for (const int dimensions : {2, 3}) {
+    Tempo tempo = chosen(1.0, everyday, dimensions);
+    const int first = tempo.tier_for(fast);
+    start_between(tempo, bodies(64, fast), immense);
+    EXPECT_EQ(tempo.tier_for(fast), first - Tempo::powers_between_tiers);
+    for (int round = 0; round < 5; ++round) start_between(tempo, bodies(64, fast), immense);
+    EXPECT_GT(fast.way(length_of(tempo.tier_for(fast))), tempo.typical_way() / 8.0) << "about as far as most";
+    EXPECT_EQ(tempo.typical_way(), 1.0);
+  }
+}
+
+/// The windows of fast bodies differ by large factors: they do not go to and fro between two of them.
+TEST(Tempo, FastBodiesFindTheirWindows) {
+  const Pace fast{1e5, 0.0};
+  for (const int dimensions : {2, 3}) {
+    for (const double density : {1e-6, 1e-4, 1e-2, 1.0, 100.0}) {
+      Tempo tempo = chosen(1.0, everyday, dimensions);
+      int changes = 0;
+      for (int round = 0; round < 100; ++round) {
+        const int before = tempo.tier_for(fast);
+        const double way = fast.way(length_of(before));
+        const double found = density * (dimensions == 2 ? way * way : way * way * way);
+        start_between(tempo, bodies(64, fast), {.capsules = static_cast<std::uint64_t>(64 * 120 * found)});
+        if (tempo.tier_for(fast) != before) ++changes;
+      }
+      EXPECT_LE(changes, 4) << dimensions << " dimensions, density " << density;
+    }
+  }
+}
+
+TEST(Tempo, NobodyGoesMuchFartherThanTheLongestWay) {
+  for (const double way : {0.1, 0.3, 0.5, 1.0, 2.0, 1e6}) {
+    Tempo tempo(1.0, 3);
+    tempo.choose(way, everyday);
+    for (int round = 0; round < 20; ++round) {
+      ASSERT_TRUE(tempo.is_sound()) << "way " << way << ", round " << round;
+      for (double speed = 1e-3; speed < 1e6; speed *= 3.0)
+        ASSERT_LE(speed * length_of(tempo.tier_for({speed, 0.0})), speed > 16.0 ? 1.0 : 4.0) << "way " << way;
+      start_between(tempo, bodies(64, {1e3, 0.0}), nothing);
+    }
+  }
 }
 
 /// Every number zero, tiny, everyday, huge or infinite.
@@ -147,6 +355,9 @@ TEST(Tempo, StaysPossibleWhateverTheNumbers) {
   constexpr std::array values{0.0, 5e-324, 1e-300, 1e-100, 1e-9, 1.0, 1e9, 1e100, 1e300, infinity};
   Random random(seed + 2);
   const auto value = [&] { return values[random.bits() % values.size()]; };
+  const auto positive = [&] { return std::clamp(value(), 1e-300, 1e300); };
+  // As the limits of a world's tolerance let it be.
+  const auto longest_way = [&] { return std::clamp(value(), 1e-60, 1e300); };
   const auto cost = [&] {
     constexpr std::array<std::uint64_t, 4> counts{0, 1, 1000, std::uint64_t{1} << 62};
     SearchCost c;
@@ -154,21 +365,23 @@ TEST(Tempo, StaysPossibleWhateverTheNumbers) {
     return c;
   };
   for (int k = 0; k < 20000; ++k) {
-    Tempo tempo;
-    const double way = std::max(value(), 1e-300);
-    const Pace typical{value(), value()};
-    tempo.choose(std::min(way, 1e300), typical, value());
-    for (int round = 0; round < 3; ++round) {
-      for (std::uint64_t left = random.bits() % 5; left > 0; --left) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed << ", case " << k);
+    Tempo tempo(longest_way(), random.bits() % 2 == 0 ? 2 : 3);
+    tempo.choose(positive(), {value(), value()});
+    double now = -1e300;
+    for (int round = 0; round < 4; ++round) {
+      now = std::max(now, value());
+      if (random.bits() % 2 == 0) tempo.start_main(std::min(now, 1e300), cost());
+      std::uint64_t left = random.bits() % 5;
+      if (random.bits() % 8 == 0) left += 64;
+      for (; left > 0; --left) {
         const Pace pace{value(), value()};
         const int tier = tempo.tier_for(pace);
-        ASSERT_LE(std::abs(tier), 302) << "seed " << seed << ", case " << k;
+        ASSERT_LE(std::abs(tier), 300 + Tempo::powers_between_tiers);
         tempo.note_start(pace, value(), tier);
       }
-      const SearchCost starts = cost();
-      const SearchCost later = cost();
-      tempo.adapt(starts, later, std::max(value(), 1e-300), round < 2 ? 3 : 2);
-      ASSERT_TRUE(tempo.is_sound()) << "seed " << seed << ", case " << k << ", round " << round;
+      tempo.finish_start(cost());
+      ASSERT_TRUE(tempo.is_sound()) << "round " << round;
     }
   }
 }
@@ -176,35 +389,48 @@ TEST(Tempo, StaysPossibleWhateverTheNumbers) {
 /// However long nothing moves.
 TEST(Tempo, HasALongestWindow) {
   const Pace hardly{1e-100, 0.0};
-  Tempo tempo;
-  tempo.choose(1.0, hardly, 1e300);
+  Tempo tempo(1e300, 3);
+  tempo.choose(1.0, hardly);
+  double now = 0.0;
   for (int round = 0; round < 3000; ++round) {
-    start(tempo, 3, hardly, 1.0);
-    tempo.adapt(nothing, nothing, 1.0, 3);
+    start_main(tempo, now, {.paces = bodies(3, hardly), .width = 1.0});
     ASSERT_TRUE(tempo.is_sound()) << round;
   }
-  EXPECT_EQ(tempo.tier_for({0.0, 0.0}), 300);
+  EXPECT_EQ(main_tier(tempo), 300);
 }
 
 TEST(Tempo, GoesOnAsBeforeAfterItWasBytes) {
   Random random(seed + 3);
   Tempo tempo = chosen();
-  for (int round = 0; round < 200; ++round) {
-    const Pace pace{log_uniform(random, -3, 3), random.uniform()};
-    start(tempo, 20, pace, random.uniform());
+  double now = 0.0;
+  for (int round = 0; round < 400; ++round) {
+    std::vector<Pace> paces;
+    for (int k = 0; k < 20; ++k) paces.push_back({log_uniform(random, -10, 10), random.uniform()});
+    const auto cost = [&] { return SearchCost{.capsules = random.bits() % 10000}; };
+    const SearchCost of_starts = cost();
+    const bool most = random.bits() % 2 == 0;
+    if (most) tempo.start_main(now, cost());
+    note(tempo, paces, random.uniform());
+    tempo.finish_start(of_starts);
     ByteWriter writer;
     writer(tempo);
-    Tempo back = chosen(3.0);
+    Tempo back = chosen();
+    back.choose(3.0, everyday);
     ByteReader reader(writer.bytes());
     reader(back);
     ASSERT_FALSE(reader.failed());
+    EXPECT_EQ(reader.remaining(), 0u);
     ASSERT_TRUE(back.is_sound());
-    SearchCost cost;
-    cost.capsules = random.bits() % 10000;
-    tempo.adapt(cost, cost, 1.0, 3);
-    back.adapt(cost, cost, 1.0, 3);
+    now += random.uniform();
+    const SearchCost others = cost();
+    const SearchCost of_fast = cost();
+    for (Tempo* each : {&tempo, &back}) {
+      start_between(*each, bodies(70, {1e3, 0.0}), of_fast);
+      each->start_main(now, others);
+      each->finish_start(nothing);
+    }
     ASSERT_EQ(back.typical_way(), tempo.typical_way());
-    ASSERT_EQ(back.tier_for(pace), tempo.tier_for(pace));
+    for (const Pace& pace : paces) ASSERT_EQ(back.tier_for(pace), tempo.tier_for(pace));
   }
 }
 
