@@ -52,11 +52,6 @@ Box Space::moved(const Box& box, const Vec3& shift) {
   return image;
 }
 
-Box Space::home(const Box& box) const {
-  if (!repeats_) return within(box);
-  return moved(within(box), -shift_of(wrapped(0.5 * (box.lower + box.upper)).images));
-}
-
 bool Space::is_narrow(const Box& box) const {
   for (int axis = 0; axis < 3; ++axis)
     if (repeats(axis) && !(box.upper[axis] - box.lower[axis] < 0.5 * period_[axis])) return false;

@@ -77,8 +77,6 @@ class Space {
     if (flat_) box.lower.z = box.upper.z = 0.0;
     return box;
   }
-  /// The image of a box with its centre in the primary one, rounded outward.
-  Box home(const Box& box) const;
   /// Narrower than half the period.
   bool is_narrow(const Box& box) const;
   /// Calls visit(shift) for each shift in whole periods that makes `box` overlap `other`. Both are at most a

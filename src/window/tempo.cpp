@@ -23,6 +23,15 @@ constexpr std::uint64_t enough_starts = 64;
 
 double length_of(int tier) { return power_of_two(tier); }
 
+/// In looks at a capsule, if all capsules were so many times as wide and as long: a search goes through a
+/// part of space, of all capsules at most, and finds what lies along a way.
+double units_of(const SearchCost& cost, double wider, int dimensions, double most_capsules, double rows) {
+  const double volume = dimensions == 2 ? wider * wider : wider * wider * wider;
+  return std::min(static_cast<double>(cost.capsules) * volume, most_capsules) +
+         4.0 * static_cast<double>(cost.rows) * rows +
+         (12.0 * static_cast<double>(cost.found) + 60.0 * static_cast<double>(cost.hot)) * wider;
+}
+
 }  // namespace
 
 void Tempo::choose(double way, const Pace& typical) {
@@ -43,17 +52,28 @@ int Tempo::tier_for(const Pace& pace) const {
   return tier;
 }
 
-double Tempo::Starts::rate(double times_longer, int dimensions, double others) const {
-  // Ways make this part of the capsules.
-  const double moving = ways / (ways + widths);
-  double larger = 1.0 + moving * (times_longer - 1.0);
-  larger = dimensions == 2 ? larger * larger : larger * larger * larger;
-  return (static_cast<double>(bodies) * start_cost + cost.units() * larger) / times_longer + others * larger;
+/// The cost of a time as long as a main window, if these were so many times as long. Others: what other
+/// searches have cost in so many windows.
+double Tempo::main_rate(double times_longer, const SearchCost& others, double windows) const {
+  const double wider = 1.0 + main_.moving() * (times_longer - 1.0);
+  const double all = static_cast<double>(bodies_);
+  const auto count = static_cast<double>(main_.bodies);
+  // Cells become wider, too, so that rows do not become more.
+  return (count * start_cost + units_of(main_.cost, wider, dimensions_, count * all, 1.0)) / times_longer +
+         units_of(others, wider, dimensions_, infinity, 1.0) / windows;
+}
+
+/// The same for those that are much faster than most, whose cells are those of others.
+double Tempo::fast_rate(double times_longer) const {
+  const double wider = 1.0 + fast_.moving() * (times_longer - 1.0);
+  const double all = static_cast<double>(bodies_);
+  const auto count = static_cast<double>(fast_.bodies);
+  const double rows = std::min(dimensions_ == 2 ? wider : wider * wider, std::max(all, 1.0));
+  return (count * start_cost + units_of(fast_.cost, wider, dimensions_, count * all, rows)) / times_longer;
 }
 
 void Tempo::start_main(double now, const SearchCost& others) {
-  if (now > main_start_ && main_.bodies > 0)
-    adapt_main(others.units() / (now - main_start_) * length_of(main_tier_));
+  if (now > main_start_ && main_.bodies > 0) adapt_main(others, (now - main_start_) / length_of(main_tier_));
   main_ = {};
   magnitudes_.fill(0);
   main_starts_ = true;
@@ -76,7 +96,8 @@ void Tempo::note_start(const Pace& pace, double width, int tier) {
   ++magnitudes_[static_cast<std::size_t>(std::clamp(magnitude + least_magnitude, 0, last))];
 }
 
-void Tempo::finish_start(const SearchCost& cost) {
+void Tempo::finish_start(const SearchCost& cost, std::size_t bodies) {
+  bodies_ = bodies;
   if (main_starts_) {
     main_.cost = cost;
   } else {
@@ -86,14 +107,13 @@ void Tempo::finish_start(const SearchCost& cost) {
   main_starts_ = false;
 }
 
-/// Others: what their searches cost in the time of a main window.
-void Tempo::adapt_main(double others) {
+void Tempo::adapt_main(const SearchCost& others, double windows) {
   int change = 0;
-  double least = enough_cheaper * main_.rate(1.0, dimensions_, others);
+  double least = enough_cheaper * main_rate(1.0, others, windows);
   // Longer ones have to be tried: what searches find in them is not known well.
   const bool may_grow = 2 * main_.in_main > main_.bodies && 2.0 * typical_way_ <= longest_way_;
   for (int powers = may_grow ? 1 : -1; powers >= -most_change; --powers) {
-    const double changed = main_.rate(power_of_two(powers), dimensions_, others);
+    const double changed = main_rate(power_of_two(powers), others, windows);
     if (powers == 0 || !(changed < least)) continue;
     least = changed;
     change = powers;
@@ -114,14 +134,14 @@ void Tempo::adapt_main(double others) {
 /// Their windows differ by factors.
 void Tempo::adapt_fast() {
   const double factor = power_of_two(powers_between_tiers);
-  const double least = enough_cheaper * fast_.rate(1.0, dimensions_);
+  const double least = enough_cheaper * fast_rate(1.0);
   if (2 * fast_.in_main > fast_.bodies) {
     // Most bodies are in windows that are longer than the main one, which must be far too short.
     main_tier_ = std::min(main_tier_ + powers_between_tiers, most_powers);
     typical_way_ = std::min(typical_way_ * factor, longest_way_);
-  } else if (fast_.rate(factor, dimensions_) < least) {
+  } else if (fast_rate(factor) < least) {
     fast_way_ = std::min(fast_way_ * factor, longest_way_);
-  } else if (fast_.rate(1.0 / factor, dimensions_) < least) {
+  } else if (fast_rate(1.0 / factor) < least) {
     fast_way_ = std::max(fast_way_ / factor, typical_way_);
   }
   fast_ = {};

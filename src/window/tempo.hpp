@@ -24,11 +24,6 @@ struct SearchCost {
   std::uint64_t found = 0;
   std::uint64_t hot = 0;
 
-  /// In looks at a capsule.
-  double units() const {
-    return static_cast<double>(capsules) + 4.0 * static_cast<double>(rows) +
-           12.0 * static_cast<double>(found) + 60.0 * static_cast<double>(hot);
-  }
   SearchCost& operator+=(const SearchCost& more) {
     capsules += more.capsules;
     rows += more.rows;
@@ -66,13 +61,14 @@ class Tempo {
   void start_main(double now, const SearchCost& others);
   /// A body starts in a window; `width` is that of its capsule without its way.
   void note_start(const Pace& pace, double width, int tier);
-  /// All have started, and their searches have cost this much.
-  void finish_start(const SearchCost& cost);
+  /// All have started, among so many bodies, and their searches have cost this much.
+  void finish_start(const SearchCost& cost, std::size_t bodies);
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [longest, dimensions, tier, way, fast_way, main, fast, magnitudes, main_starts, start] = self;
-    archive(tier, way, fast_way, main, fast, magnitudes, main_starts, start);
+    auto& [longest, dimensions, tier, way, fast_way, bodies, main, fast, magnitudes, main_starts, start] =
+        self;
+    archive(tier, way, fast_way, bodies, main, fast, magnitudes, main_starts, start);
   }
   /// For one that was read.
   bool is_sound() const;
@@ -88,9 +84,8 @@ class Tempo {
     double widths = 0.0;        ///< sum
     SearchCost cost;
 
-    /// Per time that is gained by it, in relation to windows of today's length, if windows last so many times
-    /// as long; with the cost of others that grows like searches.
-    double rate(double times_longer, int dimensions, double others = 0.0) const;
+    /// Ways make this part of the capsules.
+    double moving() const { return ways / (ways + widths); }
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
       auto& [count, most, way, width, searches] = self;
@@ -98,16 +93,19 @@ class Tempo {
     }
   };
 
-  void adapt_main(double rate_of_others);
+  double main_rate(double times_longer, const SearchCost& others, double windows) const;
+  double fast_rate(double times_longer) const;
+  void adapt_main(const SearchCost& others, double windows);
   void adapt_fast();
 
   double longest_way_;
   int dimensions_;
   int main_tier_ = 0;
   double typical_way_ = 0.0;
-  double fast_way_ = 0.0;  ///< those that are much faster than most go no farther in their windows
-  Starts main_;            ///< when most bodies started
-  Starts fast_;            ///< of those that have started between
+  double fast_way_ = 0.0;     ///< those that are much faster than most go no farther in their windows
+  std::uint64_t bodies_ = 0;  ///< in all windows
+  Starts main_;               ///< when most bodies started
+  Starts fast_;               ///< of those that have started between
   /// How many went about 2^(k - least_magnitude) times the typical way, or less for k = 0.
   std::array<std::uint64_t, 64> magnitudes_{};
   bool main_starts_ = false;  ///< most bodies are starting

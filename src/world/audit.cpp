@@ -174,8 +174,13 @@ class World::Engine::Audit {
 
   bool boxes_overlap(std::uint32_t a, std::uint32_t b) const {
     const Vec3 shift = engine_.space_.repeats() ? engine_.shift_to_meet(a, b) : Vec3{};
-    const Box other{engine_.box(b).lower + shift, engine_.box(b).upper + shift};
-    return FloatBox(engine_.box(a)).overlaps(FloatBox(other));
+    const Box one = engine_.box(a);
+    const Box other = engine_.box(b);
+    for (int axis = 0; axis < 3; ++axis)
+      if (one.upper[axis] < other.lower[axis] + shift[axis] ||
+          other.upper[axis] + shift[axis] < one.lower[axis])
+        return false;
+    return true;
   }
 
   /// A time before the end of a recorded fact at which it certainly does not hold. A certificate that was

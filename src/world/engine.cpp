@@ -233,7 +233,7 @@ std::optional<std::pair<std::size_t, std::size_t>> World::Engine::first_overlap(
   Windows::Scratch scratch;
   for (std::size_t k = 0; k < windows.started(); ++k) {
     for (const std::uint32_t other : windows.near_started(k, time_, ball_of, scratch)) {
-      const auto [first, second] = std::minmax(windows.started_number(k), other);
+      const auto [first, second] = std::minmax({windows.started_number(k), other});
       if (least && std::tie(least->second, least->first) <= std::tie(second, first)) continue;
       if (certainly_overlap({bound_now(bodies[first])}, {bound_now(bodies[second])}) &&
           may_touch(next_id(first), bodies[first], next_id(second), bodies[second]))

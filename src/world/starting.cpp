@@ -217,7 +217,7 @@ Result<void> World::Engine::start_windows(bool all, std::span<const std::uint32_
         k, time_, [this](std::uint32_t number) { return roomy_bound(number); }, scratch_);
     find_hot_pairs(windows_.started_number(k), others);
   }
-  tempo_.finish_start(std::exchange(scratch_.cost, of_others));
+  tempo_.finish_start(std::exchange(scratch_.cost, of_others), windows_.size());
   for (const std::uint32_t number : round) {
     find_known_pairs(number);
     find_walls(number);
