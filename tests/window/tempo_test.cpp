@@ -21,6 +21,8 @@ constexpr SearchCost immense{.capsules = 1'000'000'000'000};
 constexpr Pace everyday{1.0, 0.0};
 /// Of everyday bodies in windows of length 1.
 constexpr double usual_width = 0.1;
+/// Bodies, so that a search never looks at all of them.
+constexpr std::size_t many = 1'000'000'000'000;
 
 double length_of(int tier) { return std::ldexp(1.0, tier); }
 int main_tier(const Tempo& tempo) { return tempo.tier_for({0.0, 0.0}); }
@@ -47,16 +49,16 @@ void note(Tempo& tempo, const std::vector<Pace>& paces, double width) {
 void start_main(Tempo& tempo, double& now, const Round& round) {
   tempo.start_main(now, nothing);
   note(tempo, round.paces, round.width);
-  tempo.finish_start(round.starts);
+  tempo.finish_start(round.starts, many);
   now += length_of(main_tier(tempo));
   tempo.start_main(now, round.others);
-  tempo.finish_start(nothing);
+  tempo.finish_start(nothing, many);
 }
 
 /// Bodies start while most do not.
 void start_between(Tempo& tempo, const std::vector<Pace>& paces, const SearchCost& cost) {
   note(tempo, paces, usual_width);
-  tempo.finish_start(cost);
+  tempo.finish_start(cost, many);
 }
 
 std::vector<Pace> bodies(std::size_t count, const Pace& pace = everyday) {
@@ -122,9 +124,9 @@ TEST(Tempo, CostsOfOthersAreOfAMainWindow) {
     const int before = main_tier(tempo);
     tempo.start_main(0.0, nothing);
     note(tempo, bodies(100), usual_width);
-    tempo.finish_start(nothing);
+    tempo.finish_start(nothing, many);
     tempo.start_main(windows * length_of(before), cost);
-    tempo.finish_start(nothing);
+    tempo.finish_start(nothing, many);
     if (windows == 1.0) {
       EXPECT_LT(main_tier(tempo), before);
     } else {
@@ -190,7 +192,7 @@ TEST(Tempo, AtOneInstantNothingIsKnown) {
   for (int round = 0; round < 3; ++round) {
     tempo.start_main(0.0, immense);
     note(tempo, bodies(100), usual_width);
-    tempo.finish_start(immense);
+    tempo.finish_start(immense, many);
   }
   EXPECT_EQ(main_tier(tempo), before);
   EXPECT_EQ(tempo.typical_way(), 1.0);
@@ -271,7 +273,7 @@ TEST(Tempo, GrowsWhereMostAreInLongerWindows) {
   const int before = main_tier(tempo);
   for (int round = 0; round < 6; ++round) {
     for (int k = 0; k < 64; ++k) tempo.note_start({1e-3, 0.0}, usual_width, main_tier(tempo));
-    tempo.finish_start(nothing);
+    tempo.finish_start(nothing, many);
   }
   EXPECT_EQ(main_tier(tempo), before + 6 * Tempo::powers_between_tiers);
   EXPECT_EQ(tempo.typical_way(), length_of(main_tier(tempo) - before));
@@ -380,7 +382,7 @@ TEST(Tempo, StaysPossibleWhateverTheNumbers) {
         ASSERT_LE(std::abs(tier), 300 + Tempo::powers_between_tiers);
         tempo.note_start(pace, value(), tier);
       }
-      tempo.finish_start(cost());
+      tempo.finish_start(cost(), many);
       ASSERT_TRUE(tempo.is_sound()) << "round " << round;
     }
   }
@@ -411,7 +413,7 @@ TEST(Tempo, GoesOnAsBeforeAfterItWasBytes) {
     const bool most = random.bits() % 2 == 0;
     if (most) tempo.start_main(now, cost());
     note(tempo, paces, random.uniform());
-    tempo.finish_start(of_starts);
+    tempo.finish_start(of_starts, many);
     ByteWriter writer;
     writer(tempo);
     Tempo back = chosen();
@@ -427,7 +429,7 @@ TEST(Tempo, GoesOnAsBeforeAfterItWasBytes) {
     for (Tempo* each : {&tempo, &back}) {
       start_between(*each, bodies(70, {1e3, 0.0}), of_fast);
       each->start_main(now, others);
-      each->finish_start(nothing);
+      each->finish_start(nothing, many);
     }
     ASSERT_EQ(back.typical_way(), tempo.typical_way());
     for (const Pace& pace : paces) ASSERT_EQ(back.tier_for(pace), tempo.tier_for(pace));
