@@ -58,7 +58,9 @@ namespace kinesphere {
 struct BodyView {
   BodyDefinition definition{};  ///< with the state of the last report
   Bound bound{};                ///< since the last report
-  Box box{};                    ///< contains the body until box_end
+  /// Contains the body, and all that it senses, from now until box_end, unless it was changed since the last
+  /// advance. Of no use, with box_end now, for one that the next advance has to find a place for.
+  Box box{};
   double box_end;
   /// Where space repeats: how many boxes the body has gone beyond the first one. definition.position, which
   /// is in the first, plus the size of the box times this is on the path from where the caller last placed
@@ -116,7 +118,7 @@ class World {
   /// Adds a body at the current time. Errors: not_finite; out_of_range (a negative radius, limit or error; a
   /// number beyond limits.hpp; where space
   /// repeats, a radius or sensor distance for which the box is too small); outside_domain; overlapping;
-  /// probe_in_progress. Cost: O(1) here (a grid search where overlaps are not allowed), a grid search at the
+  /// probe_in_progress. Cost: O(1) here (a search where overlaps are not allowed), a search at the
   /// next advance.
   Result<BodyId> add(const BodyDefinition& body);
   /// Makes room for this many bodies in all, as std::vector::reserve() does: adding them takes less time and
@@ -131,7 +133,7 @@ class World {
   /// limits.hpp, a negative radius, a box without lower <= upper, a triangle thinner than 2^-20
   /// of its longest side, a normal whose length differs from 1 by more than 10^-6: the world makes it 1);
   /// unsupported (all but balls where space repeats, a triangle in two dimensions); overlapping;
-  /// probe_in_progress. Cost: O(1) here (a grid search where overlaps are not allowed), a grid search at the
+  /// probe_in_progress. Cost: O(1) here (a search where overlaps are not allowed), a search at the
   /// next advance.
   Result<BodyId> add_fixed(const FixedDefinition& body);
   /// Adds a zone: a fixed body that touches nobody and tells who comes in and goes, by sensor_enter and
@@ -145,7 +147,7 @@ class World {
   Result<Shape> shape_of(BodyId body) const;
 
   /// Removes a body. Its contacts end: the end events come at the next advance, with its state as its last
-  /// report predicts it (ContactMode::impacts has no ends). Errors: probe_in_progress. Cost: O(log n +
+  /// report predicts it (ContactMode::impacts has no ends). Errors: probe_in_progress. Cost: O(1 +
   /// contacts).
   Result<void> remove(BodyId body);
   /// Removes all of them or, on an error (as above, naming the one; a body that is named twice is stale the
@@ -156,14 +158,14 @@ class World {
   /// must answer accordingly, or a bound_violation says by how much it does not. Everything certified about
   /// the body so far is void. If it has not been probed at this very time (both bodies of a contact have) the
   /// next advance does so first. Errors: disabled_body; fixed_body; not_finite; out_of_range (beyond
-  /// limits.hpp, or z other than 0 in two dimensions); probe_in_progress. Cost: O(1) here, a grid search at
+  /// limits.hpp, or z other than 0 in two dimensions); probe_in_progress. Cost: O(1) here, a search at
   /// the next advance.
   Result<void> set_velocity(BodyId body, const Vec3& velocity);
 
   // Further changes. A contact that one of them certainly ends is reported as ended at the next advance,
   // before all other events, with the states from before the change; a contact that survives emits nothing;
-  // an overlap that a change creates begins at once. Each costs O(log n + contacts) here (and a grid search
-  // where overlaps are not allowed: then what add() refuses is refused here too) and a grid search at the
+  // an overlap that a change creates begins at once. Each costs O(1 + contacts) here (and a search
+  // where overlaps are not allowed: then what add() refuses is refused here too) and a search at the
   // next advance, which first probes the body if its last report is older than the change. Errors of all:
   // probe_in_progress, and as add() for what they set.
 
@@ -203,7 +205,7 @@ class World {
   /// where overlaps are not allowed.
   Result<void> set_filter(BodyId body, const Filter& filter);
   /// A predicate of your own, asked about pairs whose filters let them touch; an empty one lets all touch.
-  /// The world asks it when a body looks for its neighbours, in audit(), when it looks for certain overlaps
+  /// The world asks it about pairs that may meet soon, in audit(), when it looks for certain overlaps
   /// (then about the id that a new body is going to have), and about the contacts of a body in the two calls
   /// below. Between those calls its answers must not change. It must not throw and must be symmetric. Of this
   /// world it may read what is kept of bodies: body(), bodies(), user_data(), shape_of(), contains(),
@@ -267,9 +269,9 @@ class World {
 
   /// Cost: O(n).
   Memory memory() const;
-  /// Of the grid, by level. Cost: all cells.
+  /// Cost: all bodies.
   std::vector<CellView> cells() const;
-  /// Of pairs, in no particular order. Cost: all of them.
+  /// Of pairs that may change before the first box_end of the two, in no particular order. Cost: all of them.
   std::vector<Certificate> certificates() const;
   /// Timing costs two looks at the clock a call of advance() and a probe; at first it is off, and costs
   /// nothing. Switched on it begins from zero. It is no part of snapshots, clones and recordings. Errors:
@@ -278,7 +280,7 @@ class World {
   /// What was spent while timing was on.
   Timings timings() const;
 
-  /// Rebuilds from scratch what should be true now (every registration, certificate and scheduled time)
+  /// Rebuilds from scratch what should be true now (every registration, certificate and contact)
   /// and returns the first difference. Meant for tests: O(n^2). From inside a probe or a pair filter of this
   /// world it does no more than say so.
   std::optional<AuditFinding> audit() const;
@@ -286,15 +288,15 @@ class World {
   // Certificates as answers (answers.hpp). Errors of all: probe_in_progress. With a Probe also as advance():
   // null_probe; not_finite or out_of_range for a bad answer, which is dropped.
 
-  /// The two do not begin to touch before this. Errors: out_of_range for the same body twice. Cost: O(watches
-  /// of both); with a probe at most two states.
+  /// The two do not begin to touch before this. Errors: out_of_range for the same body twice. Cost:
+  /// O(certificates of the world); with a probe at most two states.
   Result<SafeTime> safe_until(BodyId first, BodyId second) const;
   Result<SafeTime> safe_until(BodyId first, BodyId second, Probe probe);
   /// The body begins to touch no other and no wall before this. Cost: O(n), for most bodies a comparison;
   /// with a probe that again for each state that limits the answer.
   Result<SafeTime> safe_until(BodyId body) const;
   Result<SafeTime> safe_until(BodyId body, Probe probe);
-  /// Nothing begins to touch before this. Cost: O(n) in a crowd, a grid of its own; O(n^2) where the first
+  /// Nothing begins to touch before this. Cost: O(n) in a crowd; O(n^2) where the first
   /// contact is far off. With a probe that again, at most 32 times.
   Result<SafeTime> safe_until() const;
   Result<SafeTime> safe_until(Probe probe);
@@ -322,7 +324,7 @@ class World {
 
   // Queries at the current time (queries.hpp). Errors: probe_in_progress; not_finite or out_of_range for
   // points and lengths beyond limits.hpp, and for negative lengths; with a Probe
-  // also as above. Cost: a grid search, what it finds, and the bodies added or changed since the last
+  // also as above. Cost: a search, what it finds, and the bodies added or changed since the last
   // advance.
 
   /// The bodies that may overlap a sphere, by index. With a probe: one state for each that is in doubt.
@@ -333,14 +335,14 @@ class World {
   Result<std::vector<Found>> overlapping(const Box& box, Probe probe);
   /// All bodies that may be among the `count` nearest to a point, by lower limit of their distance: at least
   /// `count`, or all there are. With a probe no more than that, except for ties and position errors, and all
-  /// of them probed. Cost: grid searches of doubling size.
+  /// of them probed. Cost: searches of doubling size.
   Result<std::vector<Near>> nearest(const Vec3& point, std::size_t count) const;
   Result<std::vector<Near>> nearest(const Vec3& point, std::size_t count, Probe probe);
   /// All bodies that may be the first on the way from `origin` along `direction` (of any length > 0), by
   /// lower limit of that way: empty when there certainly is none within `length`. A single body that is
   /// certainly the first is marked so. With a probe all of them are probed. Walls do not count. Where space
   /// repeats the length may be at most 64 boxes, and a sphere's radius half a box (out_of_range). Cost: at
-  /// most 64 grid searches along the way.
+  /// most 64 searches along the way.
   Result<std::vector<Hit>> ray_cast(const Vec3& origin, const Vec3& direction, double length) const;
   Result<std::vector<Hit>> ray_cast(const Vec3& origin, const Vec3& direction, double length, Probe probe);
   /// The same for a sphere of this radius.

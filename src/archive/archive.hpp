@@ -1,6 +1,6 @@
 // Values to bytes and back, little-endian. A class lists its fields once, for both ways:
 //
-//   struct Watch {
+//   struct Appointment {
 //     double time;
 //     std::uint32_t partner;
 //     template <class Self, class Archive>

@@ -27,8 +27,7 @@ class SensorTable {
   void set(SensorClass sensor_class, const Sensor& sensor);
   /// That of a class which was never set senses nothing.
   const Sensor& of(SensorClass sensor_class) const;
-  /// False in a world that never had sensors: facts made while there were some go by rules of their own
-  /// (World::Engine::facts_end_with_boxes), and outlive them.
+  /// False in a world that never had sensors.
   bool any() const { return any_; }
   double reach(SensorClass sensor_class) const {
     const Distances all = distances_of(sensor_class);

@@ -1,4 +1,4 @@
-// The clock: which body is due next, and the bodies' coming and going.
+// The clock: what is due next, and the bodies' coming and going.
 #include "world/engine.hpp"
 
 #include <algorithm>

@@ -104,7 +104,7 @@ class World::Engine {
     static constexpr Filter none{};
     return number < filters_.size() ? filters_[number] : none;
   }
-  /// Contains the body, and all that it senses.
+  /// Contains the body, and all that it senses, from now until its window ends.
   Box box(std::uint32_t number) const { return windows_.box_of(number, time_); }
   const Space& space() const { return space_; }
   /// All that may be in a box now, by number. Cost: a search, and those that were added or changed since the
@@ -129,8 +129,8 @@ class World::Engine {
     if (!bodies_[number].is_fixed()) return {bound};
     return extent_of(bound, shapes_[bodies_[number].shape_number]);
   }
-  /// visit_extents() of two bodies as they are, in the image in which they may meet while both boxes last; in
-  /// most worlds nothing is fixed and space does not repeat.
+  /// visit_extents() of two bodies as they are, in the image in which they may meet before the window of
+  /// either ends; in most worlds nothing is fixed and space does not repeat.
   template <class Visit>
   auto visit_pair(std::uint32_t a, std::uint32_t b, Visit visit) const {
     if (space_.repeats()) return visit(bodies_[a].bound, seen_from(a, b));
@@ -336,7 +336,9 @@ class World::Engine {
   SensorTable sensors_;
   PairFilter pair_filter_;
   bool filtering_ = false;  ///< not all may touch: filters, a predicate, bodies that are not solid or fixed
-  bool gathering_ = false;  ///< not all of them have been found: a probe gave a bad answer
+  /// Collecting what is due at this instant has begun: if a bad answer interrupts it, the next advance() goes
+  /// on with it.
+  bool gathering_ = false;
   const Probe* probe_ = nullptr;   ///< during a call that may probe
   std::string_view probing_call_;  ///< its name, for messages
   bool probing_ = false;

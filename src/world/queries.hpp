@@ -1,4 +1,4 @@
-// Questions about space at the current time: the grid finds candidates, what is known of each decides.
+// Questions about space at the current time: a search finds candidates, what is known of each decides.
 #pragma once
 
 #include <optional>

@@ -1,12 +1,13 @@
 // Rest: bodies whose caller says that they stay where they are, and what wakes them.
 //
 // A body at rest has a bound that stands still, without velocity, plan, growth or limits. Everything else
-// follows from that by the common rules: its report never becomes old, its box lasts, and certificates with
-// others that stand still have no end. What it promises once it is awake waits in a table of its own.
+// follows from that by the common rules: its report never becomes old, its window has no end, and neither
+// have facts about it and others that stand still. What it promises once it is awake waits in a table of its
+// own.
 //
 // Bodies in touch wake together. That is decided by their gaps now, not by the contacts in the book, which
-// forgets bouncing bodies that do not approach; and by a search of the grid, not by the lists of neighbours,
-// which may not be up to date between two advances.
+// forgets bouncing bodies that do not approach; and by a search, to which bodies that were changed since the
+// last advance are added.
 #include <algorithm>
 
 #include "world/engine.hpp"

@@ -1,8 +1,9 @@
 // Snapshots: the whole state of a world as bytes, and back.
 //
-// Everything is kept as it stands, the order of grid cells and lists included: what a search meets first
-// decides who is probed first, so only the same order goes on the same way. Memory that is merely kept for
-// later is not part of it.
+// Everything is kept as it stands, the places of capsules in their layers included: what a search meets first
+// decides who is probed first, so only the same order goes on the same way. Of the agenda only hot pairs that
+// hold are kept: it gives them in the order of their times and numbers, however it has divided time. Memory
+// that is merely kept for later is not part of it.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -182,7 +183,7 @@ bool World::Engine::contacts_of_fixed_are_sound() const {
          });
 }
 
-/// It must be as it was made.
+/// It must equal what its shape makes of it.
 bool World::Engine::is_sound_fixed(std::uint32_t number) const {
   const Body& body = bodies_[number];
   if (!check_shape(shape(number), definition_, "restore")) return false;

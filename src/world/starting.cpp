@@ -89,7 +89,8 @@ RoomyBound World::Engine::roomy_bound(std::uint32_t number) const {
   return {MovedBound(ball, time_), room};
 }
 
-/// The window in which a body is to be from now on: the one that it is in, if that lasts long enough.
+/// The window in which a body is to be from now on: the one that it is in, unless that lasts longer than the
+/// one that suits it.
 Window World::Engine::window_for(std::uint32_t number) const {
   const Body& body = bodies_[number];
   if (body.is_fixed() || body.stands_still()) return Windows::endless();
