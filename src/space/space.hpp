@@ -1,12 +1,14 @@
 // The space that bodies move in: all of it, a plane, or a box that repeats.
 //
 // On an axis that repeats, with the box's size L there as its period, a body at x is at x + n L for all whole
-// n: its images. Bodies and their boxes are kept in one of them, the boxes with their centres in the primary
-// box. Two rules, the first on bodies and the second on registered boxes, make sure that a pair has to be
-// looked at in one image only. With r the radius of a body, e0 the error of its reports, and h the gap at
+// n: its images. A body is kept in one of them: that in which the box around its way in its window, with the
+// radius at the end of it and room for what the body senses, has its centre in the primary box. Two rules,
+// the first on bodies and the second on these boxes, make sure that a pair has to be looked at in one image
+// only. With r the radius of a body and how far it senses, e0 the error of its reports, and h the gap at
 // which a contact has certainly ended (separation distance and tolerance):
 //   (1) 2 r + 6 e0 + h <= 3/8 L, which a body with a third of the box for its diameter obeys;
-//   (2) the box is narrower than L/2 - h - 4 e0: by (1) that leaves at least L/8 to move in.
+//   (2) the box is narrower than L/2 - h - 4 e0: by (1) that leaves at least L/8 to move in (a little less,
+//       for rounding: docs/guarantee.md). Windows are chosen so short that it is.
 // By (2) the centres of two boxes that overlap are less than L/2 apart on every axis that repeats, so they
 // overlap in one image at most, and it is that in which the centres are nearest. The same image is the one in
 // which the bodies touch, also where they have moved apart up to h and their boxes do not overlap any more:
