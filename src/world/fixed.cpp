@@ -27,7 +27,8 @@ BodyDefinition body_of(const FixedDefinition& fixed) {
           .user_data = fixed.user_data};
 }
 
-/// Bodies, their bounds and boxes reach less far than eight times the limit of their coordinates.
+/// Bodies and their bounds, with all that they sense, reach less far than eight times the limit of their
+/// coordinates.
 Box World::Engine::box_of(const Shape& shape) const {
   return bounding_box(shape, 8.0 * coordinate_limit(definition_));
 }
