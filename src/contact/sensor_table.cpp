@@ -9,7 +9,6 @@ void SensorTable::set(SensorClass sensor_class, const Sensor& sensor) {
   if (sensor_class >= sensors_.size()) sensors_.resize(sensor_class + std::size_t{1});
   sensors_[sensor_class] = sensor;
   sort();
-  largest_reach_ = std::max(largest_reach_, reach_of(sensor));
   any_ = any_ || !sensor.distances.empty();
 }
 

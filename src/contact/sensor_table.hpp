@@ -33,9 +33,6 @@ class SensorTable {
     const Distances all = distances_of(sensor_class);
     return all.empty() ? 0.0 : all.front();
   }
-  /// No class senses farther, nor did one before.
-  double largest_reach() const { return largest_reach_; }
-
   /// The largest distance at which either of the two senses the other and that they have not `crossed`, a
   /// list from the outermost inward of some at which one of them does. Cost: O(1) where only one of two
   /// sensors senses, or both are the same, and the outermost distances are crossed, which they are unless a
@@ -48,8 +45,8 @@ class SensorTable {
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [sensors, sorted, any, farthest] = self;
-    archive(sensors, any, farthest);
+    auto& [sensors, sorted, any] = self;
+    archive(sensors, any);
     if constexpr (std::same_as<Archive, HeapCounter>)
       archive(sorted);
     else if constexpr (!std::is_const_v<Self>)
@@ -72,7 +69,6 @@ class SensorTable {
   std::vector<Sensor> sensors_;              ///< by class
   std::vector<std::vector<double>> sorted_;  ///< their distances from the largest on, each once
   bool any_ = false;
-  double largest_reach_ = 0.0;
 };
 
 }  // namespace kinesphere

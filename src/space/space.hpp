@@ -58,11 +58,6 @@ class Space {
     };
     return {on_axis(0), on_axis(1), on_axis(2)};
   }
-  /// A point as seen from the lower corner of the primary box; zero on axes that do not repeat.
-  Vec3 from_corner(const Vec3& point) const {
-    const auto on_axis = [&](int axis) { return repeats(axis) ? point[axis] - lower_[axis] : 0.0; };
-    return {on_axis(0), on_axis(1), on_axis(2)};
-  }
   Vec3 shift_of(const Vec3& images) const {
     return {images.x * period_.x, images.y * period_.y, images.z * period_.z};
   }

@@ -90,14 +90,16 @@ RoomyBound World::Engine::roomy_bound(std::uint32_t number) const {
 }
 
 /// The window in which a body is to be from now on: the one that it is in, unless that lasts longer than the
-/// one that suits it.
+/// one that suits it, or is far shorter.
 Window World::Engine::window_for(std::uint32_t number) const {
   const Body& body = bodies_[number];
   if (body.is_fixed() || body.stands_still()) return Windows::endless();
   const Window window = window_to_start(number);
   if (!windows_.contains(number)) return window;
   const double end = windows_.end_of(number);
-  return time_ < end && end <= window.end ? Window{windows_.tier_of(number), end} : window;
+  const int tier = windows_.tier_of(number);
+  const bool suits = tier >= window.tier - 2 * Tempo::powers_between_tiers && end <= window.end;
+  return suits && time_ < end ? Window{tier, end} : window;
 }
 
 /// The window that suits a body which moves.
@@ -204,13 +206,22 @@ Result<void> World::Engine::start_windows(bool all, std::span<const std::uint32_
     if (windows_.contains(number)) windows_.leave(number);
     Window window = window_to_start(number);
     // A layer in which others are already would have to be sorted anew: rather a shorter window.
-    while (!windows_.is_free(window))
-      window = Windows::window_at(time_, window.tier - Tempo::powers_between_tiers);
+    while (!windows_.is_free(window)) {
+      const int tier = window.tier;
+      window = Windows::window_at(time_, tier - Tempo::powers_between_tiers);
+      if (window.tier == tier) break;
+    }
+    if (!windows_.is_free(window)) {
+      // There is none: the body is settled by itself.
+      mark_dirty(number);
+      continue;
+    }
     if (space_.repeats()) bring_home(number, window.end - time_);
     const RoomyBound bound = roomy_bound(number);
     windows_.start(number, bound, time_, window);
     tempo_.note_start(pace_of(bodies_[number]), 2.0 * (bound.moved.radius + bound.room), window.tier);
   }
+  std::erase_if(round, [this](std::uint32_t number) { return !windows_.contains(number); });
   windows_.finish_start();
   hot_.clear();
   for (std::size_t k = 0; k < windows_.started(); ++k) {
@@ -243,9 +254,10 @@ Result<void> World::Engine::settle_dirty() {
   if (!round_.empty()) {
     if (auto probed = probe(round_); !probed) return probed;
   }
+  const std::size_t count = dirty_.size();
   // Where they are many, all others begin anew with them.
   constexpr std::size_t many = 8;
-  const bool anew = dirty_.size() > many && many * dirty_.size() > windows_.size();
+  const bool anew = count > many && many * count > windows_.size();
   std::vector<std::uint32_t> joining;
   round_.clear();
   for (const std::uint32_t number : dirty_) {
@@ -255,11 +267,11 @@ Result<void> World::Engine::settle_dirty() {
   if (anew || !tempo_.is_chosen()) choose_tempo(anew ? joining : round_);
   counters_.restarts += round_.size();
   for (const std::uint32_t number : round_) enter(number);
+  windows_.tidy();
   if (!joining.empty()) {
     if (auto started = start_windows(true, joining); !started) return started;
     for (const std::uint32_t number : joining) bodies_[number].settled = true;
   }
-  windows_.tidy();
   hot_.clear();
   for (const std::uint32_t number : round_) {
     find_hot_pairs(number, windows_.near(number, roomy_bound(number), time_, scratch_));
@@ -268,8 +280,10 @@ Result<void> World::Engine::settle_dirty() {
     bodies_[number].settled = true;
   }
   agenda_.add_all(hot_);
-  for (const std::uint32_t number : dirty_) bodies_[number].dirty = bodies_[number].settled = false;
-  dirty_.clear();
+  // Probes may have shown meanwhile that others broke their promises.
+  const auto settled = dirty_.begin() + static_cast<std::ptrdiff_t>(count);
+  for (auto at = dirty_.begin(); at != settled; ++at) bodies_[*at].dirty = bodies_[*at].settled = false;
+  dirty_.erase(dirty_.begin(), settled);
   return {};
 }
 

@@ -170,6 +170,26 @@ TEST(BrokenPromise, TeleportIntoAndOutOfContactBeginsAndEndsIt) {
   EXPECT_TRUE(is_clean(p.world));
 }
 
+/// So many bodies are added that all others get new windows with them, for which some are asked.
+TEST(BrokenPromise, FoundOutWhileManyAreAddedLosesNobody) {
+  for (int steps = 1; steps <= 40; ++steps) {
+    Playground p;
+    std::vector<BodyId> ids;
+    for (int k = 0; k < 20; ++k)
+      ids.push_back(p.add(
+          {.radius = 0.1, .acceleration_limit = 1, .position = {3.0 * k, 0, 0}, .velocity = {0, 0.5, 0}}));
+    const double time = 0.0371 * steps;
+    p.run(time);
+    p.set_position(ids[7], {21, -40, 0});
+    for (int k = 0; k < 20; ++k)
+      p.add({.radius = 0.1, .acceleration_limit = 1, .position = {3.0 * k, 30, 0}, .velocity = {0, 0.5, 0}});
+    p.run(time);
+    ASSERT_TRUE(is_clean(p.world)) << "after " << steps << " steps";
+    p.run(time + 20.0);
+    ASSERT_TRUE(is_clean(p.world)) << "after " << steps << " steps";
+  }
+}
+
 TEST(BrokenPromise, SeveralAtOneInstantAreAllTold) {
   Playground p;
   std::vector<BodyId> ids;
