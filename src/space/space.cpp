@@ -58,8 +58,8 @@ bool Space::is_narrow(const Box& box) const {
   return true;
 }
 
-/// Boxes with their centre in the primary box stick out of it by at most half of their own width. A box that is as wide as
-/// the period overlaps an image of each of them.
+/// Boxes with their centre in the primary box stick out of it by at most half of their own width. A box that
+/// is as wide as the period overlaps an image of each of them.
 Space::Images Space::images_near(const Box& box, double largest_extent) const {
   Images images{within(box)};
   const double half_width = 0.5 * largest_extent;
