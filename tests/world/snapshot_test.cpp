@@ -185,6 +185,20 @@ TEST(SnapshotOfAWorld, KeepsAKickThatNoReportHasShownYet) {
   EXPECT_FALSE(p.advance(2.0)) << "the kick is taken for a broken promise";
 }
 
+/// Their first windows would take them farther than is computed well.
+TEST(SnapshotOfAWorld, MayHoldBodiesThatAreVeryFarFromEachOther) {
+  for (const double distance : {1e4, 1e5, 1e6, 2e6}) {
+    Playground p;
+    p.add({.radius = 1, .position = {-distance, 0, 0}, .velocity = {1, 0, 0}});
+    p.add({.radius = 1, .position = {distance, 0, 0}});
+    p.advance(1.0);
+    const Bytes bytes = p.world.save().value();
+    auto restored = World::restore(bytes);
+    ASSERT_TRUE(restored) << distance;
+    EXPECT_EQ(restored->save().value(), bytes);
+  }
+}
+
 TEST(SnapshotOfAWorld, GoesOnTheSameWithThePairFilterThatItHad) {
   const auto odd_pairs = [](BodyId a, BodyId b) { return (a.index + b.index) % 2 == 1; };
   const auto finish = [&](bool restore) {
