@@ -221,6 +221,42 @@ TEST(BadAnswer, InALookAroundHidesNoContact) {
   EXPECT_GT(failures, 100u);
 }
 
+/// Two pairs meet at one instant; one of the second gives a bad answer when the first is known to meet.
+TEST(BadAnswer, TellsNoEventBeforeAllOfItsInstantAreKnown) {
+  const auto two_pairs = [](Playground& p) {
+    for (const double y : {-16.0, 16.0})
+      for (const double side : {-1.0, 1.0})
+        p.add({.radius = 1, .position = {3 * side, y, 0}, .velocity = {-side, 0, 0}});
+  };
+  Playground plain;
+  two_pairs(plain);
+  const auto expected = plain.run(3.0);
+  ASSERT_EQ(of_kind(expected, EventKind::contact_begin).size(), 2u);
+  const double instant = expected[0].time;
+  ASSERT_EQ(expected[1].time, instant);
+
+  Playground p;
+  two_pairs(p);
+  std::vector<std::uint32_t> asked;
+  bool ruin = true;
+  const auto good = p.probe();
+  const auto bad_once = [&](std::span<const BodyId> ids, double time, std::span<State> states) {
+    good(ids, time, states);
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      asked.push_back(ids[k].index);
+      if (time == instant && ids[k].index == 3 && std::exchange(ruin, false)) states[k].position.x = nan;
+    }
+  };
+  ASSERT_FALSE(p.world.advance(3.0, bad_once));
+  EXPECT_EQ(p.world.time(), instant);
+  asked.clear();
+  const auto event = p.world.advance(3.0, bad_once);
+  ASSERT_TRUE(event && *event);
+  EXPECT_EQ((*event)->first, expected[0].first);
+  EXPECT_EQ((*event)->time, instant);
+  EXPECT_EQ(asked, (std::vector<std::uint32_t>{3, 2})) << "before the event was told";
+}
+
 TEST(Probe, MayNotCallTheWorldThatAskedIt) {
   Playground p;
   const BodyId a = p.add({.velocity = {1, 0, 0}});
