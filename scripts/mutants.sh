@@ -24,11 +24,11 @@ targets=$(for mutant in "${mutants[@]}"; do caught_by "$mutant" | cut -d' ' -f1;
 # shellcheck disable=SC2086
 cmake --build "$build" --target $targets >"$build/build.log" 2>&1 || { cat "$build/build.log"; exit 1; }
 
-for mutant in "${mutants[@]}"; do
-  read -r executable filter <<<"$(caught_by "$mutant")"
-  run_test "$executable" "$filter" >"$build/test.log" 2>&1 ||
-    { tail -n 20 "$build/test.log"; echo "mutants: $filter fails without ${mutant##*/} already" >&2; exit 1; }
-done
+# Each of these tests once.
+while read -r executable filter; do
+  run_test "$executable" "$filter" </dev/null >"$build/test.log" 2>&1 ||
+    { tail -n 20 "$build/test.log"; echo "mutants: $executable $filter fails without a mutant already" >&2; exit 1; }
+done < <(for mutant in "${mutants[@]}"; do caught_by "$mutant"; done | sort -u)
 
 survivors=0
 for mutant in "${mutants[@]}"; do
