@@ -52,7 +52,7 @@ for configuration in "${configurations[@]}"; do
   library=("$build"/src/libkinesphere.*)
   read -r -a flags <<<"$flags"
   "$compiler" "${flags[@]}" "${foreign_flags[@]}" "${keep[@]}" -Iinclude -I"$build/include" \
-    tests/same_hash/scene_hash.cpp build/hash/every_header.cpp "${library[0]}" -Wl,-rpath,"$PWD/$build/src" \
+    tests/same_hash/scene_hash.cpp build/hash/every_header.cpp "${library[0]}" -lhwy -Wl,-rpath,"$PWD/$build/src" \
     -o "$build/foreign_user"
   foreign=$("$build/foreign_user")
   echo "$hash  ${replayed:-diverged}  $foreign  $name"

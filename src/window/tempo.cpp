@@ -23,13 +23,16 @@ constexpr std::uint64_t enough_starts = 64;
 
 double length_of(int tier) { return power_of_two(tier); }
 
-/// In looks at a capsule, if all capsules were so many times as wide and as long: a search goes through a
-/// part of space, of all capsules at most, and finds what lies along a way.
-double units_of(const SearchCost& cost, double wider, int dimensions, double most_capsules, double rows) {
-  const double volume = dimensions == 2 ? wider * wider : wider * wider * wider;
-  return std::min(static_cast<double>(cost.capsules) * volume, most_capsules) +
-         4.0 * static_cast<double>(cost.rows) * rows +
-         (12.0 * static_cast<double>(cost.found) + 60.0 * static_cast<double>(cost.hot)) * wider;
+double power(double base, int exponent) {
+  double product = 1.0;
+  for (int k = 0; k < exponent; ++k) product *= base;
+  return product;
+}
+
+/// In looks at a capsule: of so many capsules and rows, and of this factor times those that were found.
+double units_of(const SearchCost& cost, double capsules, double rows, double found) {
+  return capsules + 4.0 * rows +
+         (12.0 * static_cast<double>(cost.found) + 60.0 * static_cast<double>(cost.hot)) * found;
 }
 
 }  // namespace
@@ -52,24 +55,51 @@ int Tempo::tier_for(const Pace& pace) const {
   return tier;
 }
 
+void Tempo::Starts::add(double width, const Pace& pace, double time, double most) {
+  ++bodies;
+  widths += width;
+  const double part = std::min(1.0, most / pace.way(time));
+  if (!(part > 0.0)) {
+    ways += most;
+    return;
+  }
+  ways += part * pace.speed * time;
+  growths += part * pace.acceleration * time * time;
+}
+
+double Tempo::Starts::times_larger(double factor, int dimensions) const {
+  return power(short_side(factor) / short_side(1.0), dimensions - 1) * times_longer(factor);
+}
+
 /// The cost of a time as long as a main window, if these were so many times as long. Others: what other
-/// searches have cost in so many windows.
+/// searches have cost in so many windows. Searches go through cubes, and find what lies along a way. Cells
+/// become larger with the capsules, so that rows do not become more.
 double Tempo::main_rate(double times_longer, const SearchCost& others, double windows) const {
-  const double wider = 1.0 + main_.moving() * (times_longer - 1.0);
-  const double all = static_cast<double>(bodies_);
+  const double cube = power(main_.times_longer(times_longer), dimensions_);
+  const double larger = main_.times_larger(times_longer, dimensions_);
   const auto count = static_cast<double>(main_.bodies);
-  // Cells become wider, too, so that rows do not become more.
-  return (count * start_cost + units_of(main_.cost, wider, dimensions_, count * all, 1.0)) / times_longer +
-         units_of(others, wider, dimensions_, infinity, 1.0) / windows;
+  const SearchCost& cost = main_.cost;
+  const double most = count * static_cast<double>(bodies_);
+  const double starts = units_of(cost, std::min(static_cast<double>(cost.capsules) * cube, most),
+                                 static_cast<double>(cost.rows), larger);
+  return (count * start_cost + starts) / times_longer + units_of(others,
+                                                                 static_cast<double>(others.capsules) * cube,
+                                                                 static_cast<double>(others.rows), larger) /
+                                                            windows;
 }
 
 /// The same for those that are much faster than most, whose cells are those of others.
 double Tempo::fast_rate(double times_longer) const {
-  const double wider = 1.0 + fast_.moving() * (times_longer - 1.0);
-  const double all = static_cast<double>(bodies_);
+  const double longer = fast_.times_longer(times_longer);
+  const double larger = fast_.times_larger(times_longer, dimensions_);
   const auto count = static_cast<double>(fast_.bodies);
-  const double rows = std::min(dimensions_ == 2 ? wider : wider * wider, std::max(all, 1.0));
-  return (count * start_cost + units_of(fast_.cost, wider, dimensions_, count * all, rows)) / times_longer;
+  const SearchCost& cost = fast_.cost;
+  const double most = count * static_cast<double>(bodies_);
+  const double rows = static_cast<double>(cost.rows) * power(longer, dimensions_ - 1);
+  const double searches =
+      units_of(cost, std::min(static_cast<double>(cost.capsules) * power(longer, dimensions_), most),
+               std::min(rows, most), larger);
+  return (count * start_cost + searches) / times_longer;
 }
 
 void Tempo::start_main(double now, const SearchCost& others) {
@@ -82,15 +112,10 @@ void Tempo::start_main(double now, const SearchCost& others) {
 
 void Tempo::note_start(const Pace& pace, double width, int tier) {
   Starts& starts = main_starts_ ? main_ : fast_;
-  ++starts.bodies;
-  starts.widths += width;
   if (tier == main_tier_) ++starts.in_main;
-  if (!main_starts_) {
-    starts.ways += std::min(pace.way(length_of(tier)), longest_way_);
-    return;
-  }
+  if (!main_starts_) return fast_.add(width, pace, length_of(tier), longest_way_);
+  main_.add(width, pace, length_of(main_tier_), much_farther * typical_way_);
   const double way = pace.way(length_of(main_tier_));
-  starts.ways += std::min(way, much_farther * typical_way_);
   const int magnitude = way > 0.0 ? exponent_of(way / typical_way_) : -least_magnitude;
   const int last = static_cast<int>(magnitudes_.size()) - 1;
   ++magnitudes_[static_cast<std::size_t>(std::clamp(magnitude + least_magnitude, 0, last))];
@@ -149,7 +174,9 @@ void Tempo::adapt_fast() {
 
 bool Tempo::is_sound() const {
   const auto is_way = [this](double way) { return way >= 0.0 && way <= longest_way_; };
-  const auto are_sound = [](const Starts& starts) { return starts.ways >= 0.0 && starts.widths >= 0.0; };
+  const auto are_sound = [](const Starts& starts) {
+    return starts.widths >= 0.0 && starts.ways >= 0.0 && starts.growths >= 0.0;
+  };
   return std::abs(main_tier_) <= most_powers && is_way(typical_way_) && is_way(fast_way_) &&
          are_sound(main_) && are_sound(fast_) && !main_starts_ && std::isfinite(main_start_);
 }

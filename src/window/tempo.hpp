@@ -80,17 +80,25 @@ class Tempo {
   struct Starts {
     std::uint64_t bodies = 0;
     std::uint64_t in_main = 0;  ///< of them, in a main window
-    double ways = 0.0;          ///< sum
-    double widths = 0.0;        ///< sum
+    // Sums of what makes capsules large.
+    double widths = 0.0;
+    double ways = 0.0;     ///< straight on
+    double growths = 0.0;  ///< on all sides, by what acceleration may do
     SearchCost cost;
 
-    /// Ways make this part of the capsules.
-    double moving() const { return ways / (ways + widths); }
+    void add(double width, const Pace& pace, double time, double most);
+    /// How much more they would be, and in how much more space, if windows were so many times as long.
+    double times_longer(double factor) const { return long_side(factor) / long_side(1.0); }
+    double times_larger(double factor, int dimensions) const;
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
-      auto& [count, most, way, width, searches] = self;
-      archive(count, most, way, width, searches);
+      auto& [count, most, width, way, growth, searches] = self;
+      archive(count, most, width, way, growth, searches);
     }
+
+   private:
+    double short_side(double factor) const { return widths + growths * factor * factor; }
+    double long_side(double factor) const { return short_side(factor) + ways * factor; }
   };
 
   double main_rate(double times_longer, const SearchCost& others, double windows) const;

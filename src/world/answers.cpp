@@ -8,8 +8,7 @@
 #include "world/present.hpp"
 
 namespace kinesphere {
-World::Engine::Answers::Answers(const Engine& engine)
-    : engine_(engine), now_(engine.time_), hot_(engine.hot_pairs()) {
+World::Engine::Answers::Answers(const Engine& engine) : engine_(engine), now_(engine.time_) {
   for (const auto& [a, b] : engine.book_.changed()) open_.insert(std::minmax(a, b));
   engine.book_.pending().for_each([this](const Event& event) {
     const std::uint32_t a = event.first.index;
@@ -35,14 +34,14 @@ bool World::Engine::Answers::settled(std::uint32_t a, std::uint32_t b) const {
 }
 
 /// The engine looks at the pair no sooner than this, so it tells of no begin before.
-double World::Engine::Answers::recorded(std::uint32_t a, std::uint32_t b) const {
+double World::Engine::Answers::recorded(std::uint32_t a, std::uint32_t b, const PairTimes& hot) const {
   if (!settled(a, b)) return now_;
-  return std::max(std::min(hot_.of(a, b), engine_.windows_end(a, b)), now_);
+  return std::max(std::min(hot.of(a, b), engine_.windows_end(a, b)), now_);
 }
 
-double World::Engine::Answers::recorded_of_walls(std::uint32_t number) const {
+double World::Engine::Answers::recorded_of_walls(std::uint32_t number, const PairTimes& hot) const {
   if (!settled(number, number)) return now_;
-  return std::max(now_, std::min(hot_.of(number, HotPair::walls), engine_.windows_.end_of(number)));
+  return std::max(now_, std::min(hot.of(number, HotPair::walls), engine_.windows_.end_of(number)));
 }
 
 void World::Engine::Answers::consider_touching(std::uint32_t number, Onset& first) const {
@@ -55,9 +54,9 @@ void World::Engine::Answers::consider_touching(std::uint32_t number, Onset& firs
       first = {now_, number, std::nullopt, wall, true};
 }
 
-void World::Engine::Answers::consider_walls(std::uint32_t number, Onset& first) const {
+void World::Engine::Answers::consider_walls(std::uint32_t number, const PairTimes& hot, Onset& first) const {
   if (!engine_.walls_ || !body(number).present() || body(number).is_fixed()) return;
-  const double known = recorded_of_walls(number);
+  const double known = recorded_of_walls(number, hot);
   if (known >= first.time) return;
   const Bound bound = guarded(number);
   for (const Wall wall : walls) {
@@ -108,9 +107,10 @@ double World::Engine::Answers::meeting(const Extent& extent_of_a, const Extent& 
   return std::max(first, now_);
 }
 
-void World::Engine::Answers::consider(std::uint32_t a, std::uint32_t b, Onset& first) const {
+void World::Engine::Answers::consider(std::uint32_t a, std::uint32_t b, const PairTimes& hot,
+                                      Onset& first) const {
   if (!body(a).present() || !body(b).present() || !engine_.may_touch(a, b)) return;
-  const double known = recorded(a, b);
+  const double known = recorded(a, b, hot);
   if (known >= first.time) return;
   const Bound bound_of_a = guarded(a);
   const Bound bound_of_b = guarded(b);
@@ -121,7 +121,7 @@ void World::Engine::Answers::consider(std::uint32_t a, std::uint32_t b, Onset& f
 Onset World::Engine::Answers::of_pair(std::uint32_t a, std::uint32_t b) const {
   if (engine_.book_.touch(a, b)) return {now_, a, b, Wall::none, true};
   Onset first;
-  consider(a, b, first);
+  consider(a, b, PairTimes(engine_.hot_pairs(a)), first);
   return first;
 }
 
@@ -129,13 +129,14 @@ Onset World::Engine::Answers::of_body(std::uint32_t number) const {
   Onset first;
   consider_touching(number, first);
   if (first.touching) return first;
-  consider_walls(number, first);
+  const PairTimes hot(engine_.hot_pairs(number));
+  consider_walls(number, hot, first);
   // Those that are near leave little to compute of the others.
-  for (const HotPair& pair : hot_.pairs())
-    if (pair.second != HotPair::walls && (pair.first == number || pair.second == number))
-      consider(number, pair.first == number ? pair.second : pair.first, first);
+  for (const HotPair& pair : hot.pairs())
+    if (pair.second != HotPair::walls)
+      consider(number, pair.first == number ? pair.second : pair.first, hot, first);
   for (std::uint32_t other = 0; other < engine_.bodies_.size(); ++other)
-    if (other != number && body(other).present()) consider(number, other, first);
+    if (other != number && body(other).present()) consider(number, other, hot, first);
   return first;
 }
 
@@ -147,13 +148,14 @@ Onset World::Engine::Answers::of_world() const {
   for (const std::uint32_t number : present) consider_touching(number, first);
   if (first.touching) return first;
   // Any pair limits the answer; those at hand limit it well.
-  for (const HotPair& pair : hot_.pairs())
-    if (pair.second != HotPair::walls) consider(pair.first, pair.second, first);
+  const PairTimes hot(engine_.hot_pairs());
+  for (const HotPair& pair : hot.pairs())
+    if (pair.second != HotPair::walls) consider(pair.first, pair.second, hot, first);
   for (std::size_t k = 0; k < present.size(); ++k) {
-    consider_walls(present[k], first);
-    if (k > 0) consider(present[k - 1], present[k], first);
+    consider_walls(present[k], hot, first);
+    if (k > 0) consider(present[k - 1], present[k], hot, first);
   }
-  consider_all_within(present, first);
+  consider_all_within(present, hot, first);
   return first;
 }
 
@@ -168,7 +170,7 @@ RoomyBound World::Engine::Answers::until_horizon(std::uint32_t number, double ho
 
 /// Only bodies whose bounds come to the same place before first.time can make it sooner.
 void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t>& numbers,
-                                                 Onset& first) const {
+                                                 const PairTimes& hot, Onset& first) const {
   if (first.time <= now_) return;
   const double horizon = first.time;
   Windows windows(engine_.space_);
@@ -188,10 +190,10 @@ void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t
   const auto bound_of = [&](std::uint32_t number) { return until_horizon(number, horizon); };
   for (std::size_t k = 0; k < windows.started(); ++k)
     for (const std::uint32_t other : windows.near_started(k, now_, bound_of, scratch))
-      consider(windows.started_number(k), other, first);
+      consider(windows.started_number(k), other, hot, first);
   for (const std::uint32_t number : anywhere)
     for (const std::uint32_t other : numbers)
-      if (other != number) consider(number, other, first);
+      if (other != number) consider(number, other, hot, first);
 }
 
 DistanceLimits World::Engine::Answers::distance(std::uint32_t a, std::uint32_t b, double time) const {

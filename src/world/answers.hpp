@@ -64,19 +64,19 @@ class World::Engine::Answers {
   Bound guarded(std::uint32_t number) const;
   double meeting(const Extent& extent_of_a, const Extent& extent_of_b) const;
   bool settled(std::uint32_t a, std::uint32_t b) const;
-  double recorded(std::uint32_t a, std::uint32_t b) const;
-  double recorded_of_walls(std::uint32_t number) const;
+  double recorded(std::uint32_t a, std::uint32_t b, const PairTimes& hot) const;
+  double recorded_of_walls(std::uint32_t number, const PairTimes& hot) const;
   void consider_touching(std::uint32_t number, Onset& first) const;
-  void consider_walls(std::uint32_t number, Onset& first) const;
-  void consider(std::uint32_t a, std::uint32_t b, Onset& first) const;
+  void consider_walls(std::uint32_t number, const PairTimes& hot, Onset& first) const;
+  void consider(std::uint32_t a, std::uint32_t b, const PairTimes& hot, Onset& first) const;
   void consider_approach(std::uint32_t a, std::uint32_t b, double distance, Onset& first) const;
   void consider_approach_to_walls(std::uint32_t number, double distance, Onset& first) const;
   RoomyBound until_horizon(std::uint32_t number, double horizon) const;
-  void consider_all_within(const std::vector<std::uint32_t>& numbers, Onset& first) const;
+  void consider_all_within(const std::vector<std::uint32_t>& numbers, const PairTimes& hot,
+                           Onset& first) const;
 
   const Engine& engine_;
   double now_;
-  PairTimes hot_;
   /// Pairs (a body and itself: its walls) about which an event of this instant is on its way, or has been
   /// delivered since the engine last looked: no fact is recorded of them.
   std::set<std::pair<std::uint32_t, std::uint32_t>> open_;

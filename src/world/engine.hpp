@@ -266,8 +266,9 @@ class World::Engine {
   // looking.cpp: pairs that are due.
   HotPair hot_pair(double time, std::uint32_t a, std::uint32_t b) const;
   bool is_void(const HotPair& pair) const;
-  /// Those that hold.
+  /// Those that hold, or those of them that a body has a part in.
   std::vector<HotPair> hot_pairs() const;
+  std::vector<HotPair> hot_pairs(std::uint32_t number) const;
   bool is_linked(std::uint32_t a, std::uint32_t b) const;
   double unchanged_until(std::uint32_t a, std::uint32_t b) const;
   double unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const;

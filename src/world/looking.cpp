@@ -27,6 +27,14 @@ std::vector<HotPair> World::Engine::hot_pairs() const {
   return pairs;
 }
 
+std::vector<HotPair> World::Engine::hot_pairs(std::uint32_t number) const {
+  std::vector<HotPair> pairs;
+  agenda_.for_each([&](const HotPair& pair) {
+    if ((pair.first == number || pair.second == number) && !is_void(pair)) pairs.push_back(pair);
+  });
+  return pairs;
+}
+
 /// Whether the two touch or sense each other.
 bool World::Engine::is_linked(std::uint32_t a, std::uint32_t b) const {
   return book_.touch(a, b) || !book_.crossings_of(a, b).empty();
