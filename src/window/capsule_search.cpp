@@ -4,6 +4,10 @@
 #include <array>
 #include <bit>
 
+// Without it, Highway 1.0 cannot be compiled for a processor that has these vectors and no better ones.
+#ifndef HWY_WANT_AVX3_DL
+#define HWY_WANT_AVX3_DL
+#endif
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "window/capsule_search.cpp"
 #include <hwy/foreach_target.h>
