@@ -354,7 +354,7 @@ class World {
   /// The whole world as bytes, at any stop. A world restored from them goes on as this one does, to the bit:
   /// the same events, probes and counters, in this process or another, on this machine or another. What
   /// moves the bodies is the caller's to save, and so is the pair filter. Errors: probe_in_progress. Cost:
-  /// O(n), about 0.5 KB a body.
+  /// O(n), about 0.25 KB a body.
   Result<std::vector<std::byte>> save() const;
   /// The world that save() wrote, with the pair filter that it had (setting it later instead makes all bodies
   /// search again). Errors: bad_snapshot for bytes that are foreign, cut short, damaged, of another format
