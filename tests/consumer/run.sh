@@ -2,7 +2,7 @@
 # Installs a build of the library into a temporary folder, moves it, and builds the project beside this
 # script against it: through find_package, and through pkg-config. Whatever flags its user compiles with, none is
 # forced upon it and the library's results are the same as those of this build. What is installed of headers is those of
-# include/ and the version. Without options the library alone would be built, with nothing but a compiler.
+# include/ and the version. Without options the library alone would be built, with nothing but a compiler and Google Highway.
 # Usage: run.sh <build folder> <library folder under the prefix> <compiler> <compiler flags> <executable scene_hash>
 set -euo pipefail
 
