@@ -71,35 +71,34 @@ double Tempo::Starts::times_larger(double factor, int dimensions) const {
   return power(short_side(factor) / short_side(1.0), dimensions - 1) * times_longer(factor);
 }
 
+/// Searches go through cubes, in which there are no more than all bodies, and find what lies along a way.
+double Tempo::Starts::units(double factor, int dimensions, double among, double rows) const {
+  const auto count = static_cast<double>(bodies);
+  const double capsules = static_cast<double>(cost.capsules) * power(times_longer(factor), dimensions);
+  return count * start_cost +
+         units_of(cost, std::min(capsules, count * among), rows, times_larger(factor, dimensions));
+}
+
 /// The cost of a time as long as a main window, if these were so many times as long. Others: what other
-/// searches have cost in so many windows. Searches go through cubes, and find what lies along a way. Cells
-/// become larger with the capsules, so that rows do not become more.
+/// searches have cost in so many windows. Cells become larger with the capsules, so that rows do not become
+/// more.
 double Tempo::main_rate(double times_longer, const SearchCost& others, double windows) const {
   const double cube = power(main_.times_longer(times_longer), dimensions_);
-  const double larger = main_.times_larger(times_longer, dimensions_);
-  const auto count = static_cast<double>(main_.bodies);
-  const SearchCost& cost = main_.cost;
-  const double most = count * static_cast<double>(bodies_);
-  const double starts = units_of(cost, std::min(static_cast<double>(cost.capsules) * cube, most),
-                                 static_cast<double>(cost.rows), larger);
-  return (count * start_cost + starts) / times_longer + units_of(others,
-                                                                 static_cast<double>(others.capsules) * cube,
-                                                                 static_cast<double>(others.rows), larger) /
-                                                            windows;
+  const double starts = main_.units(times_longer, dimensions_, static_cast<double>(bodies_),
+                                    static_cast<double>(main_.cost.rows));
+  const double of_others =
+      units_of(others, static_cast<double>(others.capsules) * cube, static_cast<double>(others.rows),
+               main_.times_larger(times_longer, dimensions_));
+  return starts / times_longer + of_others / windows;
 }
 
 /// The same for those that are much faster than most, whose cells are those of others.
 double Tempo::fast_rate(double times_longer) const {
-  const double longer = fast_.times_longer(times_longer);
-  const double larger = fast_.times_larger(times_longer, dimensions_);
-  const auto count = static_cast<double>(fast_.bodies);
-  const SearchCost& cost = fast_.cost;
-  const double most = count * static_cast<double>(bodies_);
-  const double rows = static_cast<double>(cost.rows) * power(longer, dimensions_ - 1);
-  const double searches =
-      units_of(cost, std::min(static_cast<double>(cost.capsules) * power(longer, dimensions_), most),
-               std::min(rows, most), larger);
-  return (count * start_cost + searches) / times_longer;
+  const auto among = static_cast<double>(bodies_);
+  const double rows =
+      static_cast<double>(fast_.cost.rows) * power(fast_.times_longer(times_longer), dimensions_ - 1);
+  const double most = static_cast<double>(fast_.bodies) * among;
+  return fast_.units(times_longer, dimensions_, among, std::min(rows, most)) / times_longer;
 }
 
 void Tempo::start_main(double now, const SearchCost& others) {

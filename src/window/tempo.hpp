@@ -90,6 +90,8 @@ class Tempo {
     /// How much more they would be, and in how much more space, if windows were so many times as long.
     double times_longer(double factor) const { return long_side(factor) / long_side(1.0); }
     double times_larger(double factor, int dimensions) const;
+    /// What they would cost then, among so many bodies, with so many rows, in looks at a capsule.
+    double units(double factor, int dimensions, double among, double rows) const;
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
       auto& [count, most, width, way, growth, searches] = self;

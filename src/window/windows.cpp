@@ -49,6 +49,17 @@ bool is_within_a_period(const Box& box, const Space& space) {
 
 }  // namespace
 
+Box RoomyBound::box_of_way(double duration) const {
+  const Vec3 end = moved.centre + moved.velocity * duration;
+  const double half = moved.radius_after(duration) + room;
+  Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lower[axis] = std::min(moved.centre[axis], end[axis]) - half;
+    box.upper[axis] = std::max(moved.centre[axis], end[axis]) + half;
+  }
+  return box;
+}
+
 void Windows::reserve(std::size_t bodies) { registrations_.reserve(bodies); }
 
 std::size_t Windows::size() const {
@@ -213,14 +224,7 @@ void Windows::search(const Member& member, const RoomyBound& bound, double now, 
         member, image, now, end, [&](std::uint32_t place) { finds(place, shift != Vec3{}); }, scratch);
   };
   if (!space_.repeats()) return search_shifted({});
-  const double duration = duration_until(end, now);
-  const double radius = bound.moved.radius_after(duration) + bound.room;
-  const Vec3 last = bound.moved.centre + bound.moved.velocity * duration;
-  Box box;
-  for (int axis = 0; axis < 3; ++axis) {
-    box.lower[axis] = std::min(bound.moved.centre[axis], last[axis]) - radius;
-    box.upper[axis] = std::max(bound.moved.centre[axis], last[axis]) + radius;
-  }
+  const Box box = bound.box_of_way(duration_until(end, now));
   if (!is_within_a_period(box, space_)) {
     // It may overlap several images of all: a search of one would not do.
     for (std::uint32_t place = 0; place < member.layer.places(); ++place) finds(place, true);

@@ -27,6 +27,9 @@ namespace kinesphere {
 struct RoomyBound {
   MovedBound moved;  ///< moved on to the present
   double room;       ///< length
+
+  /// Around its way straight on for this long, in its largest size.
+  Box box_of_way(double duration) const;
 };
 
 /// One of the windows of length 2^tier.

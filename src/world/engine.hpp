@@ -267,8 +267,7 @@ class World::Engine {
   HotPair hot_pair(double time, std::uint32_t a, std::uint32_t b) const;
   bool is_void(const HotPair& pair) const;
   /// Those that hold, or those of them that a body has a part in.
-  std::vector<HotPair> hot_pairs() const;
-  std::vector<HotPair> hot_pairs(std::uint32_t number) const;
+  std::vector<HotPair> hot_pairs(std::optional<std::uint32_t> number = std::nullopt) const;
   bool is_linked(std::uint32_t a, std::uint32_t b) const;
   double unchanged_until(std::uint32_t a, std::uint32_t b) const;
   double unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const;

@@ -19,18 +19,11 @@ bool World::Engine::is_void(const HotPair& pair) const {
          (pair.second != HotPair::walls && bodies_[pair.second].stamp != pair.second_stamp);
 }
 
-std::vector<HotPair> World::Engine::hot_pairs() const {
+std::vector<HotPair> World::Engine::hot_pairs(std::optional<std::uint32_t> number) const {
   std::vector<HotPair> pairs;
   agenda_.for_each([&](const HotPair& pair) {
-    if (!is_void(pair)) pairs.push_back(pair);
-  });
-  return pairs;
-}
-
-std::vector<HotPair> World::Engine::hot_pairs(std::uint32_t number) const {
-  std::vector<HotPair> pairs;
-  agenda_.for_each([&](const HotPair& pair) {
-    if ((pair.first == number || pair.second == number) && !is_void(pair)) pairs.push_back(pair);
+    const bool asked = !number || pair.first == *number || pair.second == *number;
+    if (asked && !is_void(pair)) pairs.push_back(pair);
   });
   return pairs;
 }

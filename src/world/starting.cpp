@@ -27,18 +27,6 @@ double spacing_within(const Vec3& size, int count) {
   return std::ldexp(sides[0], -std::ilogb(count) / 3);
 }
 
-/// Where a bound goes, straight on for this long, in its largest size.
-Box box_of_way(const RoomyBound& bound, double length) {
-  const Vec3 end = bound.moved.centre + bound.moved.velocity * length;
-  const double half = bound.moved.radius_after(length) + bound.room;
-  Box box;
-  for (int axis = 0; axis < 3; ++axis) {
-    box.lower[axis] = std::min(bound.moved.centre[axis], end[axis]) - half;
-    box.upper[axis] = std::max(bound.moved.centre[axis], end[axis]) + half;
-  }
-  return box;
-}
-
 }  // namespace
 
 double World::Engine::reach_of_pair(const Body& a, const Body& b) const {
@@ -142,7 +130,7 @@ double World::Engine::longest_in_period(const Body& body, double length) const {
 
 /// Moves the body to the image in which the middle of its way until then lies in the primary box.
 void World::Engine::bring_home(std::uint32_t number, double length) {
-  const Vec3 middle = centre_of(box_of_way(roomy_bound(number), length));
+  const Vec3 middle = centre_of(roomy_bound(number).box_of_way(length));
   const auto [home, images] = space_.wrapped(middle);
   middles_[number] = home;
   if (images == Vec3{}) return;

@@ -411,14 +411,19 @@ TEST(Layer, LooksAtFewOfMany) {
   EXPECT_LT(looked_at(0, ball({0x1p14, 1.0, -0x1p13}, 0.4)), 0.1) << "and one far away";
 }
 
-TEST(Layer, RefusesACapsuleThatWouldMakeSearchesSlow) {
+Layer sorted_crowd(std::uint32_t bodies) {
   Random random(seed);
   Layer layer;
-  for (std::uint32_t number = 0; number < 1000; ++number) {
+  for (std::uint32_t number = 0; number < bodies; ++number) {
     const Bound bound = crowds.front().draw(random);
     layer.add(number, capsule_of(MovedBound(bound, 0.0), 0.0, 1.0, 0.0, {}), 0.0f);
   }
   layer.sort([](std::uint32_t, std::uint32_t) {});
+  return layer;
+}
+
+TEST(Layer, RefusesACapsuleThatWouldMakeSearchesSlow) {
+  Layer layer = sorted_crowd(1000);
   const Capsule before = layer.capsule_at(5);
   for (const Capsule& capsule :
        {Capsule{{100.0f, 0.0f, 0.0f}, {}, 0.1f}, Capsule{before.centre, {}, 100.0f},
@@ -431,13 +436,7 @@ TEST(Layer, RefusesACapsuleThatWouldMakeSearchesSlow) {
 }
 
 TEST(Layer, IsEmptyAfterClear) {
-  Random random(seed);
-  Layer layer;
-  for (std::uint32_t number = 0; number < 100; ++number) {
-    const Bound bound = crowds.front().draw(random);
-    layer.add(number, capsule_of(MovedBound(bound, 0.0), 0.0, 1.0, 0.0, {}), 0.0f);
-  }
-  layer.sort([](std::uint32_t, std::uint32_t) {});
+  Layer layer = sorted_crowd(100);
   layer.remove(3);
   layer.clear({.per_length = 4.0});
   EXPECT_EQ(layer.size(), 0u);
