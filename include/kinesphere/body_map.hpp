@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "kinesphere/body.hpp"
@@ -76,6 +77,20 @@ class BodyMap {
     };
   }
 
+  /// For World::run; the map must outlive it. It throws BadResult: unknown_body, and as state(), departure()
+  /// and depart() of the motions.
+  class MapMover final : public Mover {
+   public:
+    explicit MapMover(const BodyMap& bodies) : bodies_(bodies) {}
+    void states(std::span<const BodyId> ids, double time, std::span<State> states) override;
+    Departure departure(BodyId body) const override;
+    void depart(BodyId body, const Departure& departure) override;
+
+   private:
+    const BodyMap& bodies_;
+  };
+  MapMover mover() const { return MapMover(*this); }
+
  private:
   struct Entry {
     Motion* motion = nullptr;  ///< none: no body of this index is known
@@ -83,6 +98,8 @@ class BodyMap {
     std::uint32_t generation = 0;
   };
 
+  /// Throws BadResult: unknown_body.
+  const Entry& known(std::string_view call, BodyId body) const;
   void connect(BodyId body, Motion& motion, std::uint32_t number);
   const Entry* entry(BodyId body) const {
     if (body.index >= entries_.size()) return nullptr;

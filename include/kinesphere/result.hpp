@@ -32,7 +32,9 @@ enum class ErrorCode {
   overlapping,         ///< two bodies overlap where the world does not allow it
   probe_in_progress,   ///< the world was called from inside its own probe
   filter_in_progress,  ///< the world was called from inside its own pair filter
+  run_in_progress,     ///< the world is in a run(), or has yet to tell the events of an interrupted one
   null_probe,          ///< the probe is a null function pointer or an empty std::function
+  null_callback,       ///< so is respond or the sink of a run()
   moved_from,          ///< the world has been moved from: only assigning to it and destroying it are left
   unsupported,         ///< this detector cannot do what the scene asks for
   bad_snapshot,        ///< bytes that no world can be restored from

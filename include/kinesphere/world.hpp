@@ -48,6 +48,7 @@
 #include "kinesphere/probe.hpp"
 #include "kinesphere/queries.hpp"
 #include "kinesphere/result.hpp"
+#include "kinesphere/run.hpp"
 #include "kinesphere/sensor.hpp"
 #include "kinesphere/shape.hpp"
 #include "kinesphere/world_definition.hpp"
@@ -82,7 +83,9 @@ struct AuditFinding {
   std::string what;  ///< which bodies, what is recorded, what it should be
 };
 
+enum class Activity;
 class Recorder;
+class Workers;
 
 /// Errors. Every call checks what it is handed, in every build type, and a call that returns an error has
 /// changed nothing. Besides the errors that stand at a call,
@@ -90,7 +93,8 @@ class Recorder;
 ///     foreign_body (the id is one of another world);
 ///   - a call that changes the world or could probe, and every other call marked with probe_in_progress
 ///   below,
-///     returns that inside this world's own probe, and filter_in_progress inside its own pair filter;
+///     returns that inside this world's own probe, filter_in_progress inside its own pair filter, and
+///     run_in_progress inside the mover, respond and sink of its own run();
 ///   - a call that takes a Probe may return null_probe and, for a bad answer, not_finite or out_of_range;
 ///   - a world that has been moved from answers every call with moved_from, or throws BadResult where a call
 ///     returns no Result.
@@ -109,8 +113,8 @@ class World {
 
   /// Of a world that has been moved from all calls fail with moved_from; those that do not return a Result
   /// throw BadResult. It may be assigned to and destroyed. A world that is moved from, assigned to or
-  /// destroyed inside its own probe or pair filter stops the program, with a message: the call that asked has
-  /// nowhere to return to.
+  /// destroyed inside its own probe, pair filter or run stops the program, with a message: the call that
+  /// asked has nowhere to return to.
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
   ~World();
@@ -248,6 +252,33 @@ class World {
   /// probe throws.
   [[nodiscard]] Result<std::optional<Event>> advance(double until, Probe probe);
 
+  /// Goes on to time `until`: at each event asks respond for its answer, gives the velocities in it to the
+  /// mover and to the world, and tells the sink. The events are those of a loop over advance() that answers
+  /// in the same way, to the last bit, and so are the world, its counters and its recording afterwards.
+  ///
+  /// Inside the sink body(), touching(), sensed(), time() and whatever else can be read inside a pair filter
+  /// may be called. They show the world at a moment that is not before the event and may be after it: what is
+  /// to depend on the event alone should be taken from the event. Inside mover and respond no call of this
+  /// world is allowed. Calls marked with probe_in_progress fail with run_in_progress inside all three.
+  ///
+  /// Interruptions. On an error, and when mover, respond or the sink throw (which passes through run), the
+  /// world stands at a stop and can go on. No event is lost, none is told twice:
+  ///   - an event whose answer was refused, or could not be had or applied because respond or the mover
+  ///   threw,
+  ///     has changed no body; the next run() asks respond about it before anything else;
+  ///   - an event at which the sink threw has been answered and counts as told; those that were answered but
+  ///     not told are told first by the next run().
+  /// In both cases advance() returns these events instead, before anything else, whatever their time: so it
+  /// passes over an event that respond cannot answer. Until they have come save(), start_recording() and
+  /// stop_recording() fail with run_in_progress.
+  ///
+  /// Errors: as advance(); run_in_progress; null_callback; for a velocity of an answer those of
+  /// set_velocity() and, for the second body of an event that has none, unknown_body.
+  Result<void> run(double until, Mover& mover, const Respond& respond, const Sink& sink,
+                   Workers* workers = nullptr);
+  /// The same for bodies that nobody answers.
+  Result<void> run(double until, const Probe& probe, const Sink& sink, Workers* workers = nullptr);
+
   double time() const;
   std::size_t size() const;
   const WorldDefinition& definition() const;
@@ -378,7 +409,10 @@ class World {
   class Engine;
   class Check;
   class Refresher;
+  class Run;
+  struct Backlog;
   explicit World(std::unique_ptr<Engine> engine);
+  Activity activity() const;
   void require_idle(const char* done) const noexcept;
   /// Throws BadResult with moved_from.
   const Engine& engine(std::string_view call) const;
@@ -388,6 +422,7 @@ class World {
   /// For this change, which has been found to be possible.
   template <class Change>
   Engine& changing(const Change& change);
+  Result<std::optional<Event>> engine_advance(double until, const Probe& probe);
   Result<std::optional<Event>> recorded_advance(double until, const Probe& probe);
   Result<std::optional<Event>> timed_advance(double until, const Probe& probe);
   /// For calls that probe outside advance(): those bodies whose reports are old. True when there were any.
@@ -395,6 +430,8 @@ class World {
 
   std::unique_ptr<const Engine> engine_;
   std::unique_ptr<Recorder> recorder_;  ///< while there is a recording
+  std::unique_ptr<Backlog> backlog_;    ///< from the first run() on
+  bool running_ = false;                ///< in a run()
   Timings timings_{};
   bool timing_ = false;
 };

@@ -38,8 +38,12 @@ std::string_view name_of(ErrorCode code) {
       return "probe_in_progress";
     case ErrorCode::filter_in_progress:
       return "filter_in_progress";
+    case ErrorCode::run_in_progress:
+      return "run_in_progress";
     case ErrorCode::null_probe:
       return "null_probe";
+    case ErrorCode::null_callback:
+      return "null_callback";
     case ErrorCode::moved_from:
       return "moved_from";
     case ErrorCode::unsupported:

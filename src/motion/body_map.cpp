@@ -116,11 +116,30 @@ std::optional<MovedBody> BodyMap::find(BodyId body) const {
   return MovedBody{found->motion, found->number};
 }
 
-State BodyMap::state(BodyId body, double time) const {
+const BodyMap::Entry& BodyMap::known(std::string_view call, BodyId body) const {
   const Entry* const found = entry(body);
   if (found == nullptr) [[unlikely]]
-    detail::bad_result(unknown("state", body));
-  return found->motion->state(found->number, time);
+    detail::bad_result(unknown(call, body));
+  return *found;
+}
+
+State BodyMap::state(BodyId body, double time) const {
+  const Entry& moved = known("state", body);
+  return moved.motion->state(moved.number, time);
+}
+
+void BodyMap::MapMover::states(std::span<const BodyId> ids, double time, std::span<State> states) {
+  bodies_.probe()(ids, time, states);
+}
+
+Departure BodyMap::MapMover::departure(BodyId body) const {
+  const Entry& moved = bodies_.known("departure", body);
+  return moved.motion->departure(moved.number);
+}
+
+void BodyMap::MapMover::depart(BodyId body, const Departure& departure) {
+  const Entry& moved = bodies_.known("depart", body);
+  moved.motion->depart(moved.number, departure).value();
 }
 
 }  // namespace kinesphere

@@ -35,6 +35,14 @@ std::optional<Error> wrong_state(std::string_view call, BodyId body, const State
       .error();
 }
 
+std::optional<Error> wrong_departure(std::string_view call, BodyId body, const Departure& departure) {
+  return InputCheck(call)
+      .finite({"departure", body, "time"}, departure.time)
+      .finite({"departure", body, "position"}, departure.state.position)
+      .finite({"departure", body, "velocity"}, departure.state.velocity)
+      .error();
+}
+
 Error cannot_change(std::string_view call, const Motion& motion, std::uint32_t body, std::string_view what) {
   if (const auto wrong = wrong_body(call, motion, body)) return *wrong;
   const BodyId id{body, 0};

@@ -39,6 +39,7 @@ Result<Frames> Frames::create(FramesDefinition definition) {
 
 Frames::Frames(FramesDefinition definition)
     : latest_(std::move(definition.start)),
+      pushed_(latest_),
       limits_(std::move(definition.acceleration_limits)),
       refuse_violations_(definition.refuse_violations),
       interval_(definition.interval),
@@ -101,6 +102,7 @@ Result<void> Frames::push(std::span<const Vec3> positions) {
     if (!contains(body)) continue;
     chords_[body] = {begin, latest_[body], (positions[body] - latest_[body]) / interval_};
     latest_[body] = positions[body];
+    pushed_[body] = positions[body];
   }
   ++latest_frame_;
   return {};
@@ -149,9 +151,12 @@ Result<void> Frames::check_change(std::string_view call, std::uint32_t body, dou
   return {};
 }
 
+/// Where it goes on as the frame was pushed it ends where that has it, not where a rounding would take it.
 void Frames::turn(std::uint32_t body, double t, const State& state) {
   chords_[body] = {t, state.position, state.velocity};
-  latest_[body] = state.position + state.velocity * (latest_time() - t);
+  const bool as_pushed = latest_frame_ > 0 && t == previous_time() &&
+                         state.velocity == (pushed_[body] - state.position) / interval_;
+  latest_[body] = as_pushed ? pushed_[body] : state.position + state.velocity * (latest_time() - t);
 }
 
 Result<void> Frames::set_velocity(std::uint32_t body, double t, const Vec3& velocity) {
@@ -168,6 +173,23 @@ Result<void> Frames::teleport(std::uint32_t body, double t, const State& state) 
   if (auto valid = check_change(call, body, t); !valid) return valid;
   if (const auto error = wrong_state(call, {body, 0}, state)) return *error;
   turn(body, t, state);
+  return {};
+}
+
+Departure Frames::departure(std::uint32_t body) const {
+  if (const auto error = wrong_body("Frames::departure", *this, body)) detail::bad_result(*error);
+  const Chord& chord = chords_[body];
+  return {chord.begin, {chord.position, chord.velocity}};
+}
+
+Result<void> Frames::depart(std::uint32_t body, const Departure& departure) {
+  constexpr std::string_view call = "Frames::depart";
+  if (const auto error = wrong_body(call, *this, body)) return *error;
+  if (const auto error = wrong_departure(call, {body, 0}, departure)) return *error;
+  if (const auto error =
+          wrong_time(call, {body, 0}, "departure", departure.time, {previous_time(), latest_time()}))
+    return *error;
+  turn(body, departure.time, departure.state);
   return {};
 }
 
@@ -188,6 +210,7 @@ Result<std::uint32_t> Frames::add(double t, const State& state, double accelerat
   if (free_.empty()) {
     chords_.emplace_back();
     latest_.emplace_back();
+    pushed_.emplace_back();
     limits_.emplace_back();
   } else {
     body = free_.back();

@@ -24,9 +24,31 @@ Result<void> Motion::teleport(std::uint32_t body, double, const State&) {
 
 Result<void> Motion::remove(std::uint32_t body) { return cannot_change("remove", *this, body, "removed"); }
 
+Departure Motion::departure(std::uint32_t body) const {
+  detail::bad_result(cannot_change("departure", *this, body, "changed"));
+}
+
+Result<void> Motion::depart(std::uint32_t body, const Departure&) {
+  return cannot_change("depart", *this, body, "changed");
+}
+
 void Motion::require_number(BodyId id, std::size_t size) {
   if (id.generation != 0 || id.index >= size) [[unlikely]]
     refuse_probe(id, size);
+}
+
+void MotionMover::states(std::span<const BodyId> ids, double time, std::span<State> states) {
+  motion_.probe()(ids, time, states);
+}
+
+Departure MotionMover::departure(BodyId body) const {
+  Motion::require_number(body, motion_.size());
+  return motion_.departure(body.index);
+}
+
+void MotionMover::depart(BodyId body, const Departure& departure) {
+  Motion::require_number(body, motion_.size());
+  motion_.depart(body.index, departure).value();
 }
 
 }  // namespace kinesphere

@@ -66,6 +66,19 @@ Result<void> PiecewiseAcceleration::teleport(std::uint32_t body, double t, const
   return {};
 }
 
+Departure PiecewiseAcceleration::departure(std::uint32_t body) const {
+  if (const auto error = wrong_body("departure", *this, body)) detail::bad_result(*error);
+  return {courses_[body].since, courses_[body].state};
+}
+
+Result<void> PiecewiseAcceleration::depart(std::uint32_t body, const Departure& departure) {
+  constexpr std::string_view call = "depart";
+  if (const auto error = wrong_body(call, *this, body)) return *error;
+  if (const auto error = wrong_departure(call, {body, 0}, departure)) return *error;
+  restart(body, departure.time, departure.state);
+  return {};
+}
+
 Result<void> PiecewiseAcceleration::remove(std::uint32_t body) {
   if (const auto error = wrong_body("remove", *this, body)) return *error;
   courses_[body] = {infinity, {}, no_piece};

@@ -9,6 +9,10 @@ Error busy_error(Activity activity, std::string_view call) {
     return {ErrorCode::probe_in_progress, "probe", no_body,
             std::string(call) + ": a probe may not call the world that asked it"};
   }
+  if (activity == Activity::running) {
+    return {ErrorCode::run_in_progress, "world", no_body,
+            std::string(call) + ": mover, respond and sink may not make this call to the world that runs"};
+  }
   return {ErrorCode::filter_in_progress, "pair_filter", no_body,
           std::string(call) + ": a pair filter may not make this call to the world that asked it"};
 }

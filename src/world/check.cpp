@@ -4,6 +4,7 @@
 
 #include "input/input_check.hpp"
 #include "world/fixed.hpp"
+#include "world/run.hpp"
 #include "world/validation.hpp"
 
 namespace kinesphere {
@@ -19,7 +20,15 @@ Result<void> World::Check::exists() const {
 
 Result<void> World::Check::idle() const {
   auto valid = exists();
-  return valid ? check_idle(engine_->activity(), call_) : valid;
+  return valid ? check_idle(world_.activity(), call_) : valid;
+}
+
+Result<void> World::Check::all_told() const {
+  auto valid = idle();
+  if (!valid || !world_.backlog_ || world_.backlog_->empty()) return valid;
+  return Error{ErrorCode::run_in_progress, "world", no_body,
+               std::string(call_) + ": the world must have told all events of an interrupted run first," +
+                   " in another run or by advance"};
 }
 
 Result<void> World::Check::may_ask(const Probe& probe) const {
@@ -54,22 +63,36 @@ Result<void> World::Check::changeable(BodyId body) const {
 
 Result<void> World::Check::enabled(BodyId body, bool enabled) const {
   auto valid = changeable(body);
-  if (!valid || engine_->table()[body.index].enabled == enabled) return valid;
+  return valid ? is_enabled(body, enabled) : valid;
+}
+
+Result<void> World::Check::moving(BodyId body) const {
+  auto valid = changeable(body);
+  return valid ? is_moving(body) : valid;
+}
+
+Result<void> World::Check::mobile(BodyId body) const {
+  auto valid = idle();
+  return valid ? can_turn(body) : valid;
+}
+
+Result<void> World::Check::can_turn(BodyId body) const {
+  auto valid = known(body);
+  if (valid) valid = is_moving(body);
+  return valid ? is_enabled(body, true) : valid;
+}
+
+Result<void> World::Check::is_enabled(BodyId body, bool enabled) const {
+  if (engine_->table()[body.index].enabled == enabled) return {};
   return error_about(enabled ? ErrorCode::disabled_body : ErrorCode::enabled_body, body,
                      std::string("body must be ") + (enabled ? "enabled" : "disabled") + ", but " +
                          text_of(body) + " is not");
 }
 
-Result<void> World::Check::moving(BodyId body) const {
-  auto valid = changeable(body);
-  if (!valid || !engine_->table()[body.index].is_fixed()) return valid;
+Result<void> World::Check::is_moving(BodyId body) const {
+  if (!engine_->table()[body.index].is_fixed()) return {};
   return error_about(ErrorCode::fixed_body, body,
                      "body must be one that can move, but " + text_of(body) + " is fixed");
-}
-
-Result<void> World::Check::mobile(BodyId body) const {
-  auto valid = moving(body);
-  return !valid || engine_->table()[body.index].enabled ? valid : enabled(body, true);
 }
 
 Result<void> World::Check::pair(BodyId first, BodyId second) const {

@@ -13,14 +13,17 @@ namespace kinesphere {
 /// The checks of one call, whose name begins all messages. Those of room need a world that passes exists().
 class World::Check {
  public:
-  Check(const World& world, std::string_view call) : engine_(world.engine_.get()), call_(call) {}
+  Check(const World& world, std::string_view call)
+      : world_(world), engine_(world.engine_.get()), call_(call) {}
 
   // Of the call.
 
   /// The world has not been moved from.
   Result<void> exists() const;
-  /// It exists, and is not being asked from inside its own probe or pair filter.
+  /// It exists, and is not being asked from inside its own probe, pair filter or run.
   Result<void> idle() const;
+  /// It is idle, and has told all events of a run() that was interrupted.
+  Result<void> all_told() const;
   /// It is idle, and there is a probe to ask.
   Result<void> may_ask(const Probe& probe) const;
 
@@ -38,6 +41,8 @@ class World::Check {
   Result<void> moving(BodyId body) const;
   /// Moving and enabled.
   Result<void> mobile(BodyId body) const;
+  /// The same for an answer during a run: mobile, but for the world being idle.
+  Result<void> can_turn(BodyId body) const;
   /// Two different bodies, both changeable.
   Result<void> pair(BodyId first, BodyId second) const;
 
@@ -60,8 +65,12 @@ class World::Check {
  private:
   const WorldDefinition& definition() const { return engine_->definition(); }
   bool is_foreign(BodyId body) const;
+  // Of a body that is known.
+  Result<void> is_enabled(BodyId body, bool enabled) const;
+  Result<void> is_moving(BodyId body) const;
   Error error_about(ErrorCode code, BodyId body, std::string_view what) const;
 
+  const World& world_;
   const Engine* engine_;
   std::string_view call_;
 };

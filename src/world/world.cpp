@@ -12,6 +12,7 @@
 #include "world/changing.hpp"
 #include "world/check.hpp"
 #include "world/engine.hpp"
+#include "world/run.hpp"
 #include "world/validation.hpp"
 
 namespace kinesphere {
@@ -24,6 +25,7 @@ World& World::operator=(World&& other) noexcept {
   other.require_idle("moved from");
   engine_ = std::move(other.engine_);
   recorder_ = std::move(other.recorder_);
+  backlog_ = std::move(other.backlog_);
   timings_ = other.timings_;
   timing_ = other.timing_;
   return *this;
@@ -31,12 +33,18 @@ World& World::operator=(World&& other) noexcept {
 
 World::~World() { require_idle("destroyed"); }
 
-/// Stops the program if the call that asks the probe or the pair filter would come back to a world that is no
-/// more.
+Activity World::activity() const {
+  const Activity activity = engine_->activity();
+  return running_ && activity != Activity::filtering ? Activity::running : activity;
+}
+
+/// Stops the program if a call that asks the caller's own code would come back to a world that is no more.
 void World::require_idle(const char* done) const noexcept {
-  if (!engine_ || engine_->activity() == Activity::idle) return;
+  if (!engine_ || activity() == Activity::idle) return;
   std::fprintf(stderr, "kinesphere: a World was %s inside its own %s\n", done,
-               engine_->activity() == Activity::probing ? "probe" : "pair filter");
+               activity() == Activity::probing   ? "probe"
+               : activity() == Activity::running ? "run"
+                                                 : "pair filter");
   std::abort();
 }
 
@@ -251,6 +259,11 @@ Result<std::optional<Event>> World::advance(double until, Probe probe) {
   auto valid = Check(*this, "advance").may_ask(probe);
   if (valid) valid = check_time(until, engine_->time());
   if (!valid) return valid.error();
+  if (backlog_ && !backlog_->empty()) return backlog_->take();
+  return engine_advance(until, probe);
+}
+
+Result<std::optional<Event>> World::engine_advance(double until, const Probe& probe) {
   return timing_ ? timed_advance(until, probe) : recorded_advance(until, probe);
 }
 
@@ -298,7 +311,7 @@ bool World::recording() const {
 }
 
 Result<std::vector<std::byte>> World::save() const {
-  if (auto idle = Check(*this, "save").idle(); !idle) return idle.error();
+  if (auto all_told = Check(*this, "save").all_told(); !all_told) return all_told.error();
   return engine_->save();
 }
 
@@ -310,12 +323,14 @@ Result<World> World::restore(std::span<const std::byte> snapshot, PairFilter pai
 
 Result<World> World::clone() const {
   if (auto idle = Check(*this, "clone").idle(); !idle) return idle.error();
-  return World(std::make_unique<Engine>(*engine_));
+  World copy(std::make_unique<Engine>(*engine_));
+  if (backlog_) copy.backlog_ = std::make_unique<Backlog>(*backlog_);
+  return copy;
 }
 
 Result<void> World::start_recording() {
-  auto idle = Check(*this, "start_recording").idle();
-  if (!idle) return idle;
+  auto all_told = Check(*this, "start_recording").all_told();
+  if (!all_told) return all_told;
   if (recorder_)
     return Error{ErrorCode::recording, "world", no_body,
                  "start_recording: the world is being recorded already"};
@@ -324,7 +339,7 @@ Result<void> World::start_recording() {
 }
 
 Result<std::vector<std::byte>> World::stop_recording() {
-  if (auto idle = Check(*this, "stop_recording").idle(); !idle) return idle.error();
+  if (auto all_told = Check(*this, "stop_recording").all_told(); !all_told) return all_told.error();
   if (!recorder_)
     return Error{ErrorCode::not_recording, "world", no_body,
                  "stop_recording: the world is not being recorded"};

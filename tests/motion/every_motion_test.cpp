@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -301,6 +302,77 @@ TEST_P(EveryMotion, TeleportsAndRemovesWhatCanBeChanged) {
     EXPECT_EQ(motion.set_velocity(1, 6.0, {}).error().code, ErrorCode::stale_body);
     EXPECT_EQ(motion.remove(1).error().code, ErrorCode::stale_body);
     EXPECT_EQ(motion.state(2, 6.0), before->state(2, 6.0));
+  });
+}
+
+TEST_P(EveryMotion, GoesBackToAnEarlierDepartureToTheLastBit) {
+  for_motions([&](Motion& motion, Random& random) {
+    if (!GetParam().can_be_kicked) {
+      EXPECT_EQ(refusal([&] { (void)motion.departure(1); })->code, ErrorCode::unsupported);
+      EXPECT_EQ(motion.depart(1, {}).error().code, ErrorCode::unsupported);
+      return;
+    }
+    motion.set_velocity(1, 2.0, 10 * random.point_in_ball()).value();
+    const auto before = motion.clone();
+    const Departure departure = motion.departure(1);
+    EXPECT_EQ(departure.time, 2.0);
+    EXPECT_EQ(departure.state, motion.state(1, 2.0));
+    const double kicked_at = random.uniform(2.0, 10.0);
+    motion.set_velocity(1, kicked_at, {1, 2, 3}).value();
+    EXPECT_NE(motion.state(1, 15.0), before->state(1, 15.0));
+    const auto kicked = motion.clone();
+    motion.depart(1, departure).value();
+    for (const double time : {15.0, 2.0, kicked_at, 9.0})
+      EXPECT_EQ(motion.state(1, time), before->state(1, time)) << time;
+    motion.depart(1, kicked->departure(1)).value();
+    EXPECT_EQ(motion.state(1, 15.0), kicked->state(1, 15.0));
+
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(motion.depart(1, {nan, {}}).error().code, ErrorCode::not_finite);
+    EXPECT_EQ(motion.depart(1, {2.0, {{}, {0, nan, 0}}}).error().argument, "departure");
+    EXPECT_EQ(motion.depart(bodies, departure).error().code, ErrorCode::unknown_body);
+    EXPECT_EQ(refusal([&] { (void)motion.departure(bodies); })->code, ErrorCode::unknown_body);
+    EXPECT_EQ(motion.state(1, 15.0), kicked->state(1, 15.0));
+    motion.remove(1).value();
+    EXPECT_EQ(motion.depart(1, departure).error().code, ErrorCode::stale_body);
+    EXPECT_EQ(refusal([&] { (void)motion.departure(1); })->code, ErrorCode::stale_body);
+  });
+}
+
+TEST_P(EveryMotion, MoverRefusesBodiesOfTheWorldThatAreNoneOfItsOwn) {
+  for_motions([&](Motion& motion, Random&) {
+    MotionMover mover(motion);
+    for (const BodyId id : {BodyId{1, 1}, BodyId{bodies, 0}}) {
+      EXPECT_EQ(refusal([&] { (void)mover.departure(id); })->code, ErrorCode::unknown_body);
+      EXPECT_EQ(refusal([&] { mover.depart(id, {}); })->code, ErrorCode::unknown_body);
+    }
+  });
+}
+
+/// Each thread has bodies of its own, and may ask about, turn and take them back. What this shows is shown by
+/// the thread sanitizer; and the answers are those of one thread.
+TEST_P(EveryMotion, ServesThreadsWithDifferentBodies) {
+  for_motions([&](Motion& motion, Random&) {
+    const auto visit = [&](Motion& visited, std::uint32_t body, std::vector<State>& states) {
+      for (const double time : {15.0, 5.0, 9.0, 6.5}) states.push_back(visited.state(body, time));
+      if (!GetParam().can_be_kicked) return;
+      const Departure departure = visited.departure(body);
+      visited.set_velocity(body, 7.0, {1, 2, 3}).value();
+      states.push_back(visited.state(body, 12.0));
+      visited.depart(body, departure).value();
+      states.push_back(visited.state(body, 12.0));
+    };
+    const auto alone = motion.clone();
+    std::vector<std::vector<State>> expected(bodies), found(bodies);
+    for (std::uint32_t body = 0; body < bodies; ++body) visit(*alone, body, expected[body]);
+    std::vector<std::thread> threads;
+    for (std::uint32_t first = 0; first < 3; ++first) {
+      threads.emplace_back([&, first] {
+        for (std::uint32_t body = first; body < bodies; body += 3) visit(motion, body, found[body]);
+      });
+    }
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(found, expected);
   });
 }
 

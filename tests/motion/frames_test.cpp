@@ -12,6 +12,7 @@
 #include "kinesphere/motion/random_forces.hpp"
 #include "kinesphere/world.hpp"
 #include "motion/motion_properties.hpp"
+#include "support/expect_error.hpp"
 
 namespace kinesphere {
 namespace {
@@ -279,6 +280,31 @@ TEST(Frames, KeepTheirPromiseAfterKicks) {
       }
     }
   }
+}
+
+TEST(Frames, TakesAChangeBackToTheLastBit) {
+  Frames frames = Frames::create({.start = {{0.1, 0, 0}, {5, 5, 5}},
+                                  .acceleration_limits = {1e6, 1e6},
+                                  .interval = 1.0 / 60,
+                                  .start_time = 0.3})
+                      .value();
+  frames.push(std::vector<Vec3>{{0.37, 0.1, -0.7}, {5, 5, 6}}).value();
+  const auto before = frames;
+  const double time = 0.5 * (frames.previous_time() + frames.latest_time());
+  const Departure departure = frames.departure(0);
+  EXPECT_EQ(departure.time, frames.previous_time());
+  frames.set_velocity(0, time, {1, 2, 3}).value();
+  EXPECT_NE(frames.latest(), before.latest());
+  frames.depart(0, departure).value();
+  EXPECT_EQ(frames.latest(), before.latest());
+  EXPECT_EQ(frames.state(0, time), before.state(0, time));
+
+  expect_error(frames.depart(0, {0.0, {}}), ErrorCode::time_backwards, "departure",
+               "Frames::depart:", BodyId{0, 0});
+  expect_error(frames.depart(0, {1.0, {}}), ErrorCode::out_of_range, "departure",
+               "Frames::depart:", BodyId{0, 0});
+  frames.remove(0).value();
+  EXPECT_EQ(frames.depart(0, departure).error().code, ErrorCode::stale_body);
 }
 
 }  // namespace

@@ -113,6 +113,10 @@ class Frames final : public Motion {
   /// Both need previous_time() <= t <= latest_time().
   Result<void> set_velocity(std::uint32_t body, double t, const Vec3& velocity) override;
   Result<void> teleport(std::uint32_t body, double t, const State& state) override;
+  /// The last change in the latest frame, or the frame before it.
+  Departure departure(std::uint32_t body) const override;
+  /// Needs previous_time() <= departure.time <= latest_time().
+  Result<void> depart(std::uint32_t body, const Departure& departure) override;
   Result<void> remove(std::uint32_t body) override;
   std::unique_ptr<Motion> clone() const override;
 
@@ -136,6 +140,7 @@ class Frames final : public Motion {
 
   std::vector<Chord> chords_;
   std::vector<Vec3> latest_;
+  std::vector<Vec3> pushed_;  ///< positions in the latest frame, without the changes since
   std::vector<double> limits_;
   std::vector<std::uint32_t> free_;  ///< numbers of removed bodies
   std::vector<FrameViolation> violations_;

@@ -14,6 +14,7 @@
 #include "kinesphere/body.hpp"
 #include "kinesphere/motion/trajectory.hpp"
 #include "kinesphere/result.hpp"
+#include "kinesphere/run.hpp"
 
 namespace kinesphere {
 
@@ -26,6 +27,11 @@ namespace kinesphere {
 ///   time_backwards  the body is not known at this time any more: it lies before its last change, or (Frames)
 ///                   before the last frame but one
 ///   out_of_range    the body is not known at this time yet (Frames: after the last frame)
+///
+/// Threads. Several may use a motion at the same time as long as they ask about different bodies and change
+/// different bodies (set_velocity, teleport, depart). Adding and removing bodies, and whatever else changes
+/// more than one body, needs the motion for itself. This holds for all motions of the library; what they are
+/// made from, such as the function of a VelocityField, must allow it too.
 class Motion {
  public:
   virtual ~Motion() = default;
@@ -37,7 +43,7 @@ class Motion {
   /// The body's promise (limit, plan, errors) and its state at time t; the radius is left at its default.
   virtual BodyDefinition definition(std::uint32_t body, double t) const = 0;
   /// State at time t, which may not lie before the body's last change (or its start). The answer does not
-  /// depend on which times were asked for before. It may be cached, so threads need clones of their own.
+  /// depend on which times were asked for before, nor on other bodies.
   virtual State state(std::uint32_t body, double t) const = 0;
   /// The exact motion during [begin, end], begin not before the last change, as it will be if nobody changes
   /// it. The first segment begins at or before `begin`, the last one ends at `end`. Its states are those that
@@ -51,6 +57,13 @@ class Motion {
   virtual Result<void> set_velocity(std::uint32_t body, double t, const Vec3& velocity) = 0;
   /// Puts the body into another state at time t. Errors: not_finite.
   virtual Result<void> teleport(std::uint32_t body, double t, const State& state);
+  /// The body's last change, or its start: when that was, and the state since then. Its motion from then on
+  /// depends on this and on what the motion knows of it (limit, plan, steering). Throws BadResult: as above
+  /// without the time; unsupported.
+  virtual Departure departure(std::uint32_t body) const;
+  /// The body sets out from there, which may be before its last change: so changes are taken back, to the
+  /// bit. Errors: not_finite; Frames: time_backwards and out_of_range.
+  virtual Result<void> depart(std::uint32_t body, const Departure& departure);
   /// From now on there is no body of this number. The next body that is added takes the number again.
   virtual Result<void> remove(std::uint32_t body);
   /// An independent copy, changes included.
@@ -71,7 +84,22 @@ class Motion {
   }
 
  private:
+  friend class MotionMover;
   static void require_number(BodyId id, std::size_t size);
+};
+
+/// For World::run, in worlds whose id.index is the number in a motion, which must outlive it. It throws
+/// BadResult: as Motion::probe(), and as departure() and depart() of the motion.
+class MotionMover final : public Mover {
+ public:
+  explicit MotionMover(Motion& motion) : motion_(motion) {}
+
+  void states(std::span<const BodyId> ids, double time, std::span<State> states) override;
+  Departure departure(BodyId body) const override;
+  void depart(BodyId body, const Departure& departure) override;
+
+ private:
+  Motion& motion_;
 };
 
 }  // namespace kinesphere

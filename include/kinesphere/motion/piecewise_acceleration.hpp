@@ -29,6 +29,8 @@ class PiecewiseAcceleration : public Motion {
   Trajectory trajectory(std::uint32_t body, double begin, double end) const final;
   Result<void> set_velocity(std::uint32_t body, double t, const Vec3& velocity) final;
   Result<void> teleport(std::uint32_t body, double t, const State& state) final;
+  Departure departure(std::uint32_t body) const final;
+  Result<void> depart(std::uint32_t body, const Departure& departure) final;
   Result<void> remove(std::uint32_t body) final;
 
  protected:
@@ -51,7 +53,8 @@ class PiecewiseAcceleration : public Motion {
 
   /// The acceleration during what is left of interval k, for a body in `state` at the beginning of that: at
   /// the beginning of the interval, or later if the body was changed in it. Must depend on nothing but the
-  /// arguments and what changes only together with restart().
+  /// arguments and what changes only together with restart(). Called from several threads at the same time,
+  /// for different bodies, where the motion is used so.
   virtual Vec3 acceleration(std::uint32_t body, std::int64_t k, const State& state) const = 0;
 
   /// Forgets the past: from t on the body moves on from `state`.

@@ -1,0 +1,60 @@
+// One call of World::run: phases of work, after each of which the sink is told what came of it.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string_view>
+
+#include "kinesphere/world.hpp"
+
+namespace kinesphere {
+
+/// Events that were delivered, but have not gone all the way of an event of run().
+struct World::Backlog {
+  std::deque<Event> untold{};         ///< answered, in their order
+  std::optional<Event> unanswered{};  ///< comes after them
+
+  bool empty() const { return untold.empty() && !unanswered; }
+  /// The first of them, which is gone then.
+  std::optional<Event> take();
+};
+
+class World::Run {
+ public:
+  /// Without mover and respond, events get no answer.
+  Run(World& world, double until, const Probe& probe, const Sink& sink, Workers* workers)
+      : world_(world), until_(until), probe_(probe), sink_(sink), workers_(workers) {}
+  void answer_by(Mover& mover, const Respond& respond) {
+    mover_ = &mover;
+    respond_ = &respond;
+  }
+
+  /// The whole run.
+  Result<void> go();
+
+ private:
+  class Unanswered;
+
+  /// Does some work, and appends the events that came of it to the untold ones. True when the world has
+  /// reached the end of the run. Needs all events before to have been told. One event at a time: the place
+  /// for a phase of more work, by several threads.
+  Result<bool> phase();
+  void tell();
+
+  Result<std::optional<Event>> next();
+  Result<void> answer(const Event& event);
+  Result<void> check(const Event& event, const Answer& answer) const;
+  Result<void> check_kick(const Event& event, BodyId body, const std::optional<Vec3>& velocity,
+                          std::string_view argument) const;
+  void depart(const Event& event, const Answer& answer);
+
+  World& world_;
+  double until_;
+  const Probe& probe_;
+  const Sink& sink_;
+  Workers* workers_;
+  Mover* mover_ = nullptr;
+  const Respond* respond_ = nullptr;
+};
+
+}  // namespace kinesphere

@@ -1,0 +1,181 @@
+// World::run: a loop over advance() that knows beforehand what is done at an event.
+#include "world/run.hpp"
+
+#include <string>
+#include <utility>
+
+#include "world/changing.hpp"
+#include "world/check.hpp"
+#include "world/engine.hpp"
+#include "world/validation.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// What the engine calls an advance() is a run() to the caller.
+Error renamed(Error error) {
+  constexpr std::string_view inner = "advance:";
+  if (error.message.rfind(inner, 0) == 0) error.message.replace(0, inner.size(), "run:");
+  return error;
+}
+
+Result<void> check_given(bool given, std::string_view argument) {
+  if (given) return {};
+  return Error{ErrorCode::null_callback, std::string(argument), no_body,
+               "run: " + std::string(argument) + " must be a function, but is empty"};
+}
+
+/// Resets the flag, also when an exception passes.
+class InProgress {
+ public:
+  explicit InProgress(bool& flag) : flag_(flag) { flag_ = true; }
+  InProgress(const InProgress&) = delete;
+  InProgress& operator=(const InProgress&) = delete;
+  ~InProgress() { flag_ = false; }
+
+ private:
+  bool& flag_;
+};
+
+}  // namespace
+
+std::optional<Event> World::Backlog::take() {
+  if (untold.empty()) return std::exchange(unanswered, std::nullopt);
+  std::optional<Event> first = untold.front();
+  untold.pop_front();
+  return first;
+}
+
+/// An event whose answer is being worked out: back in the backlog unless that came to its end.
+class World::Run::Unanswered {
+ public:
+  Unanswered(Backlog& backlog, const Event& event) : backlog_(backlog), event_(event) {}
+  Unanswered(const Unanswered&) = delete;
+  Unanswered& operator=(const Unanswered&) = delete;
+  ~Unanswered() {
+    if (!answered_) backlog_.unanswered = event_;
+  }
+  void is_answered() { answered_ = true; }
+
+ private:
+  Backlog& backlog_;
+  const Event& event_;
+  bool answered_ = false;
+};
+
+Result<void> World::run(double until, Mover& mover, const Respond& respond, const Sink& sink,
+                        Workers* workers) {
+  const Probe probe = [&mover](std::span<const BodyId> ids, double time, std::span<State> states) {
+    mover.states(ids, time, states);
+  };
+  auto valid = Check(*this, "run").idle();
+  if (valid) valid = check_given(static_cast<bool>(respond), "respond");
+  if (valid) valid = check_given(static_cast<bool>(sink), "sink");
+  if (!valid) return valid;
+  Run run(*this, until, probe, sink, workers);
+  run.answer_by(mover, respond);
+  return run.go();
+}
+
+Result<void> World::run(double until, const Probe& probe, const Sink& sink, Workers* workers) {
+  auto valid = Check(*this, "run").may_ask(probe);
+  if (valid) valid = check_given(static_cast<bool>(sink), "sink");
+  if (!valid) return valid;
+  return Run(*this, until, probe, sink, workers).go();
+}
+
+Result<void> World::Run::go() {
+  if (auto valid = check_time(until_, world_.time()); !valid) return renamed(valid.error());
+  if (!world_.backlog_) world_.backlog_ = std::make_unique<Backlog>();
+  const InProgress guard(world_.running_);
+  tell();
+  for (;;) {
+    const auto done = phase();
+    if (!done) return done.error();
+    tell();
+    if (*done) return {};
+  }
+}
+
+void World::Run::tell() {
+  std::deque<Event>& untold = world_.backlog_->untold;
+  while (!untold.empty()) {
+    const Event event = untold.front();
+    untold.pop_front();
+    sink_(event);
+  }
+}
+
+Result<bool> World::Run::phase() {
+  Backlog& backlog = *world_.backlog_;
+  const auto event = next();
+  if (!event) return renamed(event.error());
+  if (!*event) return true;
+  if (respond_ != nullptr) {
+    Unanswered unanswered(backlog, **event);
+    if (auto answered = answer(**event); !answered) return answered.error();
+    unanswered.is_answered();
+  }
+  backlog.untold.push_back(**event);
+  return false;
+}
+
+Result<std::optional<Event>> World::Run::next() {
+  if (auto event = world_.backlog_->take()) return event;
+  return world_.engine_advance(until_, probe_);
+}
+
+Result<void> World::Run::answer(const Event& event) {
+  const Answer answer = (*respond_)(event);
+  if (auto valid = check(event, answer); !valid) return valid;
+  depart(event, answer);
+  const auto kick = [this](BodyId body, const std::optional<Vec3>& velocity) {
+    if (velocity) world_.changing(step::SetVelocity{body, *velocity}).set_velocity(body, *velocity);
+  };
+  kick(event.first, answer.first_velocity);
+  kick(event.second, answer.second_velocity);
+  return {};
+}
+
+Result<void> World::Run::check(const Event& event, const Answer& answer) const {
+  auto valid = check_kick(event, event.first, answer.first_velocity, "first_velocity");
+  return valid ? check_kick(event, event.second, answer.second_velocity, "second_velocity") : valid;
+}
+
+Result<void> World::Run::check_kick(const Event& event, BodyId body, const std::optional<Vec3>& velocity,
+                                    std::string_view argument) const {
+  if (!velocity) return {};
+  const std::string call =
+      "run: respond: " + std::string(argument) + " at " + std::string(name_of(event.kind));
+  auto valid = Check(world_, call).can_turn(body);
+  if (valid) valid = check_velocity(*velocity, body, world_.definition(), call);
+  if (valid) return valid;
+  Error error = valid.error();
+  error.argument = argument;
+  return error;
+}
+
+/// Tells the mover of all new velocities or, if it throws, of none.
+void World::Run::depart(const Event& event, const Answer& answer) {
+  const auto turned = [&](BodyId body, const Vec3& velocity) {
+    State state;
+    mover_->states(std::span(&body, 1), event.time, std::span(&state, 1));
+    return Departure{event.time, {state.position, velocity}};
+  };
+  if (!answer.first_velocity || !answer.second_velocity) {
+    if (answer.first_velocity) mover_->depart(event.first, turned(event.first, *answer.first_velocity));
+    if (answer.second_velocity) mover_->depart(event.second, turned(event.second, *answer.second_velocity));
+    return;
+  }
+  const Departure second = turned(event.second, *answer.second_velocity);
+  const Departure before = mover_->departure(event.first);
+  mover_->depart(event.first, turned(event.first, *answer.first_velocity));
+  try {
+    mover_->depart(event.second, second);
+  } catch (...) {
+    mover_->depart(event.first, before);
+    throw;
+  }
+}
+
+}  // namespace kinesphere
