@@ -18,7 +18,7 @@ file(RELATIVE_PATH prefix_from_pkgconfig /prefix/${pkgconfig_dir} /prefix)
 # Whoever links a static library links what it uses, too.
 get_target_property(type kinesphere TYPE)
 if(type STREQUAL "STATIC_LIBRARY")
-  set(libraries "-lkinesphere -lhwy")
+  set(libraries "-lkinesphere -lhwy ${CMAKE_THREAD_LIBS_INIT}")
 else()
   set(libraries "-lkinesphere")
 endif()

@@ -34,5 +34,6 @@
 #include "kinesphere/shape.hpp"
 #include "kinesphere/vec3.hpp"
 #include "kinesphere/version.hpp"
+#include "kinesphere/workers.hpp"
 #include "kinesphere/world.hpp"
 #include "kinesphere/world_definition.hpp"

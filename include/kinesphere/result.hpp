@@ -33,8 +33,10 @@ enum class ErrorCode {
   probe_in_progress,   ///< the world was called from inside its own probe
   filter_in_progress,  ///< the world was called from inside its own pair filter
   run_in_progress,     ///< the world is in a run(), or has yet to tell the events of an interrupted one
+  workers_busy,        ///< the workers are at work in another run()
+  no_threads,          ///< the system does not give as many threads
   null_probe,          ///< the probe is a null function pointer or an empty std::function
-  null_callback,       ///< so is respond or the sink of a run()
+  null_callback,       ///< so is respond or the sink of a run(), or a function of a task system
   moved_from,          ///< the world has been moved from: only assigning to it and destroying it are left
   unsupported,         ///< this detector cannot do what the scene asks for
   bad_snapshot,        ///< bytes that no world can be restored from

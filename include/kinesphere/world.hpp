@@ -272,7 +272,9 @@ class World {
   /// passes over an event that respond cannot answer. Until they have come save(), start_recording() and
   /// stop_recording() fail with run_in_progress.
   ///
-  /// Errors: as advance(); run_in_progress; null_callback; for a velocity of an answer those of
+  /// The workers (workers.hpp) may do some of the work, with the same outcome.
+  ///
+  /// Errors: as advance(); run_in_progress; null_callback; workers_busy; for a velocity of an answer those of
   /// set_velocity() and, for the second body of an event that has none, unknown_body.
   Result<void> run(double until, Mover& mover, const Respond& respond, const Sink& sink,
                    Workers* workers = nullptr);

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "kinesphere/world.hpp"
+#include "parallel/crew.hpp"
 
 namespace kinesphere {
 
@@ -23,7 +24,7 @@ class World::Run {
  public:
   /// Without mover and respond, events get no answer.
   Run(World& world, double until, const Probe& probe, const Sink& sink, Workers* workers)
-      : world_(world), until_(until), probe_(probe), sink_(sink), workers_(workers) {}
+      : world_(world), until_(until), probe_(probe), sink_(sink), shift_(workers) {}
   void answer_by(Mover& mover, const Respond& respond) {
     mover_ = &mover;
     respond_ = &respond;
@@ -52,7 +53,7 @@ class World::Run {
   double until_;
   const Probe& probe_;
   const Sink& sink_;
-  Workers* workers_;
+  Shift shift_;
   Mover* mover_ = nullptr;
   const Respond* respond_ = nullptr;
 };

@@ -86,6 +86,10 @@ Result<void> World::run(double until, const Probe& probe, const Sink& sink, Work
 
 Result<void> World::Run::go() {
   if (auto valid = check_time(until_, world_.time()); !valid) return renamed(valid.error());
+  if (!shift_) {
+    return Error{ErrorCode::workers_busy, "workers", no_body,
+                 "run: workers must not be at work in another run, but are"};
+  }
   if (!world_.backlog_) world_.backlog_ = std::make_unique<Backlog>();
   const InProgress guard(world_.running_);
   tell();

@@ -1,0 +1,169 @@
+#include "kinesphere/workers.hpp"
+
+#include <cassert>
+#include <condition_variable>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "input/input_check.hpp"
+#include "parallel/crew.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// Threads that sleep until there are items, and again when there are none.
+class Threads final : public Crew {
+ public:
+  explicit Threads(int count) {
+    threads_.reserve(static_cast<std::size_t>(count) - 1);
+    try {
+      for (std::size_t worker = 1; worker < static_cast<std::size_t>(count); ++worker)
+        threads_.emplace_back([this, worker] { live(worker); });
+    } catch (...) {
+      dismiss();
+      throw;
+    }
+  }
+  ~Threads() override { dismiss(); }
+
+  int count() const override { return static_cast<int>(threads_.size()) + 1; }
+
+  void share(SharedItems& items) override {
+    {
+      const std::lock_guard lock(mutex_);
+      assert(items_ == nullptr);
+      items_ = &items;
+      ++round_;
+    }
+    wake_.notify_all();
+    items.work(0);
+    // Whoever has not woken up by now has nothing left to do, and is not waited for.
+    std::unique_lock lock(mutex_);
+    items_ = nullptr;
+    done_.wait(lock, [this] { return working_ == 0; });
+  }
+
+ private:
+  void live(std::size_t worker) {
+    std::uint64_t last_round = 0;
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      wake_.wait(lock, [&] { return leaving_ || (items_ != nullptr && round_ != last_round); });
+      if (leaving_) return;
+      last_round = round_;
+      SharedItems& items = *items_;
+      ++working_;
+      lock.unlock();
+      items.work(worker);
+      lock.lock();
+      if (--working_ == 0) done_.notify_one();
+    }
+  }
+
+  void dismiss() {
+    {
+      const std::lock_guard lock(mutex_);
+      leaving_ = true;
+    }
+    wake_.notify_all();
+    for (std::thread& thread : threads_) thread.join();
+  }
+
+  std::mutex mutex_;  ///< of all that follows but the threads
+  std::condition_variable wake_;
+  std::condition_variable done_;
+  SharedItems* items_ = nullptr;  ///< while there are some to begin with
+  std::uint64_t round_ = 0;       ///< which items these are
+  int working_ = 0;
+  bool leaving_ = false;
+  std::vector<std::thread> threads_;
+};
+
+/// A task of one item for each worker, in which it takes ranges as long as there are some: so it does not
+/// matter in which threads, and how many of them at the same time, a task system works on it.
+class Tasks final : public Crew {
+ public:
+  explicit Tasks(const TaskSystem& system) : system_(system) {}
+
+  int count() const override { return system_.threads; }
+
+  void share(SharedItems& items) override {
+    void* const handle = system_.enqueue(
+        [](std::size_t begin, std::size_t end, void* context) {
+          for (std::size_t worker = begin; worker < end; ++worker)
+            static_cast<SharedItems*>(context)->work(worker + 1);
+        },
+        static_cast<std::size_t>(count()) - 1, 1, &items, system_.user_context);
+    items.work(0);
+    system_.finish(handle, system_.user_context);
+  }
+
+ private:
+  TaskSystem system_;
+};
+
+Result<void> check_threads(int threads) {
+  return InputCheck("Workers::create")
+      .require(threads >= 1 && threads <= Workers::most_threads, ErrorCode::out_of_range, {"threads"},
+               "must be from 1 to 256", static_cast<double>(threads))
+      .result();
+}
+
+}  // namespace
+
+void SharedItems::work(std::size_t worker) {
+  while (!failed_.load(std::memory_order_relaxed)) {
+    const std::size_t begin = next_.fetch_add(range_, std::memory_order_relaxed);
+    if (begin >= items_) return;
+    try {
+      work_(begin, items_ - begin < range_ ? items_ : begin + range_, worker);
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!failure_ || begin < failed_at_) {
+        failure_ = std::current_exception();
+        failed_at_ = begin;
+      }
+      failed_ = true;
+    }
+  }
+}
+
+Shift::Shift(Workers* workers) {
+  if (workers == nullptr || workers->count() == 0) return;
+  Crew& crew = Crew::of(*workers);
+  free_ = !crew.busy_.exchange(true);
+  if (free_) crew_ = &crew;
+}
+
+Result<Workers> Workers::create(int threads) {
+  if (auto valid = check_threads(threads); !valid) return valid.error();
+  try {
+    return Workers(std::make_unique<Threads>(threads));
+  } catch (const std::system_error& error) {
+    return Error{ErrorCode::no_threads, "threads", no_body,
+                 "Workers::create: threads: the system does not give " + text_of(std::size_t(threads)) +
+                     " threads: " + error.what()};
+  }
+}
+
+Result<Workers> Workers::create(const TaskSystem& task_system) {
+  if (auto valid = check_threads(task_system.threads); !valid) return valid.error();
+  for (const auto& [given, name] : {std::pair{task_system.enqueue != nullptr, "enqueue"},
+                                    std::pair{task_system.finish != nullptr, "finish"}}) {
+    if (given) continue;
+    return Error{ErrorCode::null_callback, name, no_body,
+                 std::string("Workers::create: ") + name + " must be a function, but is null"};
+  }
+  return Workers(std::make_unique<Tasks>(task_system));
+}
+
+Workers::Workers(std::unique_ptr<Crew> crew) : crew_(std::move(crew)) {}
+Workers::Workers(Workers&&) noexcept = default;
+Workers& Workers::operator=(Workers&&) noexcept = default;
+Workers::~Workers() = default;
+
+int Workers::count() const { return crew_ ? crew_->count() : 0; }
+
+}  // namespace kinesphere
