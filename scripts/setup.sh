@@ -4,7 +4,7 @@
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libhwy-dev libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev libgeographiclib-dev)
-testing=(libgtest-dev librapidcheck-dev clang clang-format clang-tidy pkg-config valgrind)
+testing=(libgtest-dev libtbb-dev librapidcheck-dev clang clang-format clang-tidy pkg-config valgrind)
 case ${1:-} in
   run) ;;
   bench) packages+=(gnuplot-nox libbullet-dev) ;;

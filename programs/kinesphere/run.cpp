@@ -42,6 +42,9 @@ Attachments attach(const RunOptions& options, const Scene& scene) {
   Attachments attached;
   if (!options.record.empty() && options.detector.name != "world")
     throw ProgramError("--record: expected only with --detector world");
+  if (options.threads && options.detector.name != "world")
+    throw ProgramError("--threads: expected only with --detector world");
+  if (options.threads && options.audit) throw ProgramError("--audit: expected only without --threads");
   if (!options.contacts.empty()) attached.contacts = std::make_unique<ContactLog>(options.contacts);
   if (!options.frames.empty()) attached.frames = std::make_unique<FramesXyz>(options.frames, scene);
   if (!options.record.empty()) attached.recording = std::make_unique<OutputFile>(options.record);
@@ -123,7 +126,10 @@ std::string summary_of(const SceneParameters& parameters, const RunOptions& opti
   const auto probes = static_cast<double>(counters.probes);
   Summary summary;
   add_scene(summary, parameters);
-  summary.row("detector", options.detector.description());
+  summary.row("detector", options.detector.description(),
+              options.threads
+                  ? fmt::format("by itself, {} thread{}", *options.threads, *options.threads == 1 ? "" : "s")
+                  : "");
   summary.row("simulated", fmt::format("{} s", number(result.simulated_time)),
               fmt::format("{} body-seconds", number(result.body_time)));
   summary.space();
@@ -166,6 +172,10 @@ CLI::App* add_run_command(CLI::App& program, RunOptions& options) {
       ->add_option("--frame-interval", options.frame_interval,
                    "Time between snapshots; a hundredth of the scene's when not given")
       ->check(finite_number());
+  command
+      ->add_option("--threads", options.threads,
+                   "Let the world go on by itself (World::run) with so many threads, with the same outcome")
+      ->check(whole_number(Workers::most_threads, 1));
   command->add_flag("--audit", options.audit, "Check the detector's own records before every event (slow)");
   command->add_flag("--hash-only", options.hash_only, "Print the hash of the contacts and nothing else");
   command->add_flag("--quiet", options.quiet, "No progress bar and no summary");
@@ -182,8 +192,12 @@ int run(const RunOptions& options) {
   Attachments attached = attach(options, scene);
   const SimulationObserver observer = observer_of(options, scene, attached);
 
+  std::optional<Workers> workers;
+  if (options.threads) workers = require(Workers::create(*options.threads));
+
   const auto started = std::chrono::steady_clock::now();
-  const SimulationResult result = require(simulate(scene, make_detector, observer));
+  const SimulationResult result =
+      require(simulate(scene, make_detector, observer, workers ? &*workers : nullptr));
   const std::chrono::duration<double> real_time = std::chrono::steady_clock::now() - started;
 
   attached.progress.reset();

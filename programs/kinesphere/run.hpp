@@ -17,6 +17,7 @@ struct RunOptions {
   std::string frames;
   std::string record;
   std::optional<double> frame_interval;
+  std::optional<int> threads;
   bool audit = false;
   bool hash_only = false;
   bool quiet = false;

@@ -11,12 +11,12 @@
 namespace kinesphere::program {
 namespace {
 
-bool is_whole_number(const std::string& text, std::uint64_t largest) {
+bool is_whole_number(const std::string& text, std::uint64_t largest, std::uint64_t least) {
   if (text.size() > 1 && text.front() == '0') return false;
   std::uint64_t number = 0;
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, number);
-  return error == std::errc() && stop == end && number <= largest;
+  return error == std::errc() && stop == end && least <= number && number <= largest;
 }
 
 }  // namespace
@@ -28,11 +28,11 @@ CLI::Validator finite_number() {
   return CLI::Validator(problem, "", "finite number");
 }
 
-CLI::Validator whole_number(std::uint64_t largest) {
-  const auto problem = [largest](const std::string& text) {
-    return is_whole_number(text, largest)
+CLI::Validator whole_number(std::uint64_t largest, std::uint64_t least) {
+  const auto problem = [largest, least](const std::string& text) {
+    return is_whole_number(text, largest, least)
                ? std::string()
-               : fmt::format("expected a whole number from 0 to {}, but got '{}'", largest, text);
+               : fmt::format("expected a whole number from {} to {}, but got '{}'", least, largest, text);
   };
   return CLI::Validator(problem, "", "whole number");
 }

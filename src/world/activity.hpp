@@ -10,8 +10,8 @@ namespace kinesphere {
 
 enum class Activity { idle, probing, filtering, running };
 
-/// An error unless the world is idle: neither a probe, nor a pair filter, nor what a run() calls may make this
-/// call to the world that asked it.
+/// An error unless the world is idle: neither a probe, nor a pair filter, nor what a run() calls may make
+/// this call to the world that asked it.
 Error busy_error(Activity activity, std::string_view call);
 inline Result<void> check_idle(Activity activity, std::string_view call) {
   if (activity == Activity::idle) return {};

@@ -75,6 +75,11 @@ TEST_F(ProgramTest, RefusesWrongOptions) {
       {"--detector", "world, paper, ballistic, hubbard, hayward, fixed-step, brute-force, oracle", "eye"});
   expect_wrong_input("run " + scene + " --detector fixed-step", {"--step"});
   expect_wrong_input("run " + scene + " --step 0.1", {"--step", "fixed-step"});
+  for (const char* threads : {"0", "257", "-1", "two"}) {
+    expect_wrong_input("run " + scene + " --threads " + threads, {"--threads", "from 1 to 256", threads});
+  }
+  expect_wrong_input("run " + scene + " --threads 2 --detector paper", {"--threads", "--detector world"});
+  expect_wrong_input("run " + scene + " --threads 2 --audit", {"--audit", "--threads"});
   expect_wrong_input("run " + scene + " --frames " + path("f.xyz") + " --frame-interval 0",
                      {"--frame-interval", "0"});
   expect_wrong_input("tracks " + scene, {"--distance"});
@@ -104,6 +109,22 @@ TEST_F(ProgramTest, SummarisesARun) {
     EXPECT_EQ(lines_with(result.out, std::string(label) + " "), 1u) << label << "\n" << result.out;
   }
   EXPECT_NE(result.out.find("42"), std::string::npos);
+}
+
+TEST_F(ProgramTest, WritesTheSameFilesWhenTheWorldGoesOnByItself) {
+  const std::string scene = write("s.json", small_scene);
+  const auto files = [&](const std::string& name, const std::string& options) {
+    const ProgramRun result =
+        run("run " + scene + " --hash-only --contacts " + path(name + ".csv") + " --frames " +
+            path(name + ".xyz") + " --frame-interval 0.3 --record " + path(name + ".kin") + options);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(run("replay " + path(name + ".kin")).exit_code, 0);
+    return std::vector{result.out, read_text(path(name + ".csv")), read_text(path(name + ".xyz"))};
+  };
+  const auto looped = files("loop", "");
+  for (const char* threads : {"1", "2", "4"})
+    EXPECT_EQ(files("by_itself", std::string(" --threads ") + threads), looped) << threads;
+  EXPECT_NE(run("run " + scene + " --threads 2").out.find("by itself, 2 threads"), std::string::npos);
 }
 
 TEST_F(ProgramTest, TellsOfTheZenoGuardWhereBodiesSettle) {

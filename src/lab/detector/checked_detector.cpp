@@ -52,6 +52,11 @@ class CheckedDetector final : public Detector {
     return detector_->advance(until);
   }
 
+  Result<void> run(double until, Motion& motion, const Respond& respond, const Sink& sink,
+                   Workers& workers) override {
+    return detector_->run(until, motion, respond, sink, workers);
+  }
+
   double time() const override { return detector_->time(); }
   DetectorCounters counters() const override { return detector_->counters(); }
   Result<Bound> bound(std::uint32_t body) const override {

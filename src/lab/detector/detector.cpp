@@ -6,14 +6,20 @@
 namespace kinesphere {
 namespace {
 
-Error no_recording(std::string_view call, std::string_view name) {
+Error cannot(std::string_view call, std::string_view be_what, std::string_view name) {
   return {ErrorCode::unsupported, "detector", no_body,
-          std::string(call) + ": detector must be one that can be recorded, but is " + std::string(name)};
+          std::string(call) + ": detector must be one that can " + std::string(be_what) + ", but is " +
+              std::string(name)};
 }
 
 }  // namespace
 
-Result<void> Detector::start_recording() { return no_recording("start_recording", name()); }
-Result<std::vector<std::byte>> Detector::stop_recording() { return no_recording("stop_recording", name()); }
+Result<void> Detector::run(double, Motion&, const Respond&, const Sink&, Workers&) {
+  return cannot("run", "go on by itself", name());
+}
+Result<void> Detector::start_recording() { return cannot("start_recording", "be recorded", name()); }
+Result<std::vector<std::byte>> Detector::stop_recording() {
+  return cannot("stop_recording", "be recorded", name());
+}
 
 }  // namespace kinesphere

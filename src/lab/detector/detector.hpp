@@ -15,6 +15,7 @@
 #include "kinesphere/event.hpp"
 #include "kinesphere/motion/motion.hpp"
 #include "kinesphere/result.hpp"
+#include "kinesphere/workers.hpp"
 #include "kinesphere/world.hpp"
 #include "lab/detector/detector_counters.hpp"
 
@@ -34,6 +35,11 @@ class Detector {
   /// From the current time on the body has this velocity. The caller has set it in the motion already.
   virtual Result<void> set_velocity(std::uint32_t body, const Vec3& velocity) = 0;
   virtual Result<std::optional<Event>> advance(double until) = 0;
+  /// Goes on to `until` by itself, as World::run does: `respond` and `sink` are called as there, with events
+  /// as advance() returns them. `motion`, which moves the bodies, is told of new velocities too. Errors:
+  /// unsupported, those of World::run, and what the motion throws.
+  virtual Result<void> run(double until, Motion& motion, const Respond& respond, const Sink& sink,
+                           Workers& workers);
   virtual double time() const = 0;
   virtual DetectorCounters counters() const = 0;
   /// What the detector knows to contain the body, as of its last report; a sphere that does not grow where it

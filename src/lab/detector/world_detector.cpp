@@ -1,4 +1,5 @@
 // The default engine as a detector.
+#include <utility>
 #include <vector>
 
 #include "lab/detector/checked_detector.hpp"
@@ -7,6 +8,26 @@
 
 namespace kinesphere {
 namespace {
+
+/// Moves bodies of a world by their numbers in a motion.
+class NumberedMover final : public Mover {
+ public:
+  /// `numbers` by the index of an id.
+  NumberedMover(Motion& motion, const std::vector<std::uint32_t>& numbers)
+      : motion_(motion), numbers_(numbers) {}
+
+  void states(std::span<const BodyId> ids, double time, std::span<State> states) override {
+    for (std::size_t k = 0; k < ids.size(); ++k) states[k] = motion_.state(numbers_[ids[k].index], time);
+  }
+  Departure departure(BodyId body) const override { return motion_.departure(numbers_[body.index]); }
+  void depart(BodyId body, const Departure& departure) override {
+    motion_.depart(numbers_[body.index], departure).value();
+  }
+
+ private:
+  Motion& motion_;
+  const std::vector<std::uint32_t>& numbers_;
+};
 
 class WorldDetector final : public Detector {
  public:
@@ -44,6 +65,25 @@ class WorldDetector final : public Detector {
     if (event && *event) return std::optional(numbered(**event, [this](BodyId id) { return number_of(id); }));
     if (event) departed_.clear();
     return event;
+  }
+
+  Result<void> run(double until, Motion& motion, const Respond& respond, const Sink& sink,
+                   Workers& workers) override {
+    NumberedMover mover(motion, numbers_);
+    const auto told = [this](const Event& event) {
+      return numbered(event, [this](BodyId id) { return number_of(id); });
+    };
+    const auto answer = [&](const Event& event) {
+      const Event as_told = told(event);
+      Answer answered = respond(as_told);
+      if (as_told.first.index != number_of(event.first))
+        std::swap(answered.first_velocity, answered.second_velocity);
+      return answered;
+    };
+    auto gone = world_.run(
+        until, mover, answer, [&](const Event& event) { sink(told(event)); }, &workers);
+    if (gone) departed_.clear();
+    return gone;
   }
 
   double time() const override { return world_.time(); }

@@ -19,8 +19,9 @@ namespace {
 
 class Simulation {
  public:
-  Simulation(const Scene& scene, Motion& motion, Detector& detector, const SimulationObserver& observer)
-      : scene_(scene), motion_(motion), detector_(detector), observer_(observer) {
+  Simulation(const Scene& scene, Motion& motion, Detector& detector, const SimulationObserver& observer,
+             Workers* workers)
+      : scene_(scene), motion_(motion), detector_(detector), observer_(observer), workers_(workers) {
     for (std::uint32_t number = 0; number < scene.bodies.size(); ++number) {
       const SceneBody& body = scene.bodies[number];
       if (body.appears > scene.end_time || body.vanishes <= scene.world.start_time) continue;
@@ -85,16 +86,37 @@ class Simulation {
   };
 
   Result<void> advance_to(double time) {
+    if (workers_) return run_to(time);
     for (;;) {
       if (observer_.between_events) observer_.between_events(detector_);
       auto event = detector_.advance(time);
       if (!event) return event.error();
       if (!*event) return {};
-      hash_.add(**event);
-      if (observer_.on_event) observer_.on_event(**event);
-      if (scene_.response != Response::bounce) continue;
-      if (auto answered = respond(**event); !answered) return answered;
+      tell(**event);
+      const Answer answered = answer(**event);
+      const Event& at = **event;
+      auto kicked = set_velocity(at.first, at.time, answered.first_velocity);
+      if (kicked) kicked = set_velocity(at.second, at.time, answered.second_velocity);
+      if (!kicked) return kicked;
     }
+  }
+
+  Result<void> run_to(double time) try {
+    if (observer_.between_events) observer_.between_events(detector_);
+    return detector_.run(
+        time, motion_, [this](const Event& event) { return answer(event); },
+        [this](const Event& event) {
+          tell(event);
+          if (observer_.between_events) observer_.between_events(detector_);
+        },
+        *workers_);
+  } catch (const BadResult& thrown) {
+    return named(thrown.error());
+  }
+
+  void tell(const Event& event) {
+    hash_.add(event);
+    if (observer_.on_event) observer_.on_event(event);
   }
 
   void show(double time) {
@@ -118,35 +140,40 @@ class Simulation {
     return radius > 0.0 ? radius * radius * radius : std::numeric_limits<double>::min();
   }
 
-  Result<void> respond(const Event& event) {
+  /// Of the event alone.
+  Answer answer(const Event& event) const {
     const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
-    if (!begins || event.approach_speed <= 0.0) return {};
-    const std::uint32_t first = event.first.index;
+    if (scene_.response != Response::bounce || !begins || event.approach_speed <= 0.0) return {};
     const bool pair = event.second != no_body;
-    const std::uint32_t second = pair ? event.second.index : first;
+    const double first_mass = mass(event.first.index);
+    const double second_mass = pair ? mass(event.second.index) : first_mass;
     const double restitution = scene_.restitution;
     const Bounce after = scene_.resting_speed > 0.0
-                             ? settle(event, mass(first), mass(second), restitution, scene_.resting_speed)
-                             : bounce(event, mass(first), mass(second), restitution);
-    if (auto kicked = set_velocity(first, event.time, after.first_velocity); !kicked) return kicked;
-    return pair ? set_velocity(second, event.time, after.second_velocity) : Result<void>();
+                             ? settle(event, first_mass, second_mass, restitution, scene_.resting_speed)
+                             : bounce(event, first_mass, second_mass, restitution);
+    if (!pair) return {.first_velocity = after.first_velocity};
+    return {after.first_velocity, after.second_velocity};
   }
 
-  Result<void> set_velocity(std::uint32_t body, double time, const Vec3& velocity) {
-    if (auto turned = motion_.set_velocity(body, time, velocity); !turned) {
-      if (turned.error().code != ErrorCode::unsupported) return turned;
-      return Error{ErrorCode::unsupported,
-                   "response",
-                   {body, 0},
-                   "simulate: response bounce needs a motion that can be kicked, and this one cannot"};
-    }
-    return detector_.set_velocity(body, velocity);
+  Result<void> set_velocity(BodyId body, double time, const std::optional<Vec3>& velocity) {
+    if (!velocity) return {};
+    if (auto turned = motion_.set_velocity(body.index, time, *velocity); !turned)
+      return named(turned.error());
+    return detector_.set_velocity(body.index, *velocity);
+  }
+
+  /// What a motion refuses, in the terms of the scene.
+  static Error named(const Error& error) {
+    if (error.code != ErrorCode::unsupported) return error;
+    return {ErrorCode::unsupported, "response", error.body,
+            "simulate: response bounce needs a motion that can be kicked, and this one cannot"};
   }
 
   const Scene& scene_;
   Motion& motion_;
   Detector& detector_;
   const SimulationObserver& observer_;
+  Workers* workers_;
   std::vector<Change> changes_;
   EventHash hash_;
   SimulationResult result_;
@@ -155,7 +182,7 @@ class Simulation {
 }  // namespace
 
 Result<SimulationResult> simulate(const Scene& scene, const DetectorMaker& make,
-                                  const SimulationObserver& observer) {
+                                  const SimulationObserver& observer, Workers* workers) {
   if (auto valid = check_times(scene, "simulate"); !valid) return valid.error();
   if (auto valid = InputCheck("simulate")
                        .require(observer.frame_interval > 0.0, ErrorCode::out_of_range, {"frame_interval"},
@@ -170,7 +197,7 @@ Result<SimulationResult> simulate(const Scene& scene, const DetectorMaker& make,
   if (observer.at_start) {
     if (auto started = observer.at_start(**detector); !started) return started.error();
   }
-  auto result = Simulation(scene, *motion, **detector, observer).run();
+  auto result = Simulation(scene, *motion, **detector, observer, workers).run();
   if (result && observer.at_end) {
     if (auto ended = observer.at_end(**detector); !ended) return ended.error();
   }

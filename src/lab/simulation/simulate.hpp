@@ -38,10 +38,12 @@ struct SimulationResult {
 };
 
 /// Runs a scene under a detector that `make` creates: adds and removes bodies when their time comes, answers
-/// contacts as the scene's response says. Errors: not_finite, time_backwards or out_of_range for times that
-/// cannot be, for more bodies than the motion has and for turns of none; unsupported where bodies are to
-/// bounce whose motion cannot be changed; those of the detector.
+/// contacts as the scene's response says. With workers the detector goes on by itself between those times
+/// (Detector::run), and between_events is called before that and at each event, when it cannot be audited;
+/// without, by one advance() for each event. Both give the same result. Errors: not_finite, time_backwards or
+/// out_of_range for times that cannot be, for more bodies than the motion has and for turns of none;
+/// unsupported where bodies are to bounce whose motion cannot be changed; those of the detector.
 Result<SimulationResult> simulate(const Scene& scene, const DetectorMaker& make,
-                                  const SimulationObserver& observer = {});
+                                  const SimulationObserver& observer = {}, Workers* workers = nullptr);
 
 }  // namespace kinesphere

@@ -1,0 +1,55 @@
+// 2000 balls in a box, which the world runs by itself: whoever answers events with velocities alone needs no
+// loop.
+#include <kinesphere/kinesphere.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <thread>
+#include <vector>
+
+using namespace kinesphere;
+
+int main() {
+  constexpr std::uint32_t balls = 2000;
+  Random random(1);
+  RandomForcesDefinition forces;
+  for (std::uint32_t k = 0; k < balls; ++k) {
+    const Vec3 cell{1.0 + 2.0 * (k % 13), 1.0 + 2.0 * (k / 13 % 13), 1.0 + 2.0 * (k / 169 % 13)};
+    forces.start.push_back({cell, 3.0 * random.point_in_ball()});
+    forces.acceleration_limits.push_back(5.0);
+  }
+  RandomForces motion = RandomForces::create(forces).value();
+  World world =
+      World::create({.box = Box{{0, 0, 0}, {26, 26, 26}}, .contacts = ContactMode::impacts}).value();
+  std::vector<double> mass;
+  for (std::uint32_t k = 0; k < balls; ++k) {
+    BodyDefinition ball = motion.definition(k, 0.0);
+    ball.radius = random.uniform(0.3, 0.8);
+    mass.push_back(ball.radius * ball.radius * ball.radius);
+    world.add(ball).value();
+  }
+
+  MotionMover mover(motion);
+  // Of the event alone: the same event gets the same answer, whenever and in whichever thread it is asked.
+  const auto respond = [&](const Event& event) -> Answer {
+    const double first = mass[event.first.index];
+    if (event.kind == EventKind::wall_begin) return {bounce(event, first, 0.0, 0.9).first_velocity, {}};
+    if (event.kind != EventKind::contact_begin) return {};
+    const Bounce after = bounce(event, first, mass[event.second.index], 0.9);
+    return {after.first_velocity, after.second_velocity};
+  };
+  double hardest = 0.0;
+  const auto sink = [&](const Event& event) { hardest = std::max(hardest, event.approach_speed); };
+
+  Workers workers = Workers::create(std::clamp(int(std::thread::hardware_concurrency()), 1, 8)).value();
+  for (const double until : {1.0, 2.0, 3.0}) {
+    if (const auto run = world.run(until, mover, respond, sink, &workers); !run) {
+      std::printf("%s\n", run.error().message.c_str());
+      return 1;
+    }
+    const Counters& counters = world.counters();
+    std::printf("%g s  %llu impacts  %llu at walls  the hardest at %.2f\n", world.time(),
+                static_cast<unsigned long long>(counters.count(EventKind::contact_begin)),
+                static_cast<unsigned long long>(counters.count(EventKind::wall_begin)), hardest);
+  }
+}
