@@ -4,13 +4,14 @@
 #include <CLI/App.hpp>
 
 #include "bench/options.hpp"
+#include "bench/speed/speed.hpp"
 #include "bench/vessels.hpp"
 
 namespace kinesphere::program {
 
 struct BenchCommands {
   BenchOptions paper{.output = "bench-paper", .only = {}};
-  BenchOptions speed{.output = "bench-speed", .only = {}};
+  SpeedOptions speed{{.output = "bench-speed", .only = {}}, {}};
   BenchOptions gas{.output = "bench-gas", .only = {}};
   VesselOptions vessels;
 };

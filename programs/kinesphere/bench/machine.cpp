@@ -43,7 +43,7 @@ constexpr const char* compiler = "g++ " __VERSION__;
 std::string machine_description() {
   Summary summary;
   summary.row("processor", field_of("/proc/cpuinfo", "model name"));
-  summary.row("cores", fmt::format("{}, of which one is used", std::thread::hardware_concurrency()));
+  summary.row("cores", std::to_string(std::thread::hardware_concurrency()));
   summary.row("memory", field_of("/proc/meminfo", "MemTotal"));
   summary.row("load", load() + " when the benchmark began");
   summary.row("compiler", compiler);

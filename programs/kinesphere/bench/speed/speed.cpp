@@ -7,12 +7,16 @@
 #include <utility>
 #include <vector>
 
+#include "bench/measurement.hpp"
 #include "bench/report.hpp"
 #include "bench/speed/bullet_kernel.hpp"
 #include "bench/speed/contest.hpp"
+#include "bench/speed/threads.hpp"
 #include "bench/speed/verdicts.hpp"
+#include "kinesphere/workers.hpp"
 #include "program_error.hpp"
 #include "standard_output.hpp"
+#include "validators.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -61,20 +65,55 @@ void explain(const Report& report, const SpeedSettings& settings) {
     report.note("Bullet is left out: it was not installed when this program was built (libbullet-dev).");
 }
 
+int bench_threads(const SpeedOptions& options, const std::vector<SpeedScene>& scenes,
+                  const SpeedSettings& settings, const Report& report) {
+  report.note(fmt::format(
+      "Effort {}. Seconds of real time for whole simulations, motion and response included, from when all "
+      "bodies are in: a loop over advance(), World::run on one thread, and on {}. They take turns; medians "
+      "of "
+      "{} turns.",
+      settings.name, *options.threads, settings.repetitions));
+  ResultTable table(
+      {"scene", "n", "threads", "loop_s", "one_s", "many_s", "one_to_loop", "one_to_many", "events", "hash"});
+  std::vector<ThreadsRow> rows;
+  for (const SpeedScene& scene : scenes) {
+    const bool usual = scene.name == "dense-100000" || scene.name == "dense-1000000" || scene.name == "crowd";
+    if (options.only.empty() ? !usual : !is_chosen(options, scene.name)) continue;
+    const ThreadsRow& row = rows.emplace_back(compare_threads(scene, *options.threads, settings));
+    const auto seconds = [&](double ThreadsTurn::*way) {
+      std::vector<double> all;
+      for (const ThreadsTurn& turn : row.turns) all.push_back(turn.*way);
+      return median(std::move(all));
+    };
+    table.row({row.scene, std::uint64_t{row.bodies}, static_cast<std::uint64_t>(row.threads),
+               seconds(&ThreadsTurn::loop), seconds(&ThreadsTurn::one), seconds(&ThreadsTurn::many),
+               row.one_to_loop(), row.one_to_many(), row.events, fmt::format("{:016x}", row.hash)});
+  }
+  report.table("threads", table);
+  report.table("threads_verdicts", table_of(verdicts_of_threads(rows)));
+  return exit_fine;
+}
+
 }  // namespace
 
-void add_bench_speed_command(CLI::App& bench, BenchOptions& options) {
+void add_bench_speed_command(CLI::App& bench, SpeedOptions& options) {
   CLI::App* speed = bench.add_subcommand("speed", "Compare with fixed steps and others; takes half an hour");
   add_bench_options(*speed, options, names_of(speed_scenes(speed_settings(Effort::full))),
                     "Up to a million bodies; takes an hour");
+  speed
+      ->add_option(
+          "--threads", options.threads,
+          "Only this: whole simulations by World::run, on so many threads and on one, against a loop")
+      ->check(whole_number(Workers::most_threads, 1));
 }
 
-int bench_speed(const BenchOptions& options) {
+int bench_speed(const SpeedOptions& options) {
   const SpeedSettings& settings = speed_settings(effort_of(options));
   const std::vector<SpeedScene> scenes = speed_scenes(settings);
   check_bench_options(options, names_of(scenes));
   const Report report(options.output);
   describe_machine(report);
+  if (options.threads) return bench_threads(options, scenes, settings, report);
   explain(report, settings);
   SpeedResults results;
   ResultTable all(columns);

@@ -2,14 +2,19 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <optional>
 
 #include "bench/options.hpp"
 
 namespace kinesphere::program {
 
+struct SpeedOptions : BenchOptions {
+  std::optional<int> threads;  ///< compare these with one instead of rivals
+};
+
 /// `options` must live until the command line has been parsed.
-void add_bench_speed_command(CLI::App& bench, BenchOptions& options);
+void add_bench_speed_command(CLI::App& bench, SpeedOptions& options);
 /// Returns the exit code. Throws ProgramError.
-int bench_speed(const BenchOptions& options);
+int bench_speed(const SpeedOptions& options);
 
 }  // namespace kinesphere::program

@@ -140,16 +140,20 @@ void save_safe_steps(const Report& report, const std::vector<SpeedScene>& scenes
 
 std::vector<Verdict> verdicts(const SpeedResults& results) { return Judge(results).judge(); }
 
-void save_verdicts(const Report& report, const std::vector<SpeedScene>& scenes, const SpeedResults& results) {
-  save_safe_steps(report, scenes, results);
+ResultTable table_of(const std::vector<Verdict>& verdicts) {
   ResultTable table({"goal", "figure", "scene", "against", "demanded", "limit", "measured", "met"});
-  for (const Verdict& verdict : verdicts(results)) {
+  for (const Verdict& verdict : verdicts) {
     table.row({verdict.goal, verdict.figure, verdict.scene, verdict.against,
                std::string(verdict.at_most ? "at most" : "at least"), verdict.limit, verdict.measured,
                std::string(verdict.met() ? "yes" : "no")});
   }
+  return table;
+}
+
+void save_verdicts(const Report& report, const std::vector<SpeedScene>& scenes, const SpeedResults& results) {
+  save_safe_steps(report, scenes, results);
   report.note("What the default engine is to reach, as far as the scenes were run (docs/performance.md).");
-  report.table("verdicts", table);
+  report.table("verdicts", table_of(verdicts(results)));
 }
 
 }  // namespace kinesphere::program

@@ -24,6 +24,9 @@ struct Verdict {
 /// Of all goals whose scenes and rivals are among the results.
 std::vector<Verdict> verdicts(const SpeedResults& results);
 
+/// A line for each.
+ResultTable table_of(const std::vector<Verdict>& verdicts);
+
 /// The verdicts, and for each scene the slowest fixed steps that miss nothing.
 void save_verdicts(const Report& report, const std::vector<SpeedScene>& scenes, const SpeedResults& results);
 
