@@ -82,6 +82,7 @@ int bench_threads(const SpeedOptions& options, const std::vector<SpeedScene>& sc
     const ThreadsRow& row = rows.emplace_back(compare_threads(scene, *options.threads, settings));
     const auto seconds = [&](double ThreadsTurn::*way) {
       std::vector<double> all;
+      all.reserve(row.turns.size());
       for (const ThreadsTurn& turn : row.turns) all.push_back(turn.*way);
       return median(std::move(all));
     };

@@ -35,6 +35,7 @@ TimedSimulation time_simulation(const Scene& scene, Workers* workers) {
 template <class Quotient>
 double median_of(const std::vector<ThreadsTurn>& turns, Quotient quotient) {
   std::vector<double> quotients;
+  quotients.reserve(turns.size());
   for (const ThreadsTurn& turn : turns) quotients.push_back(quotient(turn));
   return median(std::move(quotients));
 }

@@ -30,7 +30,7 @@ struct ThreadsRow {
 };
 
 /// Throws ProgramError, also when not all find the same.
-ThreadsRow compare_threads(const SpeedScene& scene, int threads, const SpeedSettings& settings);
+ThreadsRow compare_threads(const SpeedScene& entry, int threads, const SpeedSettings& settings);
 
 /// Of goal 6.
 std::vector<Verdict> verdicts_of_threads(const std::vector<ThreadsRow>& rows);
