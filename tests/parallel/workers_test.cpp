@@ -158,6 +158,27 @@ TEST(Workers, PassOnWhatTheFirstItemThrew) {
   }
 }
 
+TEST(Workers, PassOnWhatTheFirstItemThrewAlsoWhenALaterOneWasFaster) {
+  Workers workers = Workers::create(2).value();
+  Shift shift(&workers);
+  std::promise<void> later_throws;
+  const std::shared_future<void> thrown = later_throws.get_future().share();
+  const auto fail = [&](std::size_t item, std::size_t, std::size_t) {
+    if (item == 1) later_throws.set_value();
+    if (item == 0) {
+      EXPECT_EQ(thrown.wait_for(std::chrono::seconds(60)), std::future_status::ready);
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    throw std::runtime_error(std::to_string(item));
+  };
+  try {
+    shift.for_each(10, 1, fail);
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "0");
+  }
+}
+
 TEST(Workers, ComeAndGo) {
   for (int round = 0; round < 50; ++round) {
     Workers workers = Workers::create(1 + round % 5).value();
