@@ -19,8 +19,6 @@ constexpr std::size_t too_few_in_a_cell = 3;
 /// So few are in one cell: a search looks at all of them.
 constexpr std::size_t few = 32;
 constexpr std::size_t too_many_in_a_cell = 24;
-/// Many times the widest capsule, which may be far less wide than a unit.
-constexpr float coarsest = 0x1p100f;
 
 /// Whole numbers of cells stay below this, so that sums of some do not overflow.
 constexpr float most_cells = 0x1p29f;
@@ -189,29 +187,40 @@ Layer::Corners Layer::corners_at(std::uint32_t place) const {
   return corners_of(capsule_at(place), 0.0f, 1.0f);
 }
 
-/// Cells as wide as the largest capsule, times the coarseness, over the box that holds all centres; fewer,
-/// which then stand for several places each, if there would be more cells than capsules.
-void Layer::choose_grid() {
-  Point lower, upper;
-  lower.fill(most_cells);
-  upper.fill(-most_cells);
-  float widest = 0.0f;
+/// Where the middles of all capsules are, and how wide the widest is.
+struct Layer::Spread {
+  Point lower;
+  Point upper;
+  float widest;
+  float extent;  ///< of the box around the middles, but no less than the widest
+};
+
+Layer::Spread Layer::spread() const {
+  Spread spread{.widest = 0.0f, .extent = 0.0f};
+  spread.lower.fill(most_cells);
+  spread.upper.fill(-most_cells);
   for (std::uint32_t place = 0; place < numbers_.size(); ++place) {
     if (numbers_[place] == nobody) continue;
     const Corners corners = corners_at(place);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const float middle = 0.5f * (corners.lower[axis] + corners.upper[axis]);
       if (!(std::abs(middle) < most_cells)) continue;
-      lower[axis] = std::min(lower[axis], middle);
-      upper[axis] = std::max(upper[axis], middle);
+      spread.lower[axis] = std::min(spread.lower[axis], middle);
+      spread.upper[axis] = std::max(spread.upper[axis], middle);
       const float width = corners.upper[axis] - corners.lower[axis];
-      if (width < most_cells) widest = std::max(widest, width);
+      if (width < most_cells) spread.widest = std::max(spread.widest, width);
     }
   }
-  float extent = widest;
-  for (std::size_t axis = 0; axis < 3; ++axis) extent = std::max(extent, upper[axis] - lower[axis]);
-  // Larger ones would be of no use.
-  while (coarseness_ > 1.0f && coarseness_ * widest > 4.0f * extent) coarseness_ *= 0.5f;
+  spread.extent = spread.widest;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    spread.extent = std::max(spread.extent, spread.upper[axis] - spread.lower[axis]);
+  return spread;
+}
+
+/// Cells as wide as the largest capsule, times the coarseness, over the box that holds all centres; fewer,
+/// which then stand for several places each, if there would be more cells than capsules.
+void Layer::choose_grid(const Spread& spread) {
+  const auto& [lower, upper, widest, extent] = spread;
   const float edge = std::max(size() > few ? coarseness_ * widest : 4.0f * extent, 0x1p-20f);
   grid_.edge = {edge / Grid::slices, edge, edge};
   for (std::size_t axis = 0; axis < 3; ++axis) grid_.per_edge[axis] = 1.0f / grid_.edge[axis];
@@ -249,38 +258,73 @@ std::uint32_t Layer::filled_cubes() const {
   return filled;
 }
 
+Grain Layer::grain() const {
+  if (filled_ == 0 || cell_count() == 1) return {};
+  const auto count = [this](std::size_t axis) { return static_cast<double>(grid_.count[axis]); };
+  return {grid_.edge[1],
+          {std::ceil(count(0) / Grid::slices), count(1), count(2)},
+          static_cast<double>(sorted_) / filled_};
+}
+
+/// Cubes along an axis: those that a width reaches into, and those whose capsules stick out.
+double Grain::across(const std::array<double, 3>& widths, std::size_t axis) const {
+  const double reached = widths[axis] / edge + 2.0;
+  return reached < cubes[axis] ? reached : cubes[axis];
+}
+
+double Grain::rows(const std::array<double, 3>& widths) const {
+  return edge > 0.0 ? across(widths, 1) * across(widths, 2) : 1.0;
+}
+
+double Grain::capsules(const std::array<double, 3>& widths, double all) const {
+  return edge > 0.0 ? std::min(all, per_cube * across(widths, 0) * rows(widths)) : all;
+}
+
+bool Grain::is_sound() const {
+  const auto is_count = [](double count) { return count >= 0.0 && count <= 0x1p20; };
+  return edge >= 0.0 && edge < infinity && per_cube >= 0.0 && per_cube < infinity &&
+         std::all_of(cubes.begin(), cubes.end(), is_count);
+}
+
 double Layer::density(bool flat) const {
   if (filled_ == 0) return 0.0;
   const double edge = grid_.edge[1];
   return sorted_ / (filled_ * (flat ? edge * edge : edge * edge * edge));
 }
 
+/// Counts how many are in each cell, starts_[cell + 1], tells in which cell each is, and finds out how far
+/// they stick out of them.
+void Layer::count_by_cells(std::vector<std::uint32_t>& cells) {
+  starts_.assign(cell_count() + 1, 0);
+  reach_ = 0.0f;
+  for (std::uint32_t place = 0; place < numbers_.size(); ++place) {
+    if (numbers_[place] == nobody) continue;
+    const Corners corners = corners_at(place);
+    const std::uint32_t cell = grid_.index_of(corners);
+    cells[place] = cell;
+    ++starts_[cell + 1];
+    reach_ = std::max(reach_, overhang(cell, corners));
+  }
+}
+
 void Layer::sort_places() {
   const auto count = static_cast<std::uint32_t>(numbers_.size());
   std::vector<std::uint32_t> cells(count);
+  const Spread all = spread();
+  // Larger ones would be of no use.
+  const auto is_of_use = [&all](float coarseness) {
+    return coarseness == 1.0f || coarseness * all.widest <= 4.0f * all.extent;
+  };
+  while (!is_of_use(coarseness_)) coarseness_ *= 0.5f;
   for (;;) {
-    choose_grid();
-    const std::size_t cell_count =
-        std::size_t(grid_.count[0]) * std::size_t(grid_.count[1]) * std::size_t(grid_.count[2]);
-    starts_.assign(cell_count + 1, 0);
-    for (std::uint32_t place = 0; place < count; ++place) {
-      if (numbers_[place] == nobody) continue;
-      cells[place] = grid_.index_of(corners_at(place));
-      ++starts_[cells[place] + 1];
-    }
+    choose_grid(all);
+    count_by_cells(cells);
     filled_ = filled_cubes();
-    const std::size_t filled = filled_;
-    const float before = coarseness_;
-    if (cell_count > 1 && size() < too_few_in_a_cell * filled && coarseness_ < coarsest) {
-      coarseness_ *= 2.0f;
-      choose_grid();
-      if (coarseness_ > before) continue;
-      break;
-    } else {
-      if (size() > too_many_in_a_cell * filled && coarseness_ > 1.0f) coarseness_ *= 0.5f;
-      break;
-    }
+    const bool few_in_cells = cell_count() > 1 && size() < too_few_in_a_cell * filled_;
+    if (!(few_in_cells && coarseness_ < coarsest && is_of_use(2.0f * coarseness_))) break;
+    coarseness_ *= 2.0f;
   }
+  if (size() > std::size_t{too_many_in_a_cell} * filled_ && coarseness_ > 1.0f) coarseness_ *= 0.5f;
   for (std::size_t cell = 1; cell < starts_.size(); ++cell) starts_[cell] += starts_[cell - 1];
 
   // To its place among those of its cell, in the order in which they stand.
@@ -302,10 +346,6 @@ void Layer::sort_places() {
   sorted_ = kept;
   most_behind_ = least_behind + static_cast<std::uint32_t>(4.0 * std::sqrt(static_cast<double>(kept)));
   holes_ = 0;
-  reach_ = 0.0f;
-  for (std::uint32_t cell = 0; cell + 1 < starts_.size(); ++cell)
-    for (std::uint32_t place = starts_[cell]; place < starts_[cell + 1]; ++place)
-      reach_ = std::max(reach_, overhang(cell, corners_at(place)));
 }
 
 /// The rows of cells that may hold a capsule which meets the corners.

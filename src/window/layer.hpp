@@ -15,6 +15,30 @@
 
 namespace kinesphere {
 
+/// The grid of a layer in brief: cubes of this edge (0 for a layer without a grid), how many there are along
+/// each axis, and how many capsules are in one that holds any.
+struct Grain {
+  double edge = 0.0;
+  std::array<double, 3> cubes{};
+  double per_cube = 0.0;
+
+  /// How many of so many capsules a search looks at whose capsule is so wide on each axis, and in how many
+  /// rows, about. Neither knows which capsules have been replaced since, nor in what order.
+  double rows(const std::array<double, 3>& widths) const;
+  double capsules(const std::array<double, 3>& widths, double all) const;
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [size, counts, density] = self;
+    archive(size, counts, density);
+  }
+  /// For one that was read.
+  bool is_sound() const;
+
+ private:
+  double across(const std::array<double, 3>& widths, std::size_t axis) const;
+};
+
 /// Each capsule has a place, which stays the same until the layer is sorted anew or cleared, and belongs to a
 /// body. Those that were added since the layer was sorted are behind the others, and every search looks at
 /// them. The grid has no borders: cells count modulo its size, so it holds bodies anywhere.
@@ -22,6 +46,9 @@ class Layer {
  public:
   /// In place of the number of a body: nobody's.
   static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+
+  /// Many times the widest capsule, which may be far less wide than a unit.
+  static constexpr float coarsest = 0x1p100f;
 
   /// Where a search finds what it found, and what it needs on the way.
   struct Scratch {
@@ -35,6 +62,10 @@ class Layer {
   const CapsuleFrame& frame() const { return frame_; }
   /// Empties the layer, for capsules of another frame.
   void clear(const CapsuleFrame& frame);
+  /// Edge of the cells, in widths of the largest capsule, a power of two: sorting doubles it where cells have
+  /// held few, and the next time it is halved where they have held many.
+  float coarseness() const { return coarseness_; }
+  void set_coarseness(float coarseness) { coarseness_ = coarseness; }
   /// Places are less than this.
   std::size_t places() const { return numbers_.size(); }
   /// Bodies that are there.
@@ -91,6 +122,8 @@ class Layer {
   /// How many are in a unit of volume (or of area, if `flat`), where there are any. Of a layer that was
   /// sorted.
   double density(bool flat) const;
+  /// What searches of the layer cost, by its grid as it is.
+  Grain grain() const;
   std::size_t bytes() const;
   /// For one that was read.
   bool is_sound() const;
@@ -139,7 +172,13 @@ class Layer {
   Corners corners_at(std::uint32_t place) const;
   CapsuleColumns columns() const;
   void store(std::uint32_t place, const Capsule& capsule);
-  void choose_grid();
+  struct Spread;
+  Spread spread() const;
+  void choose_grid(const Spread& spread);
+  std::size_t cell_count() const {
+    return std::size_t(grid_.count[0]) * std::size_t(grid_.count[1]) * std::size_t(grid_.count[2]);
+  }
+  void count_by_cells(std::vector<std::uint32_t>& cells);
   std::uint32_t filled_cubes() const;
   void sort_places();
   float overhang(std::uint32_t cell, const Corners& corners) const;
@@ -157,7 +196,6 @@ class Layer {
   float widest_ = 0.0f;
   std::uint32_t most_behind_ = least_behind;
   std::uint32_t filled_ = 0;  ///< cubes that hold any
-  /// Edge of the cells, in widths of the largest capsule: doubled where cells have held few.
   float coarseness_ = 1.0f;
 };
 

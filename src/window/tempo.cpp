@@ -29,10 +29,9 @@ double power(double base, int exponent) {
   return product;
 }
 
-/// In looks at a capsule: of so many capsules and rows, and of this factor times those that were found.
-double units_of(const SearchCost& cost, double capsules, double rows, double found) {
-  return capsules + 4.0 * rows +
-         (12.0 * static_cast<double>(cost.found) + 60.0 * static_cast<double>(cost.hot)) * found;
+/// In looks at a capsule.
+double units_of(double capsules, double rows, double found, double hot) {
+  return capsules + 4.0 * rows + 12.0 * found + 60.0 * hot;
 }
 
 }  // namespace
@@ -75,21 +74,26 @@ double Tempo::Starts::times_larger(double factor, int dimensions) const {
 double Tempo::Starts::units(double factor, int dimensions, double among, double rows) const {
   const auto count = static_cast<double>(bodies);
   const double capsules = static_cast<double>(cost.capsules) * power(times_longer(factor), dimensions);
-  return count * start_cost +
-         units_of(cost, std::min(capsules, count * among), rows, times_larger(factor, dimensions));
+  const double larger = times_larger(factor, dimensions);
+  return count * start_cost + units_of(std::min(capsules, count * among), rows,
+                                       static_cast<double>(cost.found) * larger,
+                                       static_cast<double>(cost.hot) * larger);
 }
 
-/// The cost of a time as long as a main window, if these were so many times as long. Others: what other
-/// searches have cost in so many windows. Cells become larger with the capsules, so that rows do not become
-/// more.
-double Tempo::main_rate(double times_longer, const SearchCost& others, double windows) const {
-  const double cube = power(main_.times_longer(times_longer), dimensions_);
-  const double starts = main_.units(times_longer, dimensions_, static_cast<double>(bodies_),
-                                    static_cast<double>(main_.cost.rows));
-  const double of_others =
-      units_of(others, static_cast<double>(others.capsules) * cube, static_cast<double>(others.rows),
-               main_.times_larger(times_longer, dimensions_));
-  return starts / times_longer + of_others / windows;
+/// The cost of a time as long as a main window, if these were so many times as long and there were so many
+/// kicks in so many windows. Cells become larger with the capsules, so that rows do not become more.
+double Tempo::main_rate(double times_longer, const Kicks& kicks, double windows) const {
+  const auto rows = static_cast<double>(main_.cost.rows);
+  const double starts = main_.units(times_longer, dimensions_, static_cast<double>(bodies_), rows);
+  // As the searches of those that started, which found each pair once.
+  const double searches = 2.0 * static_cast<double>(kicks.bodies) / static_cast<double>(main_.bodies);
+  const double larger = main_.times_larger(times_longer, dimensions_);
+  const double capsules =
+      static_cast<double>(main_.cost.capsules) * power(main_.times_longer(times_longer), dimensions_);
+  const double of_kicks = units_of(searches * capsules, searches * rows,
+                                   searches * static_cast<double>(main_.cost.found) * larger,
+                                   static_cast<double>(kicks.hot) * larger);
+  return starts / times_longer + of_kicks / windows;
 }
 
 /// The same for those that are much faster than most, whose cells are those of others.
@@ -101,8 +105,8 @@ double Tempo::fast_rate(double times_longer) const {
   return fast_.units(times_longer, dimensions_, among, std::min(rows, most)) / times_longer;
 }
 
-void Tempo::start_main(double now, const SearchCost& others) {
-  if (now > main_start_ && main_.bodies > 0) adapt_main(others, (now - main_start_) / length_of(main_tier_));
+void Tempo::start_main(double now, const Kicks& kicks) {
+  if (now > main_start_ && main_.bodies > 0) adapt_main(kicks, (now - main_start_) / length_of(main_tier_));
   main_ = {};
   magnitudes_.fill(0);
   main_starts_ = true;
@@ -131,13 +135,13 @@ void Tempo::finish_start(const SearchCost& cost, std::size_t bodies) {
   main_starts_ = false;
 }
 
-void Tempo::adapt_main(const SearchCost& others, double windows) {
+void Tempo::adapt_main(const Kicks& kicks, double windows) {
   int change = 0;
-  double least = enough_cheaper * main_rate(1.0, others, windows);
+  double least = enough_cheaper * main_rate(1.0, kicks, windows);
   // Longer ones have to be tried: what searches find in them is not known well.
   const bool may_grow = 2 * main_.in_main > main_.bodies && 2.0 * typical_way_ <= longest_way_;
   for (int powers = may_grow ? 1 : -1; powers >= -most_change; --powers) {
-    const double changed = main_rate(power_of_two(powers), others, windows);
+    const double changed = main_rate(power_of_two(powers), kicks, windows);
     if (powers == 0 || !(changed < least)) continue;
     least = changed;
     change = powers;

@@ -38,6 +38,20 @@ struct SearchCost {
   }
 };
 
+/// Bodies that have got another capsule by themselves, within a window, and how many pairs became hot by
+/// that. Nothing more is counted of them: what their searches cost depends on the order in which they come,
+/// and the length of windows must not.
+struct Kicks {
+  std::uint64_t bodies = 0;
+  std::uint64_t hot = 0;
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [count, due] = self;
+    archive(count, due);
+  }
+};
+
 /// Most bodies share windows of one length, the main one, 2^main_tier. In longer windows searches find more,
 /// in shorter ones all bodies start more often. Those that are much faster than most have windows 8, 64, ...
 /// times shorter, in which they may go farther than most if there is little in their way.
@@ -57,8 +71,8 @@ class Tempo {
   double typical_way() const { return typical_way_; }
 
   /// Most bodies are going to start. Chooses the length of the main windows, knowing what the searches of
-  /// those that started last time have cost, and all others since then.
-  void start_main(double now, const SearchCost& others);
+  /// those that started last time have cost, and how many have been kicked since then.
+  void start_main(double now, const Kicks& kicks);
   /// A body starts in a window; `width` is that of its capsule without its way.
   void note_start(const Pace& pace, double width, int tier);
   /// All have started, among so many bodies, and their searches have cost this much.
@@ -103,9 +117,9 @@ class Tempo {
     double long_side(double factor) const { return short_side(factor) + ways * factor; }
   };
 
-  double main_rate(double times_longer, const SearchCost& others, double windows) const;
+  double main_rate(double times_longer, const Kicks& kicks, double windows) const;
   double fast_rate(double times_longer) const;
-  void adapt_main(const SearchCost& others, double windows);
+  void adapt_main(const Kicks& kicks, double windows);
   void adapt_fast();
 
   double longest_way_;

@@ -15,6 +15,9 @@ constexpr int powers_in_a_level = 3;
 constexpr int digits = 50;
 constexpr int longest_tier = 300;
 constexpr int largest_level = 300;
+/// A layer that lasts while others start is sorted with them if more than this has changed in it, and more
+/// than a half.
+constexpr std::uint64_t least_changes = 64;
 
 int power_below(double value, int largest) { return std::clamp(exponent_of(value), -largest, largest); }
 
@@ -24,18 +27,32 @@ double end_of_window(int tier, double now) {
 
 double largest_part(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-int level_of(const RoomyBound& bound, double duration) {
+/// By the size of its capsule for the whole window.
+int level_of(const RoomyBound& bound, const Window& window) {
+  const double duration = window.end < infinity ? power_of_two(window.tier) : 0.0;
   const double width =
       2.0 * (bound.moved.radius_after(duration) + bound.room) + largest_part(bound.moved.velocity) * duration;
   const int power = power_below(width, largest_level);
   return power >= 0 ? power / powers_in_a_level : -((powers_in_a_level - 1 - power) / powers_in_a_level);
 }
 
-/// What the last search of a layer has cost.
+/// What the last search of a layer that has just been sorted has cost.
 void note_cost(Windows::Scratch& scratch, std::size_t found) {
   scratch.cost.found += found;
   for (const Run& run : scratch.layer.runs) scratch.cost.capsules += run.end - run.begin;
   scratch.cost.rows += scratch.layer.runs.size();
+}
+
+/// What a search of a layer that has been changed costs, about.
+void note_estimate(Windows::Scratch& scratch, const Grain& grain, std::size_t bodies,
+                   const CapsuleQuery& query, std::size_t found) {
+  const auto& [capsule, from, to] = query;
+  std::array<double, 3> widths;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    widths[axis] = 2.0 * double{capsule.radius} + std::abs(double{capsule.velocity[axis]}) * (to - from);
+  scratch.cost.found += found;
+  scratch.cost.capsules += static_cast<std::uint64_t>(grain.capsules(widths, static_cast<double>(bodies)));
+  scratch.cost.rows += static_cast<std::uint64_t>(grain.rows(widths));
 }
 
 /// What stands still is as large as it is, for however long.
@@ -75,35 +92,41 @@ std::size_t Windows::moving() const {
   return all;
 }
 
-/// The layer of this window and level, or an empty one that becomes it now.
-std::uint32_t Windows::layer_for(const Window& window, const Vec3& base, int level, double now) {
-  const auto& [tier, end] = window;
-  std::uint32_t empty = none;
+/// The layer of this window and level, which may be without a frame yet, if it is empty.
+std::uint32_t Windows::layer_for(const Window& window, int level) {
+  std::uint32_t free = none;
   for (std::uint32_t k = 0; k < layers_.size(); ++k) {
-    Member& member = layers_[k];
-    if (member.layer.size() == 0) {
-      if (empty == none) empty = k;
-    } else if (member.tier == tier && member.level == level && member.end == end) {
-      return k;
-    }
+    const Member& member = layers_[k];
+    if (member.tier == window.tier && member.level == level && member.end == window.end) return k;
+    if (member.end == -infinity && free == none) free = k;
   }
-  if (empty == none) {
-    empty = static_cast<std::uint32_t>(layers_.size());
+  if (free == none) {
+    free = static_cast<std::uint32_t>(layers_.size());
     layers_.emplace_back();
   }
-  Member& member = layers_[empty];
-  member.tier = tier;
-  member.level = level;
-  member.end = end;
-  member.fresh = false;
-  CapsuleFrame frame{.base = base, .per_length = power_of_two(-powers_in_a_level * level)};
-  if (end < infinity) {
-    frame.origin = now;
-    frame.per_time = 1.0 / (end - now);
+  Member& member = layers_[free];
+  member = {.tier = window.tier, .level = level, .end = window.end, .layer = std::move(member.layer)};
+  return free;
+}
+
+/// Gives an empty layer a frame.
+void Windows::open(Member& member, const Vec3& base, double origin) {
+  CapsuleFrame frame{.base = base, .per_length = power_of_two(-powers_in_a_level * member.level)};
+  if (member.end < infinity) {
+    frame.origin = origin;
+    frame.per_time = 1.0 / (member.end - origin);
   }
   member.layer.clear(frame);
-  next_end_ = std::min(next_end_, end);
-  return empty;
+  member.layer.set_coarseness(coarseness_of(member));
+  member.has_frame = true;
+  member.grain = {};
+  next_end_ = std::min(next_end_, member.end);
+}
+
+float Windows::coarseness_of(const Member& member) const {
+  for (const Coarseness& known : coarse_)
+    if (known.tier == member.tier && known.level == member.level) return known.coarseness;
+  return 1.0f;
 }
 
 Capsule Windows::Member::capsule(const RoomyBound& bound, double now) const {
@@ -125,23 +148,38 @@ Window Windows::window_at(double now, int tier) {
   return {possible, end_of_window(possible, now)};
 }
 
+/// As the body is of the same size for the same window, whenever in it the body enters, and as a layer has
+/// the same frame, whoever enters first, searches find the same in whatever order bodies enter.
 void Windows::enter(std::uint32_t number, const RoomyBound& bound, double now, const Window& window) {
   if (number >= registrations_.size()) registrations_.resize(number + std::size_t{1});
-  if (const Registration& here = registrations_[number]; here.layer != none) {
-    Member& member = layers_[here.layer];
-    if (member.tier == window.tier && member.end == window.end) {
-      if (member.layer.replace(here.place, member.capsule(bound, now), member.time(now))) return;
-    }
+  const std::uint32_t layer = layer_for(window, level_to_enter(level_of(bound, window)));
+  Member& member = layers_[layer];
+  ++member.changes;
+  if (const Registration& here = registrations_[number]; here.layer == layer) {
+    if (member.layer.replace(here.place, member.capsule(bound, now), member.time(now))) return;
+    take_out(number);
+  } else if (here.layer != none) {
     leave(number);
   }
-  const int level = layer_level(level_of(bound, duration_until(window.end, now)));
-  add(number, layer_for(window, bound.moved.centre, level, now), bound, now);
+  if (!member.has_frame) {
+    if (!has_base_) base_ = bound.moved.centre;
+    has_base_ = true;
+    open(member, base_, window.end < infinity ? window.end - power_of_two(window.tier) : 0.0);
+  }
+  add(number, layer, bound, now);
 }
 
 /// Of its size, or of the larger ones that it is merged with.
-int Windows::layer_level(int level) const {
+int Windows::level_to_start(int level) const {
   for (const Merged& merged : merged_)
     if (merged.level == level) return merged.into;
+  return level;
+}
+
+/// The same where few enter, for whom alone no layer is worth while.
+int Windows::level_to_enter(int level) const {
+  for (const Merged& merged : merged_)
+    if (merged.level >= level) return merged.into;
   return level;
 }
 
@@ -160,7 +198,7 @@ void Windows::merge_levels() {
         volume, static_cast<double>(member.layer.size()) * units / member.layer.density(space_.is_flat()));
   }
   if (2 * all < size()) return;
-  merged_.clear();
+  next_merged_.clear();
   std::vector<int> together;
   double density = 0.0;
   for (auto at = sizes_.begin(); at != sizes_.end(); ++at) {
@@ -171,13 +209,18 @@ void Windows::merge_levels() {
         widths_searched * power_of_two(powers_in_a_level * (next == sizes_.end() ? 0 : next->first) + 2);
     const double found = density * (space_.is_flat() ? width * width : width * width * width);
     if (next != sizes_.end() && found < few) continue;
-    for (const int level : together) merged_.push_back({level, at->first});
+    for (const int level : together) next_merged_.push_back({level, at->first});
     together.clear();
     density = 0.0;
   }
 }
 
 void Windows::leave(std::uint32_t number) {
+  ++layers_[registrations_[number].layer].changes;
+  take_out(number);
+}
+
+void Windows::take_out(std::uint32_t number) {
   Registration& here = registrations_[number];
   layers_[here.layer].layer.remove(here.place);
   here.layer = none;
@@ -188,13 +231,9 @@ void Windows::sort(std::uint32_t layer) {
       [this](std::uint32_t number, std::uint32_t place) { registrations_[number].place = place; });
 }
 
-/// Calls finds(place) for what may be near in one layer, in this image of it, from now on until `end` or
-/// until the window of the layer ends.
-template <class Finds>
-void Windows::search_image(const Member& member, const RoomyBound& bound, double now, double end, Finds finds,
-                           Scratch& scratch) const {
-  const Layer& layer = member.layer;
-  CapsuleFrame frame = layer.frame();
+/// In one layer, from now on until `end` or until the window of the layer ends.
+CapsuleQuery Windows::query_for(const Member& member, const RoomyBound& bound, double now, double end) {
+  CapsuleFrame frame = member.layer.frame();
   float from = 0.0f;
   float to = 0.0f;
   if (end < infinity && member.end == infinity) {
@@ -206,22 +245,21 @@ void Windows::search_image(const Member& member, const RoomyBound& bound, double
     from = frame.time(now);
     to = frame.time(std::min(end, member.end));
   }
-  const CapsuleQuery query{capsule_of(bound.moved, now, duration_until(end, now), bound.room, frame), from,
-                           to};
-  const auto found = layer.search(query, scratch.layer);
-  note_cost(scratch, found.size());
-  for (const std::uint32_t place : found) finds(place);
+  return {capsule_of(bound.moved, now, duration_until(end, now), bound.room, frame), from, to};
 }
 
-/// Calls finds(place, shifted) for what may be near in one layer, in all images; `shifted` in another one.
-template <class Finds>
+/// Calls finds(place, shifted) for what may be near in one layer, in all images, from now on until `end` or
+/// until the window of the layer ends; `shifted` in another one. Calls notes(query, found) for each image.
+template <class Finds, class Notes>
 void Windows::search(const Member& member, const RoomyBound& bound, double now, double end, Finds finds,
-                     Scratch& scratch) const {
+                     Notes notes, Scratch& scratch) const {
   const auto search_shifted = [&](const Vec3& shift) {
     RoomyBound image = bound;
     image.moved.centre += shift;
-    search_image(
-        member, image, now, end, [&](std::uint32_t place) { finds(place, shift != Vec3{}); }, scratch);
+    const CapsuleQuery query = query_for(member, image, now, end);
+    const auto found = member.layer.search(query, scratch.layer);
+    notes(query, found.size());
+    for (const std::uint32_t place : found) finds(place, shift != Vec3{});
   };
   if (!space_.repeats()) return search_shifted({});
   const Box box = bound.box_of_way(duration_until(end, now));
@@ -244,7 +282,8 @@ std::span<const std::uint32_t> Windows::near(std::uint32_t number, const RoomyBo
       const std::uint32_t other = member.layer.number_at(place);
       if (other != number && other != Layer::nobody) scratch.numbers.push_back(other);
     };
-    search(member, bound, now, end, note, scratch);
+    search(
+        member, bound, now, end, note, [](const CapsuleQuery&, std::size_t) {}, scratch);
   }
   return scratch.numbers;
 }
@@ -257,11 +296,11 @@ std::span<const std::uint32_t> Windows::in_box(const Box& box, double now, Scrat
     const auto search_near = [&](const Box& image, const Vec3&) {
       Bound ball{.time = now, .position = 0.5 * (image.lower + image.upper)};
       ball.radius = 0.5 * norm(image.upper - image.lower);
-      const auto note = [&](std::uint32_t place) {
+      const CapsuleQuery query = query_for(member, {MovedBound(ball, now), 0.0}, now, end);
+      for (const std::uint32_t place : member.layer.search(query, scratch.layer)) {
         const std::uint32_t number = member.layer.number_at(place);
         if (number != Layer::nobody) scratch.numbers.push_back(number);
-      };
-      search_image(member, {MovedBound(ball, now), 0.0}, now, end, note, scratch);
+      }
     };
     space_.for_each_image(box, member.layer.widest() / member.layer.frame().per_length, search_near);
   }
@@ -277,26 +316,49 @@ double Windows::least_width() const {
 }
 
 std::vector<std::uint32_t> Windows::ended(double now, bool all) const {
+  const auto has_ended = [=](double end) { return all ? end < infinity : end <= now; };
+  std::size_t most = 0;
+  for (const Member& member : layers_)
+    if (has_ended(member.end)) most += member.layer.size();
   std::vector<std::uint32_t> numbers;
+  numbers.reserve(most);
+  // Sorting many takes longer than going through all.
+  constexpr std::size_t few_of_all = 16;
+  if (few_of_all * most >= registrations_.size()) {
+    for (std::uint32_t number = 0; number < registrations_.size(); ++number)
+      if (contains(number) && has_ended(registrations_[number].end)) numbers.push_back(number);
+    return numbers;
+  }
   for (const Member& member : layers_) {
-    if (all ? member.end == infinity : member.end > now) continue;
+    if (!has_ended(member.end)) continue;
     for (std::uint32_t place = 0; place < member.layer.places(); ++place) {
       const std::uint32_t number = member.layer.number_at(place);
       if (number != Layer::nobody) numbers.push_back(number);
     }
   }
+  std::sort(numbers.begin(), numbers.end());
   return numbers;
 }
 
 void Windows::end_windows(double now, bool all) {
-  for (const std::uint32_t number : ended(now, all)) registrations_[number].layer = none;
-  for (Member& member : layers_) {
-    member.fresh = false;
-    if (all ? member.end < infinity : member.end <= now) member.layer.clear({});
-  }
+  merged_ = next_merged_;
   next_end_ = infinity;
-  for (const Member& member : layers_)
-    if (member.layer.size() > 0) next_end_ = std::min(next_end_, member.end);
+  for (Member& member : layers_) {
+    const bool has_ended = all ? member.end < infinity : member.end <= now;
+    if (has_ended) {
+      for (std::uint32_t place = 0; place < member.layer.places(); ++place) {
+        const std::uint32_t number = member.layer.number_at(place);
+        if (number != Layer::nobody) registrations_[number].layer = none;
+      }
+    }
+    member.fresh = false;
+    if (has_ended || member.layer.size() == 0) {
+      member.layer.clear({});
+      member.end = -infinity;
+    } else {
+      next_end_ = std::min(next_end_, member.end);
+    }
+  }
 }
 
 bool Windows::is_free(const Window& window) const {
@@ -307,10 +369,15 @@ bool Windows::is_free(const Window& window) const {
 
 void Windows::start(std::uint32_t number, const RoomyBound& bound, double now, const Window& window) {
   if (number >= registrations_.size()) registrations_.resize(number + std::size_t{1});
-  const int level = level_of(bound, duration_until(window.end, now));
+  const int level = level_of(bound, window);
   ++sizes_[level];
-  const std::uint32_t layer = layer_for(window, bound.moved.centre, layer_level(level), now);
-  if (layers_[layer].layer.size() == 0) layers_[layer].fresh = true;
+  const std::uint32_t layer = layer_for(window, level_to_start(level));
+  if (Member& member = layers_[layer]; !member.fresh) {
+    member.fresh = true;
+    base_ = bound.moved.centre;
+    has_base_ = true;
+    open(member, base_, now);
+  }
   add(number, layer, bound, now);
 }
 
@@ -322,12 +389,29 @@ void Windows::tidy() {
 void Windows::finish_start() {
   std::size_t layers = 0;
   for (std::uint32_t k = 0; k < layers_.size(); ++k) {
-    if (layers_[k].layer.size() > 0) ++layers;
-    if (layers_[k].fresh) sort(k);
+    Member& member = layers_[k];
+    if (member.layer.size() > 0) ++layers;
+    if (member.fresh || member.changes > least_changes + member.layer.size() / 2) sort_to_start(k);
   }
   needs_bounds_ = layers > 1 || space_.repeats();
   merge_levels();
   sizes_.clear();
+}
+
+/// What is known of the layer from now on is the same, whatever has been changed in which order.
+void Windows::sort_to_start(std::uint32_t layer) {
+  Member& member = layers_[layer];
+  const float before = coarseness_of(member);
+  member.layer.set_coarseness(before);
+  sort(layer);
+  member.grain = member.layer.grain();
+  member.changes = 0;
+  const float after = member.layer.coarseness();
+  if (after == before) return;
+  std::erase_if(coarse_, [&](const Coarseness& known) {
+    return known.tier == member.tier && known.level == member.level;
+  });
+  if (after != 1.0f) coarse_.push_back({member.tier, member.level, after});
 }
 
 std::size_t Windows::started() const {
@@ -362,18 +446,22 @@ void Windows::near_behind(const Started& at, Scratch& scratch) const {
 
 void Windows::near_behind(const Started& at, const RoomyBound& bound, double now, Scratch& scratch) const {
   near_behind(at, scratch);
-  const std::uint32_t number = layers_[at.layer].layer.number_at(at.place);
-  const double end = registrations_[number].end;
+  const Member& own = layers_[at.layer];
   for (std::uint32_t k = 0; k < layers_.size(); ++k) {
     const Member& member = layers_[k];
-    if (member.layer.size() == 0 || (member.fresh && k < at.layer) || (k == at.layer && !space_.repeats()))
+    if (member.layer.size() == 0 || (member.fresh && member.is_before(own)) ||
+        (k == at.layer && !space_.repeats()))
       continue;
     const auto note = [&](std::uint32_t place, bool shifted) {
       if (k == at.layer && (!shifted || place <= at.place)) return;
       const std::uint32_t other = member.layer.number_at(place);
       if (other != Layer::nobody) scratch.numbers.push_back(other);
     };
-    search(member, bound, now, end, note, scratch);
+    const auto note_search = [&](const CapsuleQuery& query, std::size_t found) {
+      if (member.fresh) return note_cost(scratch, found);
+      note_estimate(scratch, member.grain, member.layer.size(), query, found);
+    };
+    search(member, bound, now, own.end, note, note_search, scratch);
   }
 }
 
@@ -409,8 +497,12 @@ std::optional<std::string> Windows::check(std::uint32_t number) const {
 bool Windows::is_sound(std::size_t bodies) const {
   if (registrations_.size() > bodies) return false;
   const auto is_level = [](int level) { return -largest_level <= level && level <= largest_level; };
-  for (const Merged& merged : merged_)
-    if (!is_level(merged.level) || !is_level(merged.into)) return false;
+  for (const std::vector<Merged>* levels : {&merged_, &next_merged_})
+    for (const Merged& merged : *levels)
+      if (!is_level(merged.level) || !is_level(merged.into)) return false;
+  for (const Coarseness& known : coarse_)
+    if (!(known.coarseness >= 1.0f && known.coarseness <= Layer::coarsest)) return false;
+  if (!is_finite(base_)) return false;
   std::size_t registered = 0;
   for (std::uint32_t number = 0; number < registrations_.size(); ++number) {
     if (!contains(number)) continue;
@@ -421,8 +513,8 @@ bool Windows::is_sound(std::size_t bodies) const {
            const bool possible = member.tier == never_ends
                                      ? member.end == infinity
                                      : std::abs(member.tier) <= longest_tier && std::isfinite(member.end);
-           return member.layer.is_sound() && (possible || member.layer.size() == 0) &&
-                  std::abs(member.level) <= largest_level;
+           return member.layer.is_sound() && member.grain.is_sound() &&
+                  (possible || member.layer.size() == 0) && std::abs(member.level) <= largest_level;
          });
 }
 

@@ -44,7 +44,7 @@ class Windows {
   struct Scratch {
     Layer::Scratch layer;
     std::vector<std::uint32_t> numbers;
-    SearchCost cost;  ///< of all searches with it
+    SearchCost cost;  ///< of all searches of bodies that start, with it
   };
 
   explicit Windows(const Space& space) : space_(space) {}
@@ -77,7 +77,8 @@ class Windows {
 
   // New windows for many bodies at once.
 
-  /// The bodies whose windows have ended by `now` or, if `all`, whose windows end ever.
+  /// The bodies whose windows have ended by `now` or, if `all`, whose windows end ever, in the order of
+  /// their numbers. What starts in this order makes the same layers, whatever has happened before.
   std::vector<std::uint32_t> ended(double now, bool all) const;
   /// Those bodies are registered nowhere any more, and wait for start().
   void end_windows(double now, bool all);
@@ -129,8 +130,9 @@ class Windows {
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [space, registrations, layers, sizes, merged, next_end, needs_bounds] = self;
-    archive(registrations, layers, merged, next_end, needs_bounds);
+    auto& [space, registrations, layers, sizes, merged, next_merged, coarse, base, has_base, next_end,
+           needs_bounds] = self;
+    archive(registrations, layers, merged, next_merged, coarse, base, has_base, next_end, needs_bounds);
   }
   /// For one that was read, in a world of this many bodies.
   bool is_sound(std::size_t bodies) const;
@@ -150,21 +152,41 @@ class Windows {
       archive(until, its_layer, its_place);
     }
   };
-  /// The capsules of the bodies of about one size in the window of length 2^tier.
+  /// The capsules of the bodies of about one size in the window of length 2^tier. It stays until windows
+  /// end, even if all of them leave.
   struct Member {
     int tier = 0;
     int level = 0;
-    double end = 0.0;
-    bool fresh = false;  ///< all in it have started since windows ended
+    double end = -infinity;  ///< -infinity if it is nobody's
+    bool has_frame = false;  ///< without one it is empty
+    bool fresh = false;      ///< all in it have started since windows ended
     Layer layer{};
+    // Of when it was last sorted as windows started.
+    Grain grain{};
+    std::uint64_t changes = 0;  ///< since then, in the order of which nothing depends
 
+    bool is_before(const Member& other) const {
+      return tier != other.tier ? tier < other.tier : level < other.level;
+    }
     Capsule capsule(const RoomyBound& bound, double now) const;
     float time(double now) const;
 
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
-      auto& [power, size, until, is_fresh, capsules] = self;
-      archive(power, size, until, is_fresh, capsules);
+      auto& [power, size, until, is_framed, is_fresh, capsules, cells, entered] = self;
+      archive(power, size, until, is_framed, is_fresh, capsules, cells, entered);
+    }
+  };
+  /// How coarse the cells of such a layer have turned out to have to be, where that is not 1.
+  struct Coarseness {
+    int tier;
+    int level;
+    float coarseness;
+
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+      auto& [power, size, edge] = self;
+      archive(power, size, edge);
     }
   };
 
@@ -184,27 +206,34 @@ class Windows {
   };
 
   void merge_levels();
-  int layer_level(int level) const;
-  std::uint32_t layer_for(const Window& window, const Vec3& base, int level, double now);
+  int level_to_start(int level) const;
+  int level_to_enter(int level) const;
+  std::uint32_t layer_for(const Window& window, int level);
+  void open(Member& member, const Vec3& base, double origin);
+  float coarseness_of(const Member& member) const;
+  void sort_to_start(std::uint32_t layer);
+  void take_out(std::uint32_t number);
   void add(std::uint32_t number, std::uint32_t layer, const RoomyBound& bound, double now);
   void sort(std::uint32_t layer);
   Started started_at(std::size_t k) const;
   void near_behind(const Started& at, Scratch& scratch) const;
   void near_behind(const Started& at, const RoomyBound& bound, double now, Scratch& scratch) const;
-  template <class Finds>
-  void search_image(const Member& member, const RoomyBound& bound, double now, double end, Finds finds,
-                    Scratch& scratch) const;
-  template <class Finds>
-  void search(const Member& member, const RoomyBound& bound, double now, double end, Finds finds,
+  static CapsuleQuery query_for(const Member& member, const RoomyBound& bound, double now, double end);
+  template <class Finds, class Notes>
+  void search(const Member& member, const RoomyBound& bound, double now, double end, Finds finds, Notes notes,
               Scratch& scratch) const;
 
   Space space_;
   std::vector<Registration> registrations_;
   std::vector<Member> layers_;
   std::map<int, std::size_t> sizes_;  ///< by level, of those that have started
-  std::vector<Merged> merged_;        ///< levels that few bodies have, into larger ones
-  double next_end_ = infinity;        ///< of the windows that hold a body, or held one
-  bool needs_bounds_ = false;         ///< to search for those that have started: not all are in one layer
+  std::vector<Merged> merged_;        ///< levels that few bodies have, into larger ones; by level
+  std::vector<Merged> next_merged_;   ///< the same from the next start on
+  std::vector<Coarseness> coarse_;
+  Vec3 base_{};  ///< of layers that bodies open by entering
+  bool has_base_ = false;
+  double next_end_ = infinity;  ///< of the windows that hold a body, or held one
+  bool needs_bounds_ = false;   ///< to search for those that have started: not all are in one layer
 };
 
 }  // namespace kinesphere

@@ -253,7 +253,7 @@ class World::Engine {
   double widest_in_period(const Body& body, int axis) const;
   double longest_in_period(const Body& body, double length) const;
   void bring_home(std::uint32_t number, double length);
-  void find_hot_pairs(std::uint32_t number, std::span<const std::uint32_t> others);
+  std::size_t find_hot_pairs(std::uint32_t number, std::span<const std::uint32_t> others);
   void find_known_pairs(std::uint32_t number);
   void find_walls(std::uint32_t number);
   Vec3 shift_to_meet(std::uint32_t a, std::uint32_t b) const;
@@ -330,6 +330,7 @@ class World::Engine {
   std::vector<std::uint32_t> free_shapes_;
   Windows windows_;
   Tempo tempo_;
+  Kicks kicks_;  ///< since most bodies started
   Agenda agenda_;
   std::vector<std::uint32_t> dirty_;
   Counters counters_;

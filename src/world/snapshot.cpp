@@ -24,7 +24,7 @@ namespace {
 /// Raise the version when the fields change, or when the engine would go on from the same fields in another
 /// way.
 constexpr Envelope envelope{{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'},
-                            10,
+                            11,
                             "world",
                             "World::restore",
                             "snapshot",
@@ -59,11 +59,11 @@ void World::Engine::transfer(Self& self, Archive& archive) {
   // The definition comes first, as an engine is made from it, space and walls too. The tag is left out
   // (BodyId::world). The last ones matter only during advance().
   auto& [definition, tag, space, enclosure, book, time, size, bodies, changes, rests, filters, middles,
-         images, free, shapes, free_shapes, windows, tempo, agenda, dirty, counters, sensors, pair_filter,
-         filtering, gathering, probe, probing_call, probing, probe_ids, probe_states, round, hot, scratch] =
-      self;
+         images, free, shapes, free_shapes, windows, tempo, kicks, agenda, dirty, counters, sensors,
+         pair_filter, filtering, gathering, probe, probing_call, probing, probe_ids, probe_states, round, hot,
+         scratch] = self;
   archive(book, time, size, bodies, changes, rests, filters, middles, images, free, shapes, free_shapes,
-          windows, tempo, scratch.cost, dirty, counters, sensors, filtering, gathering);
+          windows, tempo, kicks, dirty, counters, sensors, filtering, gathering);
   // Of the agenda what counts, in an order of its own: not what is void, nor how it has divided time.
   if constexpr (std::is_const_v<Self>) {
     std::vector<HotPair> pairs = self.hot_pairs();

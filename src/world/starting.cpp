@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "number/infinity.hpp"
+#include "number/powers.hpp"
 #include "world/engine.hpp"
 
 namespace kinesphere {
@@ -86,7 +87,8 @@ Window World::Engine::window_for(std::uint32_t number) const {
   if (!windows_.contains(number)) return window;
   const double end = windows_.end_of(number);
   const int tier = windows_.tier_of(number);
-  const bool suits = tier >= window.tier - 2 * Tempo::powers_between_tiers && end <= window.end;
+  const bool suits = tier >= window.tier - 2 * Tempo::powers_between_tiers && end <= window.end &&
+                     (tier <= window.tier || !space_.repeats());
   return suits && time_ < end ? Window{tier, end} : window;
 }
 
@@ -95,7 +97,8 @@ Window World::Engine::window_to_start(std::uint32_t number) const {
   const Body& body = bodies_[number];
   Window window = Windows::window_at(time_, tempo_.tier_for(pace_of(body)));
   if (!space_.repeats()) return window;
-  while (window.end - time_ > longest_in_period(body, window.end - time_)) {
+  const auto length = [&window] { return power_of_two(window.tier); };
+  while (length() > longest_in_period(body, length())) {
     const Window shorter = Windows::window_at(time_, window.tier - 1);
     if (shorter.tier == window.tier) break;
     window = shorter;
@@ -181,15 +184,17 @@ Result<void> World::Engine::start_windows(bool all, std::span<const std::uint32_
   if (!asked.empty()) {
     if (auto probed = probe(asked); !probed) return probed;
   }
-  if (most) tempo_.start_main(time_, std::exchange(scratch_.cost, {}));
-  const SearchCost of_others = std::exchange(scratch_.cost, {});
+  if (most) tempo_.start_main(time_, std::exchange(kicks_, {}));
+  scratch_.cost = {};
   windows_.end_windows(time_, all);
   // Those with a broken promise, too, are settled by themselves.
   std::erase_if(round, [this](std::uint32_t number) { return bodies_[number].dirty; });
   ++counters_.window_ends;
   counters_.starts += round.size();
   counters_.restarts += joining.size();
+  const auto ended = static_cast<std::ptrdiff_t>(round.size());
   round.insert(round.end(), joining.begin(), joining.end());
+  std::inplace_merge(round.begin(), round.begin() + ended, round.end());
   for (const std::uint32_t number : round) {
     if (windows_.contains(number)) windows_.leave(number);
     Window window = window_to_start(number);
@@ -215,9 +220,9 @@ Result<void> World::Engine::start_windows(bool all, std::span<const std::uint32_
   for (std::size_t k = 0; k < windows_.started(); ++k) {
     const auto others = windows_.near_started(
         k, time_, [this](std::uint32_t number) { return roomy_bound(number); }, scratch_);
-    find_hot_pairs(windows_.started_number(k), others);
+    scratch_.cost.hot += find_hot_pairs(windows_.started_number(k), others);
   }
-  tempo_.finish_start(std::exchange(scratch_.cost, of_others), windows_.size());
+  tempo_.finish_start(scratch_.cost, windows_.size());
   for (const std::uint32_t number : round) {
     find_known_pairs(number);
     find_walls(number);
@@ -254,6 +259,7 @@ Result<void> World::Engine::settle_dirty() {
   }
   if (anew || !tempo_.is_chosen()) choose_tempo(anew ? joining : round_);
   counters_.restarts += round_.size();
+  kicks_.bodies += round_.size();
   for (const std::uint32_t number : round_) enter(number);
   windows_.tidy();
   if (!joining.empty()) {
@@ -262,7 +268,7 @@ Result<void> World::Engine::settle_dirty() {
   }
   hot_.clear();
   for (const std::uint32_t number : round_) {
-    find_hot_pairs(number, windows_.near(number, roomy_bound(number), time_, scratch_));
+    kicks_.hot += find_hot_pairs(number, windows_.near(number, roomy_bound(number), time_, scratch_));
     find_known_pairs(number);
     find_walls(number);
     bodies_[number].settled = true;
@@ -282,18 +288,20 @@ void World::Engine::enter(std::uint32_t number) {
   windows_.enter(number, roomy_bound(number), time_, window);
 }
 
-/// Those of the others that may meet the body before a window ends.
-void World::Engine::find_hot_pairs(std::uint32_t number, std::span<const std::uint32_t> others) {
+/// Those of the others that may meet the body before a window ends. Returns how many they are.
+std::size_t World::Engine::find_hot_pairs(std::uint32_t number, std::span<const std::uint32_t> others) {
   ++counters_.searches;
   counters_.candidates += others.size();
+  const std::size_t before = hot_.size();
   for (const std::uint32_t other : others) {
     if (bodies_[other].settled) continue;
     const double until = unchanged_until(number, other);
     if (until == infinity) continue;
     hot_.push_back(hot_pair(until, number, other));
-    ++scratch_.cost.hot;
-    ++counters_.hot_pairs;
   }
+  const std::size_t hot = hot_.size() - before;
+  counters_.hot_pairs += hot;
+  return hot;
 }
 
 /// Whom the body touches or senses may be anywhere.

@@ -18,6 +18,7 @@ namespace {
 constexpr std::uint64_t seed = 4301;
 constexpr SearchCost nothing{};
 constexpr SearchCost immense{.capsules = 1'000'000'000'000};
+constexpr Kicks countless{.hot = 1'000'000'000'000};
 constexpr Pace everyday{1.0, 0.0};
 /// Of everyday bodies in windows of length 1.
 constexpr double usual_width = 0.1;
@@ -38,7 +39,7 @@ struct Round {
   std::vector<Pace> paces;
   double width = usual_width;
   SearchCost starts;  ///< what their searches cost
-  SearchCost others;  ///< and those of others, until their windows end
+  Kicks kicks;        ///< until their windows end
 };
 
 void note(Tempo& tempo, const std::vector<Pace>& paces, double width) {
@@ -47,11 +48,11 @@ void note(Tempo& tempo, const std::vector<Pace>& paces, double width) {
 
 /// They start at `now`, and those that start when their windows end know what it has cost.
 void start_main(Tempo& tempo, double& now, const Round& round) {
-  tempo.start_main(now, nothing);
+  tempo.start_main(now, {});
   note(tempo, round.paces, round.width);
   tempo.finish_start(round.starts, many);
   now += length_of(main_tier(tempo));
-  tempo.start_main(now, round.others);
+  tempo.start_main(now, round.kicks);
   tempo.finish_start(nothing, many);
 }
 
@@ -107,7 +108,7 @@ TEST(Tempo, ShorterWhereSearchesCostMost) {
     Tempo tempo = chosen(1.0, everyday, dimensions);
     double now = 0.0;
     const int before = tempo.tier_for(everyday);
-    start_main(tempo, now, {.paces = bodies(100), .starts = immense, .others = immense});
+    start_main(tempo, now, {.paces = bodies(100), .starts = immense, .kicks = countless});
     EXPECT_LT(tempo.tier_for(everyday), before);
     EXPECT_GE(tempo.tier_for(everyday), before - 6);
     EXPECT_EQ(std::log2(tempo.typical_way()), tempo.tier_for(everyday) - before);
@@ -115,23 +116,36 @@ TEST(Tempo, ShorterWhereSearchesCostMost) {
   }
 }
 
-/// What others' searches cost in the time of a window counts, not what they cost until the next start.
-TEST(Tempo, CostsOfOthersAreOfAMainWindow) {
-  // In 64 windows it would make windows shorter if it was of one.
-  const SearchCost cost{.capsules = 64 * 5'000};
+/// What kicks cost in the time of a window counts, not what they cost until the next start.
+TEST(Tempo, CostsOfKicksAreOfAMainWindow) {
+  // In 64 windows they would make windows shorter if they were of one.
+  const Kicks kicks{.hot = 64 * 80};
   for (const double windows : {1.0, 64.0}) {
     Tempo tempo = chosen();
     const int before = main_tier(tempo);
-    tempo.start_main(0.0, nothing);
+    tempo.start_main(0.0, {});
     note(tempo, bodies(100), usual_width);
     tempo.finish_start(nothing, many);
-    tempo.start_main(windows * length_of(before), cost);
+    tempo.start_main(windows * length_of(before), kicks);
     tempo.finish_start(nothing, many);
     if (windows == 1.0) {
       EXPECT_LT(main_tier(tempo), before);
     } else {
       EXPECT_GE(main_tier(tempo), before);
     }
+  }
+}
+
+/// A kick's search costs what two of those that start do, as these find each pair once.
+TEST(Tempo, KicksSearchAsThoseThatStart) {
+  for (const std::uint64_t kicked : {0, 200}) {
+    Tempo tempo = chosen();
+    double now = 0.0;
+    const int before = main_tier(tempo);
+    start_main(tempo, now,
+               {.paces = bodies(100), .starts = {.capsules = 8'000}, .kicks = {.bodies = kicked}});
+    // Starts take 12,000 looks, half as long 24,000; their searches 8,000, half as long less than 3,000.
+    EXPECT_EQ(main_tier(tempo) < before, kicked > 0) << kicked;
   }
 }
 
@@ -169,7 +183,7 @@ TEST(Tempo, StaysWhereNothingIsMuchCheaper) {
     // As in a crowd: what searches find grows with the volume of the capsules.
     const double larger = 0.5 + tempo.typical_way();
     const SearchCost cost{.capsules = static_cast<std::uint64_t>(100 * 20 * larger * larger * larger)};
-    start_main(tempo, now, {.paces = bodies(100), .width = 0.5, .starts = cost, .others = cost});
+    start_main(tempo, now, {.paces = bodies(100), .width = 0.5, .starts = cost, .kicks = {.bodies = 50}});
     if (main_tier(tempo) != before) ++changes;
   }
   EXPECT_LE(changes, 12);
@@ -181,16 +195,16 @@ TEST(Tempo, WithoutStartsNothingIsKnown) {
   Tempo tempo = chosen();
   double now = 0.0;
   const int before = main_tier(tempo);
-  start_main(tempo, now, {.starts = immense, .others = immense});
+  start_main(tempo, now, {.starts = immense, .kicks = countless});
   EXPECT_EQ(main_tier(tempo), before);
 }
 
-/// Nor without time that has passed: what others cost is a rate.
+/// Nor without time that has passed: what kicks cost is a rate.
 TEST(Tempo, AtOneInstantNothingIsKnown) {
   Tempo tempo = chosen();
   const int before = main_tier(tempo);
   for (int round = 0; round < 3; ++round) {
-    tempo.start_main(0.0, immense);
+    tempo.start_main(0.0, countless);
     note(tempo, bodies(100), usual_width);
     tempo.finish_start(immense, many);
   }
@@ -244,7 +258,7 @@ TEST(Tempo, GrowsBackBesideSlowBodies) {
       Tempo tempo = chosen();
       double now = 0.0;
       const int before = tempo.tier_for(everyday);
-      start_main(tempo, now, {.paces = paces, .others = immense});
+      start_main(tempo, now, {.paces = paces, .kicks = countless});
       ASSERT_LT(tempo.tier_for(everyday), before);
       for (int round = 0; round < 20; ++round) start_main(tempo, now, {.paces = paces});
       EXPECT_GT(tempo.tier_for(everyday), before + 10);
@@ -366,6 +380,10 @@ TEST(Tempo, StaysPossibleWhateverTheNumbers) {
     for (std::uint64_t* part : {&c.capsules, &c.rows, &c.found, &c.hot}) *part = counts[random.bits() % 4];
     return c;
   };
+  const auto kicks = [&] {
+    const SearchCost counts = cost();
+    return Kicks{counts.capsules, counts.hot};
+  };
   for (int k = 0; k < 20000; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", case " << k);
     Tempo tempo(longest_way(), random.bits() % 2 == 0 ? 2 : 3);
@@ -373,7 +391,7 @@ TEST(Tempo, StaysPossibleWhateverTheNumbers) {
     double now = -1e300;
     for (int round = 0; round < 4; ++round) {
       now = std::max(now, value());
-      if (random.bits() % 2 == 0) tempo.start_main(std::min(now, 1e300), cost());
+      if (random.bits() % 2 == 0) tempo.start_main(std::min(now, 1e300), kicks());
       std::uint64_t left = random.bits() % 5;
       if (random.bits() % 8 == 0) left += 64;
       for (; left > 0; --left) {
@@ -411,7 +429,8 @@ TEST(Tempo, GoesOnAsBeforeAfterItWasBytes) {
     const auto cost = [&] { return SearchCost{.capsules = random.bits() % 10000}; };
     const SearchCost of_starts = cost();
     const bool most = random.bits() % 2 == 0;
-    if (most) tempo.start_main(now, cost());
+    const auto kicks = [&] { return Kicks{.bodies = random.bits() % 1000, .hot = random.bits() % 1000}; };
+    if (most) tempo.start_main(now, kicks());
     note(tempo, paces, random.uniform());
     tempo.finish_start(of_starts, many);
     ByteWriter writer;
@@ -424,11 +443,11 @@ TEST(Tempo, GoesOnAsBeforeAfterItWasBytes) {
     EXPECT_EQ(reader.remaining(), 0u);
     ASSERT_TRUE(back.is_sound());
     now += random.uniform();
-    const SearchCost others = cost();
+    const Kicks kicks_since = kicks();
     const SearchCost of_fast = cost();
     for (Tempo* each : {&tempo, &back}) {
       start_between(*each, bodies(70, {1e3, 0.0}), of_fast);
-      each->start_main(now, others);
+      each->start_main(now, kicks_since);
       each->finish_start(nothing, many);
     }
     ASSERT_EQ(back.typical_way(), tempo.typical_way());

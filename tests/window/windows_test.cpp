@@ -459,5 +459,126 @@ TEST(Windows, SearchesLookAtFewOfMany) {
   }
 }
 
+/// Bodies that start together and some of which are kicked, each several times, before they start again.
+class KickedBodies {
+ public:
+  static constexpr std::uint32_t count = 600;
+  struct Kick {
+    std::uint32_t number;
+    double time;
+    Bound bound;
+  };
+  /// How those that start search: whom each finds, and what it costs in all.
+  struct Searches {
+    std::map<std::uint32_t, std::set<std::uint32_t>> found;
+    SearchCost cost;
+  };
+
+  KickedBodies() {
+    for (std::uint32_t number = 0; number < count; ++number) {
+      bounds_.push_back(draw(number, 0.0));
+      if (stands(number)) windows_.enter(number, roomy(number, 0.0), 0.0, Windows::endless());
+    }
+    start(0.0, true);
+  }
+
+  Bound draw(std::uint32_t number, double time) {
+    const double speed = stands(number) ? 0.0 : is_fast(number) ? 16.0 : 1.0;
+    return {.time = time,
+            .position = 20.0 * random_.point_in_ball(),
+            .velocity = speed * random_.point_in_ball(),
+            .radius = log_uniform(random_, number % 5 == 0 ? 1 : -4, number % 5 == 0 ? 2 : -2)};
+  }
+  void kick(const Kick& kick) {
+    bounds_[kick.number] = kick.bound;
+    windows_.enter(kick.number, roomy(kick.number, kick.time), kick.time, window(kick.number, kick.time));
+  }
+  void tidy() { windows_.tidy(); }
+  /// Whom a body finds that is kicked.
+  std::set<std::uint32_t> near(std::uint32_t number, double time) {
+    const auto found = windows_.near(number, roomy(number, time), time, scratch_);
+    return {found.begin(), found.end()};
+  }
+  Searches start(double time, bool all) {
+    std::vector<std::uint32_t> round = windows_.ended(time, all);
+    EXPECT_TRUE(std::is_sorted(round.begin(), round.end()));
+    if (windows_.moving() == 0) {
+      for (std::uint32_t number = 0; number < count; ++number)
+        if (!stands(number)) round.push_back(number);
+    }
+    windows_.end_windows(time, all);
+    for (const std::uint32_t number : round)
+      windows_.start(number, roomy(number, time), time, window(number, time));
+    windows_.finish_start();
+    Searches searches;
+    scratch_.cost = {};
+    for (std::size_t k = 0; k < windows_.started(); ++k) {
+      const auto bound_of = [&](std::uint32_t number) { return roomy(number, time); };
+      const auto found = windows_.near_started(k, time, bound_of, scratch_);
+      searches.found[windows_.started_number(k)] = {found.begin(), found.end()};
+    }
+    searches.cost = scratch_.cost;
+    return searches;
+  }
+  static bool stands(std::uint32_t number) { return number % 4 == 3; }
+  static bool is_fast(std::uint32_t number) { return number % 4 == 2; }
+
+ private:
+  RoomyBound roomy(std::uint32_t number, double time) const {
+    return {MovedBound(bounds_[number], time), 0.01};
+  }
+  static Window window(std::uint32_t number, double time) {
+    return stands(number) ? Windows::endless() : Windows::window_at(time, is_fast(number) ? -3 : 0);
+  }
+
+  Random random_{seed};
+  Windows windows_{Space{}};
+  Windows::Scratch scratch_;
+  std::vector<Bound> bounds_;
+};
+
+bool are_equal(const SearchCost& a, const SearchCost& b) {
+  return std::tie(a.capsules, a.rows, a.found) == std::tie(b.capsules, b.rows, b.found);
+}
+
+TEST(Windows, StartAlikeInWhateverOrderBodiesWereKicked) {
+  KickedBodies forward, backward;
+  Random random(seed);
+  for (int window = 1; window <= 16; ++window) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed << ", window " << window);
+    const double begin = 0.125 * (window - 1), end = 0.125 * window;
+    // Each body's kicks are in the order of their times; bodies are kicked in any.
+    std::vector<std::vector<KickedBodies::Kick>> kicks;
+    const std::size_t kicked = window % 3 == 0 ? 300 : 30;
+    for (std::uint32_t number = 0; number < KickedBodies::count; ++number) {
+      if (random.bits() % KickedBodies::count >= kicked) continue;
+      std::vector<KickedBodies::Kick>& own = kicks.emplace_back();
+      double time = begin;
+      for (std::uint64_t k = random.bits() % 3; k < 3; ++k) {
+        time += 0.3 * (end - begin) * random.uniform();
+        own.push_back({number, time, forward.draw(number, time)});
+      }
+    }
+    for (const auto& own : kicks)
+      for (const auto& kick : own) forward.kick(kick);
+    for (std::size_t k = kicks.size(); k-- > 0;) {
+      for (const auto& kick : kicks[k]) backward.kick(kick);
+      if (k % 7 == 0) backward.tidy();
+    }
+    for (const auto& own : kicks) {
+      const std::uint32_t number = own.back().number;
+      const double late = begin + 0.95 * (end - begin);
+      ASSERT_EQ(forward.near(number, late), backward.near(number, late)) << number;
+    }
+    const auto ahead = forward.start(end, false);
+    const auto back = backward.start(end, false);
+    ASSERT_EQ(ahead.found, back.found);
+    ASSERT_TRUE(are_equal(ahead.cost, back.cost))
+        << ahead.cost.capsules << ", " << ahead.cost.rows << ", " << ahead.cost.found << "; "
+        << back.cost.capsules << ", " << back.cost.rows << ", " << back.cost.found;
+    EXPECT_GT(ahead.cost.found, 0u);
+  }
+}
+
 }  // namespace
 }  // namespace kinesphere
