@@ -254,7 +254,8 @@ class World {
 
   /// Goes on to time `until`: at each event asks respond for its answer, gives the velocities in it to the
   /// mover and to the world, and tells the sink. The events are those of a loop over advance() that answers
-  /// in the same way, to the last bit, and so are the world, its counters and its recording afterwards.
+  /// in the same way, to the last bit, and so are the states that are asked for and a recording. What is
+  /// counted of the work inside may differ where there are several workers.
   ///
   /// Inside the sink body(), touching(), sensed(), time() and whatever else can be read inside a pair filter
   /// may be called. They show the world at a moment that is not before the event and may be after it: what is
@@ -272,7 +273,9 @@ class World {
   /// passes over an event that respond cannot answer. Until they have come save(), start_recording() and
   /// stop_recording() fail with run_in_progress.
   ///
-  /// The workers (workers.hpp) may do some of the work, with the same outcome.
+  /// The workers (workers.hpp) share the work, with the same outcome. Where there are several, events of some
+  /// time are told together, and one event after the other is answered where bodies rest, a pair filter is
+  /// set, or the world is being recorded or timed.
   ///
   /// Errors: as advance(); run_in_progress; null_callback; workers_busy; for a velocity of an answer those of
   /// set_velocity() and, for the second body of an event that has none, unknown_body.

@@ -5,34 +5,27 @@
 #include <tuple>
 
 namespace kinesphere {
-namespace {
-
-/// For one that was read.
-bool is_sound(Senses senses) { return senses <= Senses::both; }
-
-}  // namespace
 
 void ContactBook::add(std::uint32_t body, double largest_acceleration) {
   if (body >= entries_.size()) entries_.resize(body + 1);
   entries_[body] = Entry();
   set_largest_acceleration(body, largest_acceleration);
-  partners_.clear(body);
+  if (body < partners_.size()) partners_[body].clear();
   crossings_.clear(body);
 }
 
 bool ContactBook::touch(std::uint32_t a, std::uint32_t b) const {
+  if (entries_[a].fixed) std::swap(a, b);
   const auto partners = partners_of(a);
   return std::find(partners.begin(), partners.end(), b) != partners.end();
 }
 
-/// What the sensor_enter of the same two and the same distance told.
 Senses ContactBook::senses_of(const Event& leave) const {
   for (const Crossing& crossing : crossings_of(leave.first.index, leave.second.index))
     if (crossing.distance == leave.distance) return crossing.senses;
   return Senses::neither;
 }
 
-/// Of the bodies, or of the body and the wall, that the event names: their contact or a sensor distance.
 void ContactBook::set_touching(const Event& contact, bool touching) {
   const std::uint32_t a = contact.first.index;
   const std::uint32_t b = contact.second.index;
@@ -40,60 +33,80 @@ void ContactBook::set_touching(const Event& contact, bool touching) {
     std::uint8_t& set = entries_[a].walls;
     const std::uint8_t bit = wall_bit(contact.wall);
     set = static_cast<std::uint8_t>(touching ? set | bit : set & ~bit);
-  } else if (is_of_sensor(contact.kind)) {
-    const Crossing of_a{b, contact.distance, contact.senses};
-    const Crossing of_b{a, contact.distance, contact.senses};
+  } else {
+    set_half(a, b, contact, touching);
+    set_half(b, a, contact, touching);
+  }
+}
+
+/// In the list of the first one.
+void ContactBook::set_half(std::uint32_t body, std::uint32_t partner, const Event& contact, bool touching) {
+  if (fixed_wait_ && entries_[body].fixed) return;
+  if (is_of_sensor(contact.kind)) {
+    const Crossing crossing{partner, contact.distance, contact.senses};
     if (touching) {
-      crossings_.add(a, of_a);
-      crossings_.add(b, of_b);
+      crossings_.add(body, crossing);
     } else {
-      crossings_.erase(a, of_a);
-      crossings_.erase(b, of_b);
+      crossings_.erase(body, crossing);
     }
   } else if (touching) {
-    partners_.add(a, b);
-    partners_.add(b, a);
-  } else {
-    partners_.erase(a, b);
-    partners_.erase(b, a);
+    if (body >= partners_.size()) partners_.resize(body + std::size_t{1});
+    partners_[body].add(partner);
+  } else if (body < partners_.size()) {
+    partners_[body].erase(partner);
   }
 }
 
 void ContactBook::release_all(std::uint32_t body) {
-  for (const std::uint32_t partner : partners_of(body)) partners_.erase(partner, body);
-  partners_.clear(body);
   entries_[body].walls = 0;
+  if (body >= partners_.size()) return;
+  for (const std::uint32_t partner : partners_of(body))
+    if (!(fixed_wait_ && entries_[partner].fixed)) partners_[partner].erase(body);
+  partners_[body].clear();
 }
 
-void ContactBook::end(const Event& contact) {
-  set_touching(contact, false);
-  // An end that had come by itself has not taken effect yet.
-  pending_.erase(contact);
-  if (is_of_sensor(contact.kind) || !rule_.impacts_only()) ended_.insert(contact);
+void ContactBook::start_side_by_side(bool with_sensors) {
+  fixed_wait_ = true;
+  // No list may have to be made while others are read.
+  if (partners_.size() < entries_.size()) partners_.resize(entries_.size());
+  if (with_sensors) crossings_.make_lists(entries_.size());
 }
 
-void ContactBook::announce(const Event& event) {
-  // A caller who kicks at a Zeno guard must not get the same one again at the same instant, for ever.
-  if (!guards_told_.contains(event)) pending_.insert(event);
+ContactBook::Kept ContactBook::keep(std::uint32_t body) const {
+  const Crossings::List crossed = crossings_of(body);
+  return {entries_[body], body < partners_.size() ? partners_[body] : PartnerList(),
+          {crossed.begin(), crossed.end()}};
 }
 
-/// Changes the contact's state and brings the event up to date with kicks of this instant. False when it does
-/// not hold any more.
-bool ContactBook::take_effect(Event& event, const Sphere& first, const Sphere& second,
-                              const std::optional<Box>& box) {
-  if (event.kind == EventKind::zeno_guard) guards_told_.insert(event);
-  if (event.kind == EventKind::zeno_guard || event.kind == EventKind::bound_violation) return true;
-  const bool begins_now = begins(event.kind);
+void ContactBook::put_back(std::uint32_t body, const Kept& kept) {
+  entries_[body] = kept.entry;
+  if (body < partners_.size()) partners_[body] = kept.partners;
+  crossings_.set(body, kept.crossings);
+}
+
+void ContactBook::tell_fixed(std::uint32_t body, const Kept& before) {
+  const auto missing = [](const auto& from, const auto& in) {
+    auto found = std::vector(from.begin(), from.end());
+    std::erase_if(found, [&](const auto& one) { return std::find(in.begin(), in.end(), one) != in.end(); });
+    return found;
+  };
+  for (const std::uint32_t gone : missing(before.partners.all(), partners_of(body)))
+    if (entries_[gone].fixed) partners_[gone].erase(body);
+  for (const std::uint32_t come : missing(partners_of(body), before.partners.all()))
+    if (entries_[come].fixed) partners_[come].add(body);
+  for (const Crossing& gone : missing(before.crossings, crossings_of(body)))
+    if (entries_[gone.partner].fixed) crossings_.erase(gone.partner, {body, gone.distance, gone.senses});
+  for (const Crossing& come : missing(crossings_of(body), before.crossings))
+    if (entries_[come.partner].fixed) crossings_.add(come.partner, {body, come.distance, come.senses});
+}
+
+void ContactBook::describe_now(Event& event, const Sphere& first, const Sphere& second,
+                               const std::optional<Box>& box) const {
   if (event.wall != Wall::none) {
     describe(event, first, *box);
   } else {
     describe(event, first, second, space_);
   }
-  if (begins_now && !still_begins(event, first, second)) return false;
-  if (begins_now && !is_of_sensor(event.kind)) note_contact(event);
-  set_touching(event, begins_now);
-  changed_.emplace_back(first.id.index, second.id.index);
-  return true;
 }
 
 bool ContactBook::still_begins(const Event& now, const Sphere& first, const Sphere& second) const {
@@ -119,7 +132,6 @@ std::uint32_t ContactBook::contacts_now(const Event& contact) const {
   return least;
 }
 
-/// Marks the begin of a contact if it is a repeated or a jammed one, and remembers it for the next.
 void ContactBook::note_contact(Event& begin) {
   const bool pair = begin.second != no_body;
   begin.repeated = is_repeated(begin, begin.first.index) || (pair && is_repeated(begin, begin.second.index));
@@ -130,6 +142,7 @@ void ContactBook::note_contact(Event& begin) {
 
 void ContactBook::note_contact(std::uint32_t body, double time) {
   Entry& entry = entries_[body];
+  if (entry.fixed) return;
   if (entry.last_contact != time) entry.contacts_then = 0;
   if (entry.contacts_then < most_at_one_instant) ++entry.contacts_then;
   entry.last_contact = time;
@@ -152,7 +165,7 @@ bool ContactBook::contacts_are_sound(const std::optional<Box>& box) const {
       back.emplace_back(partner, body, contact, Senses::neither);
     }
     for (const Crossing& crossing : crossings_of(body)) {
-      if (!(crossing.distance >= 0.0) || !kinesphere::is_sound(crossing.senses)) return false;
+      if (!(crossing.distance >= 0.0) || !(crossing.senses <= Senses::both)) return false;
       there.emplace_back(body, crossing.partner, crossing.distance, crossing.senses);
       back.emplace_back(crossing.partner, body, crossing.distance, crossing.senses);
     }
@@ -164,38 +177,9 @@ bool ContactBook::contacts_are_sound(const std::optional<Box>& box) const {
   return there == back && std::adjacent_find(there.begin(), there.end()) == there.end();
 }
 
-bool ContactBook::is_sound(std::size_t bodies, double time, const std::optional<Box>& box,
-                           const std::function<bool(BodyId)>& is_known) const {
-  const auto event_is_sound = [&](const Event& event) {
-    const bool pair = is_known(event.second) && event.first < event.second && event.wall == Wall::none;
-    const bool wall = event.second == no_body && event.wall != Wall::none &&
-                      static_cast<int>(event.wall) <= wall_count && box && stands(*box, event.wall);
-    if (event.time != time || !is_known(event.first)) return false;
-    if (!kinesphere::is_sound(event.senses)) return false;
-    switch (event.kind) {
-      case EventKind::bound_violation:
-      case EventKind::woken:
-        return event.second == no_body && event.wall == Wall::none;
-      case EventKind::contact_begin:
-      case EventKind::contact_end:
-        return pair;
-      case EventKind::wall_begin:
-      case EventKind::wall_end:
-        return wall;
-      case EventKind::zeno_guard:
-        return pair || wall;
-      case EventKind::sensor_enter:
-      case EventKind::sensor_leave:
-        return pair && event.distance >= 0.0;
-    }
-    return false;
-  };
-  const auto change_is_sound = [&](const auto& pair) { return pair.first < bodies && pair.second < bodies; };
+bool ContactBook::is_sound(std::size_t bodies, const std::optional<Box>& box) const {
   return entries_.size() == bodies && partners_.size() <= bodies && crossings_.size() <= bodies &&
-         contacts_are_sound(box) && pending_.is_sound() && pending_.all_of(event_is_sound) &&
-         std::all_of(ended_.begin(), ended_.end(), event_is_sound) &&
-         std::all_of(guards_told_.begin(), guards_told_.end(), event_is_sound) &&
-         std::all_of(changed_.begin(), changed_.end(), change_is_sound);
+         contacts_are_sound(box);
 }
 
 }  // namespace kinesphere

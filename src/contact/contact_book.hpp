@@ -1,22 +1,19 @@
-// Who touches whom and who is within a sensor distance of whom, and the events of the present instant on
-// their way to the caller.
+// Who touches whom, and who is within a sensor distance of whom.
 #pragma once
 
 #include <bit>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <optional>
-#include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
-#include "contact/chains.hpp"
 #include "contact/contact_event.hpp"
 #include "contact/contact_rule.hpp"
 #include "contact/crossings.hpp"
-#include "contact/event_set.hpp"
 #include "contact/outlook.hpp"
+#include "contact/partner_list.hpp"
 
 namespace kinesphere {
 
@@ -48,24 +45,31 @@ class ContactBook {
   bool touch(std::uint32_t a, std::uint32_t b) const;
   bool touches_wall(std::uint32_t body, Wall wall) const { return (walls_of(body) & wall_bit(wall)) != 0; }
   /// In the order in which the contacts began; good until one begins or ends with the body.
-  Chains<std::uint32_t>::List partners_of(std::uint32_t body) const { return partners_.of(body); }
+  std::span<const std::uint32_t> partners_of(std::uint32_t body) const {
+    return body < partners_.size() ? partners_[body].all() : std::span<const std::uint32_t>();
+  }
   /// A set of wall_bit().
   std::uint8_t walls_of(std::uint32_t body) const { return entries_[body].walls; }
   /// By partner, of each from the outermost inward; good until the next one.
   Crossings::List crossings_of(std::uint32_t body) const { return crossings_.of(body); }
   /// Those of the two, from the outermost inward. Cost: O(log of the body's), as of is_within().
-  Crossings::List crossings_of(std::uint32_t a, std::uint32_t b) const { return crossings_.of(a, b); }
+  Crossings::List crossings_of(std::uint32_t a, std::uint32_t b) const {
+    return entries_[a].fixed ? crossings_.of(b, a) : crossings_.of(a, b);
+  }
   bool is_within(std::uint32_t a, std::uint32_t b, double distance) const {
     return crossings_.contains(a, {b, distance});
   }
-  // They do not touch any more, and nobody is told.
-  void release(const Event& contact) { set_touching(contact, false); }
+  /// Of the bodies, or of the body and the wall, that the event names: their contact or a sensor distance
+  /// begins or ends, and nobody is told.
+  void set_touching(const Event& contact, bool touching);
   void release_all(std::uint32_t body);
-  /// The caller is about to change a body, and those of its contacts and crossings end with that whose end
-  /// `ends`(Event) picks. `sphere(number)` gives a body as it is before the change.
-  template <class SphereNow, class Ends>
-  void end_contacts(std::uint32_t body, double time, SphereNow sphere, const std::optional<Box>& box,
-                    Ends ends) {
+  /// What the sensor_enter of the same two and the same distance told.
+  Senses senses_of(const Event& leave) const;
+  /// The ends of all contacts and crossings of the body, if they were to end now. `sphere(number)` gives a
+  /// body as it is.
+  template <class SphereNow>
+  std::vector<Event> ends_of(std::uint32_t body, double time, SphereNow sphere,
+                             const std::optional<Box>& box) const {
     std::vector<Event> found;
     for (const std::uint32_t partner : partners_of(body))
       found.push_back(contact_event(EventKind::contact_end, time, sphere(body), sphere(partner), space_));
@@ -78,88 +82,40 @@ class ContactBook {
       found.back().distance = crossing.distance;
       found.back().senses = crossing.senses;
     }
-    for (const Event& event : found)
-      if (ends(event)) end(event);
-  }
-  /// The body is about to go, and all its contacts end.
-  template <class SphereNow>
-  void depart(std::uint32_t body, double time, SphereNow sphere, const std::optional<Box>& box) {
-    end_contacts(body, time, sphere, box, [](const Event&) { return true; });
+    return found;
   }
 
+  // Contacts that begin.
+  /// Brings the event up to date with the two as they are now.
+  void describe_now(Event& event, const Sphere& first, const Sphere& second,
+                    const std::optional<Box>& box) const;
+  bool still_begins(const Event& now, const Sphere& first, const Sphere& second) const;
   /// Whether a contact that could begin now has to wait for time to move on: each of the two has had so many
   /// at this instant that the caller's answers will not part them.
   bool is_jammed(const Event& current) const { return contacts_now(current) >= most_at_one_instant; }
+  /// Marks the begin of a contact if it is a repeated or a jammed one, and remembers it for the next.
+  void note_contact(Event& begin);
 
-  // Events of this instant.
-  /// Time moves on.
-  void start_instant() { guards_told_.clear(); }
-  /// Queues an event; the same event is not queued twice.
-  void announce(const Event& event);
-  /// Queues one that has happened: it comes before all that are announced, with the states that it has.
-  void tell(const Event& event) { ended_.insert(event); }
-  const EventSet& pending() const { return pending_; }
-  /// What is pending about `body` and another, and does not hold any more, is dropped.
-  template <class Holds>
-  void drop_pending(std::uint32_t body, Holds holds) {
-    pending_.erase_if([&](const Event& event) {
-      return event.second != no_body && (event.first.index == body || event.second.index == body) &&
-             !holds(event);
-    });
-  }
-  /// Nothing is to be delivered.
-  bool is_quiet() const { return ended_.empty() && pending_.empty(); }
-  /// The next event that still holds after what the caller did at the ones before it; first of all the ends
-  /// that the caller brought about, which stay as they were then. `is_there(id)` tells whether a body has not
-  /// gone, `sphere(number)` gives it as it is now, `senses_in(event)` tells whose sensor the two enter.
-  template <class IsThere, class SphereNow, class SensesIn>
-  std::optional<Event> deliver(IsThere is_there, SphereNow sphere, SensesIn senses_in,
-                               const std::optional<Box>& box) {
-    std::optional<Event> event;
-    if (!ended_.empty()) {
-      event = ended_.extract(ended_.begin()).value();
-      return event;
-    }
-    while (!pending_.empty()) {
-      event = pending_.take_first();
-      const bool alone = event->second == no_body;
-      if (is_there(event->first) && (alone || is_there(event->second))) {
-        const Sphere first = sphere(event->first.index);
-        if (event->kind == EventKind::sensor_enter) event->senses = senses_in(*event);
-        if (event->kind == EventKind::sensor_leave) event->senses = senses_of(*event);
-        if (take_effect(*event, first, alone ? first : sphere(event->second.index), box)) return event;
-      } else if (!begins(event->kind) && event->kind != EventKind::zeno_guard) {
-        return event;
-      }
-    }
-    event.reset();
-    return event;
-  }
-
-  /// The same where nothing is sensed.
-  template <class IsThere, class SphereNow>
-  std::optional<Event> deliver(IsThere is_there, SphereNow sphere, const std::optional<Box>& box) {
-    return deliver(
-        is_there, sphere, [](const Event&) { return Senses::neither; }, box);
-  }
-
-  /// Pairs (a body and itself: its walls) whose contact has been changed by a delivered event, so that
-  /// nothing is known of them; for the caller to take out.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>>& changed() { return changed_; }
-  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& changed() const { return changed_; }
+  // Several threads may change the contacts of different bodies at the same time, between these two calls.
+  // The lists of fixed bodies, which all may touch, stay as they are.
+  void start_side_by_side(bool with_sensors);
+  void stop_side_by_side() { fixed_wait_ = false; }
+  /// What is kept of a body, to be put back as it was.
+  struct Kept;
+  Kept keep(std::uint32_t body) const;
+  void put_back(std::uint32_t body, const Kept& kept);
+  /// Brings the lists of fixed bodies up to date with what has changed about this one.
+  void tell_fixed(std::uint32_t body, const Kept& before);
 
   /// All but the rules and the space, which follow from the world's definition.
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [rule, sensor_rule, space, entries, partners, crossings, pending, ended, guards_told, changed] =
-        self;
-    archive(entries, partners, crossings, pending, ended, guards_told, changed);
+    auto& [rule, sensor_rule, space, entries, partners, crossings, wait] = self;
+    archive(entries, partners, crossings);
   }
-  /// For one that was read in a world of this many bodies at `time`: true when contacts are mutual, and
-  /// events are such as could be announced now. `box` has the walls that stand; `is_known(id)` tells whether
-  /// an id was ever given out.
-  bool is_sound(std::size_t bodies, double time, const std::optional<Box>& box,
-                const std::function<bool(BodyId)>& is_known) const;
+  /// For one that was read in a world of this many bodies: true when contacts are mutual. `box` has the walls
+  /// that stand.
+  bool is_sound(std::size_t bodies, const std::optional<Box>& box) const;
 
  private:
   /// A number rounded to 20 bits after the first: of an interval that only marks events no more is needed.
@@ -193,20 +149,10 @@ class ContactBook {
     }
   };
 
-  static bool begins(EventKind kind) {
-    return kind == EventKind::contact_begin || kind == EventKind::wall_begin ||
-           kind == EventKind::sensor_enter;
-  }
-
-  void set_touching(const Event& contact, bool touching);
-  Senses senses_of(const Event& leave) const;
-  void end(const Event& contact);
-  bool take_effect(Event& event, const Sphere& first, const Sphere& second, const std::optional<Box>& box);
-  bool still_begins(const Event& now, const Sphere& first, const Sphere& second) const;
+  void set_half(std::uint32_t body, std::uint32_t partner, const Event& contact, bool touching);
   bool contacts_are_sound(const std::optional<Box>& box) const;
   bool is_repeated(const Event& begin, std::uint32_t body) const;
   std::uint32_t contacts_now(const Event& contact) const;
-  void note_contact(Event& begin);
   void note_contact(std::uint32_t body, double time);
 
   /// A chain of touching bodies passes a push on in some contacts each; these are far more.
@@ -217,12 +163,15 @@ class ContactBook {
   ContactRule sensor_rule_;
   Space space_;
   std::vector<Entry> entries_;
-  Chains<std::uint32_t> partners_;
+  std::vector<PartnerList> partners_;  ///< of all bodies up to the last one that ever had one
   Crossings crossings_;
-  EventSet pending_;
-  std::set<Event, DeliveredBefore> ended_;  ///< by the caller's changes; and bodies that have woken
-  std::set<Event, DeliveredBefore> guards_told_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> changed_;
+  bool fixed_wait_ = false;  ///< the lists of fixed bodies are brought up to date later
+};
+
+struct ContactBook::Kept {
+  Entry entry;
+  PartnerList partners;
+  std::vector<Crossing> crossings;
 };
 
 }  // namespace kinesphere

@@ -9,6 +9,10 @@
 
 namespace kinesphere {
 
+inline bool begins(EventKind kind) {
+  return kind == EventKind::contact_begin || kind == EventKind::wall_begin || kind == EventKind::sensor_enter;
+}
+
 /// A body at an instant.
 struct Sphere {
   BodyId id;

@@ -74,6 +74,13 @@ class Crossings {
     std::vector<Crossing>& list = lists_[body];
     list.erase(std::lower_bound(list.begin(), list.end(), crossing));
   }
+  void set(std::uint32_t body, const std::vector<Crossing>& sorted) {
+    if (body < lists_.size()) lists_[body] = sorted;
+  }
+  /// Of at least so many bodies, so that none has to be made later.
+  void make_lists(std::size_t bodies) {
+    if (lists_.size() < bodies) lists_.resize(bodies);
+  }
   void clear(std::uint32_t body) {
     if (body < lists_.size()) lists_[body].clear();
   }

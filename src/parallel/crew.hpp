@@ -79,7 +79,7 @@ class Crew {
 /// works alone.
 class Shift {
  public:
-  explicit Shift(Workers* workers);
+  explicit Shift(Workers* workers = nullptr);
   Shift(const Shift&) = delete;
   Shift& operator=(const Shift&) = delete;
   ~Shift() {

@@ -49,6 +49,17 @@ void Agenda::add(const HotPair& pair) {
   std::push_heap(heap_.begin(), heap_.end(), later);
 }
 
+void Agenda::clear() {
+  sorted_.clear();
+  next_ = 0;
+  heap_.clear();
+  nodes_.clear();
+  heads_.clear();
+  free_ = none;
+  waiting_ = 0;
+  slice_ = 0;
+}
+
 /// Slices from now on, for so many pairs between these times. Nothing waits.
 void Agenda::divide(double first, double last, std::size_t pairs) {
   constexpr std::size_t in_a_slice = 16;

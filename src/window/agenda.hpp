@@ -12,11 +12,14 @@
 
 namespace kinesphere {
 
-/// Two bodies about which nothing changes before `time`, or a body and the walls. It is void once one of the
-/// two has another stamp.
+/// Two bodies about which nothing changes before `time`, or a body and the walls or its window. It is void
+/// once one of the two has another stamp.
 struct HotPair {
   /// In place of the second body: the walls.
   static constexpr std::uint32_t walls = std::numeric_limits<std::uint32_t>::max();
+  /// In place of the second body: the end of a window that the first one has for itself.
+  static constexpr std::uint32_t renewal = walls - 1;
+  bool has_second() const { return second < renewal; }
 
   double time = 0.0;
   std::uint32_t first = 0;
@@ -59,6 +62,21 @@ class Agenda {
   void add(const HotPair& pair);
   /// All of them, in any order. Leaves `pairs` empty.
   void add_all(std::vector<HotPair>& pairs);
+
+  void clear();
+  /// Moves those that come before `end`, and no later than `last`, to `pairs`, but of different times no more
+  /// than `most`. Returns when the next one comes, at `end` or before.
+  template <class IsVoid>
+  double take_until(double last, double end, std::size_t most, std::vector<HotPair>& pairs, IsVoid is_void) {
+    for (;;) {
+      open(is_void);
+      const double next = next_time();
+      if (!(next <= last && next < end)) return end;
+      if (pairs.size() >= most && pairs.back().time < next) return next;
+      if (!is_void(first())) pairs.push_back(first());
+      drop_first();
+    }
+  }
 
   /// Void ones too.
   template <class Visit>

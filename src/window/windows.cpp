@@ -273,9 +273,8 @@ void Windows::search(const Member& member, const RoomyBound& bound, double now, 
 }
 
 std::span<const std::uint32_t> Windows::near(std::uint32_t number, const RoomyBound& bound, double now,
-                                             Scratch& scratch) const {
+                                             double end, Scratch& scratch) const {
   scratch.numbers.clear();
-  const double end = registrations_[number].end;
   for (const Member& member : layers_) {
     if (member.layer.size() == 0) continue;
     const auto note = [&](std::uint32_t place, bool) {

@@ -56,7 +56,9 @@ class Windows {
   std::size_t size() const;
   /// Of one that is registered: it stays in its capsule until then.
   double end_of(std::uint32_t number) const { return registrations_[number].end; }
-  int tier_of(std::uint32_t number) const { return layers_[registrations_[number].layer].tier; }
+  Window window_of(std::uint32_t number) const {
+    return {layers_[registrations_[number].layer].tier, registrations_[number].end};
+  }
   /// Bodies in windows that end.
   std::size_t moving() const;
   /// When the next window ends that holds a body.
@@ -70,9 +72,9 @@ class Windows {
   /// Registers a body in a window from `now` on, perhaps anew.
   void enter(std::uint32_t number, const RoomyBound& bound, double now, const Window& window);
   void leave(std::uint32_t number);
-  /// The bodies whose capsule may touch that of `number` before the window of either ends. Good until the
-  /// next search with this scratch.
-  std::span<const std::uint32_t> near(std::uint32_t number, const RoomyBound& bound, double now,
+  /// The bodies other than `number` whose registered capsule may touch that which it would have from now until
+  /// `end`, before their windows end. Good until the next search with this scratch.
+  std::span<const std::uint32_t> near(std::uint32_t number, const RoomyBound& bound, double now, double end,
                                       Scratch& scratch) const;
 
   // New windows for many bodies at once.

@@ -59,7 +59,7 @@ class World::Engine::Answers {
 
  private:
   static std::vector<std::uint32_t> concerned(const Onset& onset);
-  const Body& body(std::uint32_t number) const { return engine_.bodies_[number]; }
+  const Body& body(std::uint32_t number) const { return engine_.bodies()[number]; }
   Bound present(std::uint32_t number) const;
   Bound guarded(std::uint32_t number) const;
   double meeting(const Extent& extent_of_a, const Extent& extent_of_b) const;

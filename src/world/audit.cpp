@@ -29,10 +29,11 @@ std::string times(double recorded, double computed) {
 
 class World::Engine::Audit {
  public:
-  explicit Audit(const Engine& engine) : engine_(engine), now_(engine.time_), hot_(engine.hot_pairs()) {}
+  explicit Audit(const Engine& engine)
+      : engine_(engine), now_(engine.time()), hot_(engine.everybody().hot_pairs()) {}
 
   std::optional<AuditFinding> run() {
-    const auto count = static_cast<std::uint32_t>(engine_.bodies_.size());
+    const auto count = static_cast<std::uint32_t>(engine_.bodies().numbers());
     for (std::uint32_t a = 0; a < count && !finding_; ++a) {
       if (!body(a).present()) {
         check_absence(a);
@@ -47,8 +48,8 @@ class World::Engine::Audit {
   }
 
  private:
-  const Body& body(std::uint32_t number) const { return engine_.bodies_[number]; }
-  std::string name(std::uint32_t number) const { return text_of(engine_.id_of(number)); }
+  const Body& body(std::uint32_t number) const { return engine_.bodies()[number]; }
+  std::string name(std::uint32_t number) const { return text_of(engine_.bodies().id_of(number)); }
 
   void find(std::string where, std::string what) {
     if (!finding_) finding_ = AuditFinding{std::move(where), std::move(what)};
@@ -58,38 +59,40 @@ class World::Engine::Audit {
   static bool exact(const Body& body) { return body.position_error == 0.0 && body.bound.growth_speed == 0.0; }
 
   void check_absence(std::uint32_t number) {
-    if (engine_.windows_.contains(number)) find("registration", name(number) + " is not here but registered");
-    if (!engine_.book_.partners_of(number).empty() || engine_.book_.walls_of(number) != 0)
+    if (engine_.windows().contains(number))
+      find("registration", name(number) + " is not here but registered");
+    if (!engine_.book().partners_of(number).empty() || engine_.book().walls_of(number) != 0)
       find("contact", name(number) + " is not here but touches something");
-    if (!engine_.book_.crossings_of(number).empty())
+    if (!engine_.book().crossings_of(number).empty())
       find("sensor", name(number) + " is not here but within a sensor distance");
   }
 
   void check_registration(std::uint32_t number) {
     const Body& b = body(number);
     if (b.dirty) return;
-    if (!engine_.windows_.contains(number)) return find("registration", name(number) + " is in no window");
-    if (const auto wrong = engine_.windows_.check(number)) find("registration", name(number) + " " + *wrong);
-    const double end = engine_.windows_.end_of(number);
+    if (!engine_.windows().contains(number)) return find("registration", name(number) + " is in no window");
+    if (const auto wrong = engine_.windows().check(number)) find("registration", name(number) + " " + *wrong);
+    const double end = engine_.windows().end_of(number);
     if (end < now_) find("queue", name(number) + " is in a window that has ended" + times(now_, end));
     if (b.is_resting() && !(b.is_at_rest() && b.bound.velocity == Vec3{} && b.largest_acceleration() == 0.0))
       find("registration", name(number) + " rests, but its bound does not stand still");
     if (b.is_fixed()) return check_fixed(number, end);
-    if (!engine_.space_.is_narrow(engine_.box(number)))
+    if (!engine_.bodies().space().is_narrow(engine_.box(number)))
       find("registration", name(number) + " has too wide a box");
     if (!exact(b)) return;
-    const Vec3 room = Vec3{1.0, 1.0, 1.0} * (0.25 * engine_.definition_.contact_tolerance);
+    const Vec3 room = Vec3{1.0, 1.0, 1.0} * (0.25 * engine_.definition().contact_tolerance);
     Box box{engine_.box(number).lower - room, engine_.box(number).upper + room};
-    if (engine_.space_.is_flat()) std::tie(box.lower.z, box.upper.z) = std::pair(-infinity, infinity);
+    if (engine_.bodies().space().is_flat())
+      std::tie(box.lower.z, box.upper.z) = std::pair(-infinity, infinity);
     Bound reach = b.bound;
-    reach.radius += engine_.sensors_.reach(b.sensor_class);
+    reach.radius += engine_.bodies().sensors().reach(b.sensor_class);
     const double exit = earliest_exit(reach, box, now_, end);
     if (too_late(end, exit, now_)) find("registration", name(number) + " leaves its box" + times(end, exit));
   }
 
   void check_fixed(std::uint32_t number, double end) {
     const Box box = engine_.box(number);
-    const Box shape = engine_.box_of_fixed(number);
+    const Box shape = engine_.bodies().box_of_fixed(number);
     for (int axis = 0; axis < 3; ++axis)
       if (!(box.lower[axis] <= shape.lower[axis] && shape.upper[axis] <= box.upper[axis]) || end != infinity)
         return find("registration", name(number) + " is fixed but not registered where its shape is");
@@ -97,17 +100,17 @@ class World::Engine::Audit {
 
   void check_walls(std::uint32_t number) {
     const Body& b = body(number);
-    if (!engine_.walls_ || b.is_fixed() || !settled(number, number) || engine_.book_.walls_of(number) != 0 ||
-        !exact(b))
+    if (!engine_.bodies().walls() || b.is_fixed() || !settled(number, number) ||
+        engine_.book().walls_of(number) != 0 || !exact(b))
       return;
     // As for pairs: within the tolerance bouncing bodies follow the contact rule.
-    if (impacts() &&
-        until_reports_of_walls(engine_.book_.rule(), b.bound, *engine_.walls_, now_, infinity) <= now_)
+    if (impacts() && until_reports_of_walls(engine_.book().rule(), b.bound, *engine_.bodies().walls(), now_,
+                                            infinity) <= now_)
       return;
-    const double end = engine_.windows_.end_of(number);
-    const double within = impacts() ? engine_.definition_.contact_tolerance : 0.0;
+    const double end = engine_.windows().end_of(number);
+    const double within = impacts() ? engine_.definition().contact_tolerance : 0.0;
     const Vec3 room = Vec3{1.0, 1.0, 1.0} * within;
-    const Box box{engine_.walls_->lower - room, engine_.walls_->upper + room};
+    const Box box{engine_.bodies().walls()->lower - room, engine_.bodies().walls()->upper + room};
     const double reached = earliest_exit(b.bound, box, now_, end);
     const double recorded = std::min(hot_.of(number, HotPair::walls), end);
     if (recorded < end && too_late(recorded, reached, now_) && reached > now_)
@@ -117,24 +120,26 @@ class World::Engine::Audit {
   }
 
   void check_pair(std::uint32_t a, std::uint32_t b) {
-    if (engine_.book_.touch(a, b) != engine_.book_.touch(b, a))
+    if (engine_.book().touch(a, b) != engine_.book().touch(b, a))
       return find("contact", pair(a, b) + " touch on one side only");
-    if (engine_.may_meet(a, b) != engine_.may_meet(b, a))
+    if (engine_.bodies().may_meet(a, b) != engine_.bodies().may_meet(b, a))
       return find("filter", "the pair filter is not symmetric for " + pair(a, b));
-    if (engine_.book_.touch(a, b) && !engine_.may_touch(a, b))
+    if (engine_.book().touch(a, b) && !engine_.bodies().may_touch(a, b))
       return find("filter", pair(a, b) + " touch though they may not");
     check_crossings(a, b);
     check_crossings(b, a);
-    if (!engine_.may_meet(a, b) || !settled(a, b)) return;
-    engine_.for_each_threshold(a, b, [&](const Threshold& threshold) { check_threshold(a, b, threshold); });
+    if (!engine_.bodies().may_meet(a, b) || !settled(a, b)) return;
+    engine_.everybody().for_each_threshold(
+        a, b, [&](const Threshold& threshold) { check_threshold(a, b, threshold); });
   }
 
   void check_crossings(std::uint32_t a, std::uint32_t b) {
-    for (const Crossing& crossing : engine_.book_.crossings_of(a, b)) {
+    for (const Crossing& crossing : engine_.book().crossings_of(a, b)) {
       const bool senses =
-          engine_.may_meet(a, b) &&
-          engine_.sensors_.senses(engine_.sensing_of(a), engine_.sensing_of(b), crossing.distance);
-      if (!engine_.book_.is_within(b, a, crossing.distance))
+          engine_.bodies().may_meet(a, b) &&
+          engine_.bodies().sensors().senses(engine_.bodies().sensing_of(a), engine_.bodies().sensing_of(b),
+                                            crossing.distance);
+      if (!engine_.book().is_within(b, a, crossing.distance))
         find("sensor", pair(a, b) + " sense each other on one side only");
       if (!senses) find("sensor", pair(a, b) + " are within a distance that neither senses");
     }
@@ -143,12 +148,12 @@ class World::Engine::Audit {
   void check_threshold(std::uint32_t a, std::uint32_t b, const Threshold& threshold) {
     // It is to be looked at before time moves on.
     if (!checkable(a, b, threshold) || hot_.of(a, b) <= now_) return;
-    const Extent first = engine_.extent(a);
-    const Extent second = engine_.extent(b);
-    const PlainGap gap(first, second, engine_.space_.period());
+    const Extent first = engine_.bodies().extent(a);
+    const Extent second = engine_.bodies().extent(b);
+    const PlainGap gap(first, second, engine_.bodies().space().period());
     check_state(a, b, threshold, gap);
     // Beyond the end of a window the two may meet in another image, and will have been found again.
-    const double recorded = std::min(hot_.of(a, b), engine_.windows_end(a, b));
+    const double recorded = std::min(hot_.of(a, b), engine_.everybody().windows_end(a, b));
     if (!threshold.within && !boxes_overlap(a, b)) return;
     if (const auto change = certain_change(a, b, threshold, gap, recorded))
       find("certificate", pair(a, b) + " may change unseen" + times(recorded, *change));
@@ -156,7 +161,7 @@ class World::Engine::Audit {
 
   /// What the events have told of the two is what their bounds tell now, wherever in them the bodies are.
   void check_state(std::uint32_t a, std::uint32_t b, const Threshold& threshold, const PlainGap& gap) {
-    const ContactRule& rule = engine_.book_.rule_of(threshold);
+    const ContactRule& rule = engine_.book().rule_of(threshold);
     const PlainGap::Limits limits = gap.of_bodies(now_);
     const double room = slack_of_gaps() + gap.uncertainty(now_);
     const std::string distance = threshold.sensed ? " of " + std::to_string(threshold.distance) : "";
@@ -170,10 +175,10 @@ class World::Engine::Audit {
   }
 
   /// Far below what the contact rule can tell, and four times what a faithful report may be wrong by.
-  double slack_of_gaps() const { return 0.25 * engine_.definition_.contact_tolerance; }
+  double slack_of_gaps() const { return 0.25 * engine_.definition().contact_tolerance; }
 
   bool boxes_overlap(std::uint32_t a, std::uint32_t b) const {
-    const Vec3 shift = engine_.space_.repeats() ? engine_.shift_to_meet(a, b) : Vec3{};
+    const Vec3 shift = engine_.bodies().space().repeats() ? engine_.bodies().shift_to_meet(a, b) : Vec3{};
     const Box one = engine_.box(a);
     const Box other = engine_.box(b);
     for (int axis = 0; axis < 3; ++axis)
@@ -189,7 +194,7 @@ class World::Engine::Audit {
   /// so.
   std::optional<double> certain_change(std::uint32_t a, std::uint32_t b, const Threshold& threshold,
                                        const PlainGap& gap, double recorded) const {
-    const ContactRule& rule = engine_.book_.rule_of(threshold);
+    const ContactRule& rule = engine_.book().rule_of(threshold);
     const double level = threshold.distance + (threshold.within      ? rule.release_gap()
                                                : rule.impacts_only() ? -rule.tolerance()
                                                                      : 0.0);
@@ -197,7 +202,7 @@ class World::Engine::Audit {
     const bool doubtful = recorded > computed;
     double end = recorded;
     if (end == infinity && doubtful) end = now_ + 8.0 * (computed - now_);
-    if (end == infinity) end = engine_.windows_end(a, b);
+    if (end == infinity) end = engine_.everybody().windows_end(a, b);
     const double least_step = (end - now_) / (doubtful ? 512.0 : 16.0);
     const double last = end - 0x1p-20 * (end - now_);
     for (double time = now_; time < end;) {
@@ -215,7 +220,7 @@ class World::Engine::Audit {
   }
 
   double earliest_change(std::uint32_t a, std::uint32_t b, const Threshold& threshold, double level) const {
-    return engine_.visit_pair(a, b, [&](const Bound& bound, const auto& partner) {
+    return engine_.bodies().visit_pair(a, b, [&](const Bound& bound, const auto& partner) {
       return threshold.within ? earliest_separation(bound, partner, now_, infinity, level)
                               : earliest_meeting(bound, partner, now_, infinity, level);
     });
@@ -224,9 +229,10 @@ class World::Engine::Audit {
   /// Bouncing bodies within the tolerance follow the contact rule, not the bare distance.
   bool checkable(std::uint32_t a, std::uint32_t b, const Threshold& threshold) const {
     if (!exact(body(a)) || !exact(body(b))) return false;
-    const ContactRule& rule = engine_.book_.rule_of(threshold);
+    const ContactRule& rule = engine_.book().rule_of(threshold);
     return !rule.impacts_only() ||
-           engine_.gap_now(engine_.extent(a), engine_.extent(b)).lower > rule.tolerance();
+           engine_.bodies().gap_at(now_, engine_.bodies().extent(a), engine_.bodies().extent(b)).lower >
+               rule.tolerance();
   }
 
   /// True when the engine owes a fact about the pair (a body and itself: its walls) now.
@@ -234,13 +240,13 @@ class World::Engine::Audit {
     const auto concerns = [=](const Event& event) {
       return event.first.index == a && (a == b ? event.wall != Wall::none : event.second.index == b);
     };
-    const auto& changed = engine_.book_.changed();
+    const auto& changed = engine_.everybody().instant().changed();
     return !body(a).dirty && !body(b).dirty &&
            std::find(changed.begin(), changed.end(), std::pair(a, b)) == changed.end() &&
-           engine_.book_.pending().none_of(concerns);
+           engine_.everybody().instant().pending().none_of(concerns);
   }
 
-  bool impacts() const { return engine_.definition_.contacts == ContactMode::impacts; }
+  bool impacts() const { return engine_.definition().contacts == ContactMode::impacts; }
   std::string pair(std::uint32_t a, std::uint32_t b) const { return name(a) + " and " + name(b); }
 
   const Engine& engine_;

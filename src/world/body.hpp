@@ -24,6 +24,9 @@ struct Body {
   bool enabled = true;
   bool dirty = false;    ///< in the list of those to settle before time moves on
   bool settled = false;  ///< in the present round
+  /// It has come to where it is, or nothing is known of whom it may meet, since windows started: it may start
+  /// together with all others.
+  bool arrived = false;
   // As in BodyDefinition.
   bool solid = true;
   SensorClass sensor_class = 0;
@@ -45,16 +48,21 @@ struct Body {
     return bound.velocity == Vec3{} && bound.planned_acceleration == Vec3{} && bound.growth_speed == 0.0 &&
            bound.growth_acceleration == 0.0;
   }
+  void stand_still() {
+    bound.velocity = bound.planned_acceleration = {};
+    bound.growth_speed = bound.growth_acceleration = 0.0;
+  }
+  void settled_now() { dirty = settled = arrived = false; }
   /// The world knows its present state.
   bool fresh(double time) const { return bound.time == time || is_fixed() || is_at_rest(); }
   double largest_acceleration() const { return bound.growth_acceleration + norm(bound.planned_acceleration); }
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [since_report, own_stamp, lives, takes_part, unsettled, is_settled, touches, senses_as, own_shape,
-           own_change, own_generation, own_rest, size, error, data] = self;
-    archive(since_report, own_stamp, lives, takes_part, unsettled, is_settled, touches, senses_as, own_shape,
-            own_change, own_generation, own_rest, size, error, data);
+    auto& [since_report, own_stamp, lives, takes_part, unsettled, is_settled, has_come, touches, senses_as,
+           own_shape, own_change, own_generation, own_rest, size, error, data] = self;
+    archive(since_report, own_stamp, lives, takes_part, unsettled, is_settled, has_come, touches, senses_as,
+            own_shape, own_change, own_generation, own_rest, size, error, data);
   }
 };
 static_assert(sizeof(Body) <= 168);

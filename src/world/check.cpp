@@ -41,7 +41,7 @@ Result<void> World::Check::may_ask(const Probe& probe) const {
 }
 
 bool World::Check::is_foreign(BodyId body) const {
-  return body.world != engine_->tag() && body.world != 0 && engine_->tag() != 0;
+  return body.world != engine_->bodies().tag() && body.world != 0 && engine_->bodies().tag() != 0;
 }
 
 Result<void> World::Check::known(BodyId body) const {
@@ -49,7 +49,7 @@ Result<void> World::Check::known(BodyId body) const {
   if (is_known(body)) return {};
   const std::string name = text_of(body);
   if (is_foreign(body)) return error_about(ErrorCode::foreign_body, body, name + " is one of another world");
-  const auto& table = engine_->table();
+  const auto& table = engine_->bodies().table();
   // A free index has the generation that its next body will have.
   if (body.index < table.size() && body.generation < table[body.index].generation)
     return error_about(ErrorCode::stale_body, body, name + " has been removed");
@@ -83,14 +83,14 @@ Result<void> World::Check::can_turn(BodyId body) const {
 }
 
 Result<void> World::Check::is_enabled(BodyId body, bool enabled) const {
-  if (engine_->table()[body.index].enabled == enabled) return {};
+  if (engine_->bodies().table()[body.index].enabled == enabled) return {};
   return error_about(enabled ? ErrorCode::disabled_body : ErrorCode::enabled_body, body,
                      std::string("body must be ") + (enabled ? "enabled" : "disabled") + ", but " +
                          text_of(body) + " is not");
 }
 
 Result<void> World::Check::is_moving(BodyId body) const {
-  if (!engine_->table()[body.index].is_fixed()) return {};
+  if (!engine_->bodies().table()[body.index].is_fixed()) return {};
   return error_about(ErrorCode::fixed_body, body,
                      "body must be one that can move, but " + text_of(body) + " is fixed");
 }
@@ -112,12 +112,12 @@ Result<void> World::Check::room(const BodyDefinition& body, BodyId id) const {
 Result<void> World::Check::fixed_room(const FixedDefinition& fixed, BodyId id) const {
   if (definition().allow_overlap) return {};
   const Bound bound = engine_->bound_now(body_of(fixed));
-  const auto other = engine_->certain_overlap(id, Engine::extent_of(bound, fixed.shape), body_of(fixed));
+  const auto other = engine_->certain_overlap(id, Bodies::extent_of(bound, fixed.shape), body_of(fixed));
   return other ? Result<void>(overlap_error(call_, *other, text_of(*other), "shape")) : Result<void>();
 }
 
 Result<void> World::Check::moved(BodyId id, const State& state) const {
-  BodyDefinition moved = engine_->definition_of(id.index);
+  BodyDefinition moved = engine_->bodies().definition_of(id.index);
   if (auto valid = check_state(state, moved, id, definition(), call_); !valid) return valid;
   moved.position = state.position;
   moved.velocity = state.velocity;
@@ -126,7 +126,7 @@ Result<void> World::Check::moved(BodyId id, const State& state) const {
 
 Result<void> World::Check::growth(const BodyDefinition& changed, BodyId id, std::string_view argument) const {
   if (auto valid = reach(changed, id, argument); !valid) return valid;
-  const Body& body = engine_->table()[id.index];
+  const Body& body = engine_->bodies().table()[id.index];
   const Bound bound = engine_->bound_with(id, changed);
   if (definition().allow_overlap || !body.enabled || bound.radius <= body.bound.radius) return {};
   if (const auto wall = engine_->certain_overlap_of_wall(bound)) {
@@ -141,7 +141,7 @@ Result<void> World::Check::growth(const BodyDefinition& changed, BodyId id, std:
 }
 
 Result<void> World::Check::reach(const BodyDefinition& changed, BodyId id, std::string_view argument) const {
-  const double reach = engine_->sensors().reach(changed.sensor_class);
+  const double reach = engine_->bodies().sensors().reach(changed.sensor_class);
   return check_reach(reach, changed, id, argument, definition(), call_);
 }
 
@@ -156,7 +156,7 @@ Result<FixedDefinition> World::Check::new_fixed(const FixedDefinition& fixed, Bo
   if (valid) valid = reach(body_of(fixed), no_body, "shape");
   if (!valid) return valid.error();
   FixedDefinition kept = fixed;
-  kept.shape = engine_->as_kept(fixed.shape);
+  kept.shape = as_kept(fixed.shape, engine_->definition());
   if (auto space = fixed_room(kept, id); !space) return space.error();
   return kept;
 }

@@ -1,9 +1,10 @@
-// Bodies that never move: how they come, and where they are.
+// What a fixed body is as a body, and as a shape.
 #include "world/fixed.hpp"
 
 #include <cmath>
-#include "number/infinity.hpp"
-#include "world/engine.hpp"
+
+#include "kinesphere/limits.hpp"
+#include "space/space.hpp"
 #include "world/validation.hpp"
 
 namespace kinesphere {
@@ -27,49 +28,17 @@ BodyDefinition body_of(const FixedDefinition& fixed) {
           .user_data = fixed.user_data};
 }
 
-/// Bodies and their bounds, with all that they sense, reach less far than eight times the limit of their
-/// coordinates.
-Box World::Engine::box_of(const Shape& shape) const {
-  return bounding_box(shape, 8.0 * coordinate_limit(definition_));
-}
-
-Shape World::Engine::as_kept(Shape shape) const {
+Shape as_kept(Shape shape, const WorldDefinition& world) {
+  const Space space(world);
   if (auto* solid = std::get_if<HalfSpace>(&shape); solid && std::abs(norm(solid->normal) - 1.0) > 0x1p-51)
     solid->normal = solid->normal / norm(solid->normal);
-  if (auto* ball = std::get_if<Ball>(&shape); ball && space_.repeats())
-    ball->centre = space_.wrapped(ball->centre).position;
-  if (auto* box = std::get_if<Box>(&shape); box && space_.is_flat()) {
-    box->upper.z = coordinate_limit(definition_);
+  if (auto* ball = std::get_if<Ball>(&shape); ball && space.repeats())
+    ball->centre = space.wrapped(ball->centre).position;
+  if (auto* box = std::get_if<Box>(&shape); box && space.is_flat()) {
+    box->upper.z = coordinate_limit(world);
     box->lower.z = -box->upper.z;
   }
   return shape;
-}
-
-BodyId World::Engine::add_fixed(const FixedDefinition& definition) {
-  const std::uint32_t number = take_number();
-  Body& body = bodies_[number];
-  const BodyDefinition at_rest = body_of(definition);
-  keep(number, at_rest);
-  if (free_shapes_.empty()) {
-    body.shape_number = static_cast<std::uint32_t>(shapes_.size());
-    shapes_.push_back(definition.shape);
-  } else {
-    body.shape_number = free_shapes_.back();
-    free_shapes_.pop_back();
-    shapes_[body.shape_number] = definition.shape;
-  }
-  filtering_ = true;
-  book_.add(number, 0.0);
-  book_.set_fixed(number);
-  appear(number, bound_now(at_rest));
-  return id_of(number);
-}
-
-/// Of a fixed body, with room for all that it senses around it.
-Box World::Engine::box_of_fixed(std::uint32_t number) const {
-  const Vec3 room = Vec3{1.0, 1.0, 1.0} * sensors_.reach(bodies_[number].sensor_class);
-  const Box box = box_of(shape(number));
-  return space_.within({box.lower - room, box.upper + room});
 }
 
 }  // namespace kinesphere

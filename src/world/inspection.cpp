@@ -31,20 +31,20 @@ class Stopwatch {
 
 Memory World::Engine::memory() const {
   Memory memory;
-  memory.pairs = agenda_.bytes();
-  memory.bodies = heap_bytes(bodies_, middles_, changes_, rests_, filters_, images_);
-  memory.contacts = heap_bytes(book_);
-  memory.windows = windows_.bytes();
-  memory.other = sizeof *this + heap_bytes(sensors_, free_, shapes_, free_shapes_, dirty_, probe_ids_,
-                                           probe_states_, round_, hot_);
+  memory.pairs = everybody_.agenda().bytes();
+  memory.bodies = heap_bytes(bodies());
+  memory.contacts = heap_bytes(book());
+  memory.windows = windows().bytes();
+  memory.other = sizeof *this + everybody_.bytes() - memory.pairs;
+  for (const Island::Found& found : found_) memory.other += heap_bytes(found.hot);
   return memory;
 }
 
 std::vector<Certificate> World::Engine::certificates() const {
   std::vector<Certificate> all;
-  for (const HotPair& pair : hot_pairs()) {
-    if (pair.second == HotPair::walls) continue;
-    const auto [first, second] = std::minmax({id_of(pair.first), id_of(pair.second)});
+  for (const HotPair& pair : everybody_.hot_pairs()) {
+    if (!pair.has_second()) continue;
+    const auto [first, second] = std::minmax({bodies().id_of(pair.first), bodies().id_of(pair.second)});
     all.push_back({first, second, pair.time});
   }
   return all;

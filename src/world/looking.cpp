@@ -4,22 +4,17 @@
 #include <cmath>
 
 #include "number/infinity.hpp"
-#include "world/engine.hpp"
+#include "world/island.hpp"
 
 namespace kinesphere {
 
-HotPair World::Engine::hot_pair(double time, std::uint32_t a, std::uint32_t b) const {
-  if (b == HotPair::walls) return {time, a, b, bodies_[a].stamp, 0};
+HotPair Island::hot_pair(double time, std::uint32_t a, std::uint32_t b) const {
+  if (b >= HotPair::renewal) return {time, a, b, bodies()[a].stamp, 0};
   const auto [first, second] = std::minmax(a, b);
-  return {time, first, second, bodies_[first].stamp, bodies_[second].stamp};
+  return {time, first, second, bodies()[first].stamp, bodies()[second].stamp};
 }
 
-bool World::Engine::is_void(const HotPair& pair) const {
-  return bodies_[pair.first].stamp != pair.first_stamp ||
-         (pair.second != HotPair::walls && bodies_[pair.second].stamp != pair.second_stamp);
-}
-
-std::vector<HotPair> World::Engine::hot_pairs(std::optional<std::uint32_t> number) const {
+std::vector<HotPair> Island::hot_pairs(std::optional<std::uint32_t> number) const {
   std::vector<HotPair> pairs;
   agenda_.for_each([&](const HotPair& pair) {
     const bool asked = !number || pair.first == *number || pair.second == *number;
@@ -29,40 +24,41 @@ std::vector<HotPair> World::Engine::hot_pairs(std::optional<std::uint32_t> numbe
 }
 
 /// Whether the two touch or sense each other.
-bool World::Engine::is_linked(std::uint32_t a, std::uint32_t b) const {
-  return book_.touch(a, b) || !book_.crossings_of(a, b).empty();
+bool Island::is_linked(std::uint32_t a, std::uint32_t b) const {
+  return book().touch(a, b) || !book().crossings_of(a, b).empty();
 }
 
 /// For a pair that a search has found: it does not change before this time, or not before a window ends
 /// (+infinity); now, if that takes fresh reports. Of pairs that touch or sense each other, others take care.
-double World::Engine::unchanged_until(std::uint32_t a, std::uint32_t b) const {
-  const Body& one = bodies_[a];
-  const Body& other = bodies_[b];
-  if (!may_meet(a, b) || is_linked(a, b)) return infinity;
+double Island::unchanged_until(std::uint32_t a, std::uint32_t b) const {
+  const Body& one = bodies()[a];
+  const Body& other = bodies()[b];
+  if (!bodies().may_meet(a, b) || is_linked(a, b)) return infinity;
   const double end = windows_end(a, b);
   if (one.is_fixed() || other.is_fixed() || end == infinity) {
     const double until = unchanged_until_by_thresholds(a, b);
     return until < end ? until : infinity;
   }
-  const double sensed = sensors_.any() ? reach_of_pair(one, other) : 0.0;
+  const double sensed = bodies().reach_of_pair(a, b);
   MovedBound moved(other.bound, time_);
-  if (space_.repeats()) moved.centre += shift_to_meet(a, b);
+  if (bodies().space().repeats()) moved.centre += bodies().shift_to_meet(a, b);
   const Encounter pair(MovedBound(one.bound, time_), moved);
-  const double near = sensed + definition_.contact_tolerance;
+  const double near = sensed + bodies().definition().contact_tolerance;
   if (pair.stay_apart(end - time_, near)) return infinity;
   if (pair.is_near(near)) return time_;
-  const double until = rounding::sum_down(time_, pair.meeting(end - time_, sensed + rounding_room()));
+  const double until =
+      rounding::sum_down(time_, pair.meeting(end - time_, sensed + bodies().rounding_room()));
   return until < end ? std::max(until, time_) : infinity;
 }
 
 /// The same by the rules of contacts, for any pair; +infinity for ever.
-double World::Engine::unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const {
+double Island::unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const {
   const double end = windows_end(a, b);
   double first = infinity;
-  if (!may_meet(a, b)) return first;
-  visit_pair(a, b, [&](const Bound& bound, const auto& other) {
+  if (!bodies().may_meet(a, b)) return first;
+  bodies().visit_pair(a, b, [&](const Bound& bound, const auto& other) {
     for_each_threshold(a, b, [&](const Threshold& threshold) {
-      const Outlook outlook(book_.rule_of(threshold), threshold, bound, other, time_, {end, end});
+      const Outlook outlook(book().rule_of(threshold), threshold, bound, other, time_, {end, end});
       first = std::min(first, outlook.until_reports());
     });
   });
@@ -70,36 +66,37 @@ double World::Engine::unchanged_until_by_thresholds(std::uint32_t a, std::uint32
 }
 
 /// A pair that was taken out of the agenda is put back unless it has been looked at.
-class World::Engine::StillDue {
+class Island::StillDue {
  public:
-  StillDue(Engine& engine, const HotPair& pair) : engine_(engine), pair_(pair) {}
+  StillDue(Island& island, const HotPair& pair) : island_(island), pair_(pair) {}
   StillDue(const StillDue&) = delete;
   StillDue& operator=(const StillDue&) = delete;
   ~StillDue() {
-    if (!done_) engine_.agenda_.add(pair_);
+    if (!done_) island_.agenda_.add(pair_);
   }
   void finish() { done_ = true; }
 
  private:
-  Engine& engine_;
+  Island& island_;
   HotPair pair_;
   bool done_ = false;
 };
 
-Result<void> World::Engine::look(const HotPair& pair) {
+Result<void> Island::look(const HotPair& pair) {
   StillDue due(*this, pair);
-  auto looked =
-      pair.second == HotPair::walls ? look_at_walls(pair.first) : look_at_pair(pair.first, pair.second);
+  auto looked = pair.second == HotPair::walls     ? look_at_walls(pair.first)
+                : pair.second == HotPair::renewal ? renew(pair.first)
+                                                  : look_at_pair(pair.first, pair.second);
   if (looked) due.finish();
   return looked;
 }
 
-Result<void> World::Engine::look_at_pair(std::uint32_t a, std::uint32_t b) {
+Result<void> Island::look_at_pair(std::uint32_t a, std::uint32_t b) {
   ++counters_.pair_checks;
   const double end = windows_end(a, b);
   // A broken promise makes a body dirty, and then it gets all its pairs anew.
-  while (!bodies_[a].dirty && !bodies_[b].dirty) {
-    const bool fresh = bodies_[a].fresh(time_) && bodies_[b].fresh(time_);
+  while (!bodies()[a].dirty && !bodies()[b].dirty) {
+    const bool fresh = bodies()[a].fresh(time_) && bodies()[b].fresh(time_);
     if (fresh) {
       const auto next = judge_pair(a, b);
       if (next && *next < end) agenda_.add(hot_pair(*next, a, b));
@@ -117,17 +114,17 @@ Result<void> World::Engine::look_at_pair(std::uint32_t a, std::uint32_t b) {
 }
 
 /// What the fresh reports of two bodies say: when to look again, unless there is news to be told first.
-std::optional<double> World::Engine::judge_pair(std::uint32_t a, std::uint32_t b) {
+std::optional<double> Island::judge_pair(std::uint32_t a, std::uint32_t b) {
   const double end = windows_end(a, b);
-  const Body& one = bodies_[a];
-  const Body& other = bodies_[b];
+  const Body& one = bodies()[a];
+  const Body& other = bodies()[b];
   const Promise sum{one.bound.growth_speed + other.bound.growth_speed,
                     one.largest_acceleration() + other.largest_acceleration()};
   std::optional<double> next = infinity;
-  visit_pair(a, b, [&](const Bound& bound, const auto& partner) {
+  bodies().visit_pair(a, b, [&](const Bound& bound, const auto& partner) {
     for_each_threshold(a, b, [&](const Threshold& threshold) {
       ++counters_.certificates;
-      const Outlook outlook(book_.rule_of(threshold), threshold, bound, partner, time_, {end, end});
+      const Outlook outlook(book().rule_of(threshold), threshold, bound, partner, time_, {end, end});
       const auto known = judge(outlook, threshold, contact(EventKind::zeno_guard, a, b), sum);
       next = next && known ? std::optional(std::min(*next, *known)) : std::nullopt;
     });
@@ -138,37 +135,37 @@ std::optional<double> World::Engine::judge_pair(std::uint32_t a, std::uint32_t b
 /// Holds fresh reports against the contact rule. Announces what is news; unless that is a begin or an end,
 /// tells how long the threshold cannot be crossed.
 template <class Partner>
-std::optional<double> World::Engine::judge(const Outlook<Partner>& outlook, const Threshold& threshold,
-                                           Event current, const Promise& promise) {
+std::optional<double> Island::judge(const Outlook<Partner>& outlook, const Threshold& threshold,
+                                    Event current, const Promise& promise) {
   Verdict verdict = outlook.judge(current, promise);
-  if (verdict.change == ContactRule::Change::begin && !threshold.sensed && book_.is_jammed(current))
+  if (verdict.change == ContactRule::Change::begin && !threshold.sensed && book().is_jammed(current))
     verdict = outlook.put_off(current, promise);
   if (verdict.is_news()) {
     current.kind = kind_of(verdict.change, threshold.sensed, current.wall);
     current.distance = threshold.distance;
-    book_.announce(current);
+    instant_.announce(current);
     return std::nullopt;
   }
-  if (verdict.change == ContactRule::Change::release) book_.release(current);
+  if (verdict.change == ContactRule::Change::release) book().set_touching(current, false);
   if (verdict.zeno_step) ++counters_.zeno_steps;
-  if (verdict.breaks_tolerance) book_.announce(current);
+  if (verdict.breaks_tolerance) instant_.announce(current);
   return verdict.next_look;
 }
 
 /// The walls of a body are due.
-Result<void> World::Engine::look_at_walls(std::uint32_t number) {
+Result<void> Island::look_at_walls(std::uint32_t number) {
   ++counters_.wall_checks;
-  const double end = windows_.end_of(number);
-  while (!bodies_[number].dirty) {
-    const Body& body = bodies_[number];
+  const double end = end_of(number);
+  while (!bodies()[number].dirty) {
+    const Body& body = bodies()[number];
     if (body.fresh(time_)) {
       const auto next = judge_walls(number);
       if (next && *next < end) agenda_.add(hot_pair(*next, number, HotPair::walls));
       return {};
     }
-    const double until = book_.walls_of(number) != 0
-                             ? time_
-                             : until_reports_of_walls(book_.rule(), body.bound, *walls_, time_, end);
+    const double until = book().walls_of(number) != 0 ? time_
+                                                      : until_reports_of_walls(book().rule(), body.bound,
+                                                                               *bodies().walls(), time_, end);
     if (until > time_) {
       if (until < end) agenda_.add(hot_pair(until, number, HotPair::walls));
       return {};
@@ -180,18 +177,18 @@ Result<void> World::Engine::look_at_walls(std::uint32_t number) {
 
 /// Holds the fresh report of a body against each wall that it touches or may reach. The others cannot change
 /// anything before its window ends.
-std::optional<double> World::Engine::judge_walls(std::uint32_t number) {
-  const Body& body = bodies_[number];
-  const double end = windows_.end_of(number);
+std::optional<double> Island::judge_walls(std::uint32_t number) {
+  const Body& body = bodies()[number];
+  const double end = end_of(number);
   const Promise promise{body.bound.growth_speed, body.largest_acceleration()};
-  const Box near = walls_in_reach(book_.rule(), body.bound, *walls_, time_, end);
+  const Box near = walls_in_reach(book().rule(), body.bound, *bodies().walls(), time_, end);
   double first = infinity;
   for (const Wall wall : walls) {
-    const bool touches = book_.touches_wall(number, wall);
+    const bool touches = book().touches_wall(number, wall);
     if (!touches && !stands(near, wall)) continue;
-    const HalfSpace inside = half_space(*walls_, wall);
+    const HalfSpace inside = half_space(*bodies().walls(), wall);
     const Threshold threshold{.within = touches};
-    const Outlook<HalfSpace> outlook(book_.rule(), threshold, body.bound, inside, time_, {end, end});
+    const Outlook<HalfSpace> outlook(book().rule(), threshold, body.bound, inside, time_, {end, end});
     const auto next = judge(outlook, threshold, wall_contact(EventKind::zeno_guard, number, wall), promise);
     if (next) first = std::min(first, *next);
   }

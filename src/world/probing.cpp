@@ -2,7 +2,7 @@
 #include <string>
 
 #include "bound/broken_promise.hpp"
-#include "world/engine.hpp"
+#include "world/island.hpp"
 #include "world/validation.hpp"
 
 namespace kinesphere {
@@ -26,73 +26,70 @@ class WhileTrue {
 
 }  // namespace
 
-Result<void> World::Engine::probe(std::span<const std::uint32_t> numbers) {
+Result<void> Island::probe(std::span<const std::uint32_t> numbers) {
+  Shift alone;
+  return probe(numbers, alone);
+}
+
+Result<void> Island::probe(std::span<const std::uint32_t> numbers, Shift& shift) {
   probe_ids_.resize(numbers.size());
   probe_states_.resize(numbers.size());
   for (std::size_t k = 0; k < numbers.size(); ++k) {
-    probe_ids_[k] = id_of(numbers[k]);
+    probe_ids_[k] = bodies().id_of(numbers[k]);
     probe_states_[k] = unanswered;
   }
   // Counted first: a probe that throws leaves the same world as one that does not answer.
   counters_.probes += numbers.size();
   {
-    const WhileTrue guard(probing_);
-    (*probe_)(probe_ids_, time_, probe_states_);
+    const WhileTrue guard(asking_);
+    constexpr std::size_t bodies_at_once = 512;
+    shift.for_each(numbers.size(), bodies_at_once, [this](std::size_t from, std::size_t to, std::size_t) {
+      const std::size_t count = to - from;
+      (*probe_)(std::span(probe_ids_).subspan(from, count), time_,
+                std::span(probe_states_).subspan(from, count));
+    });
   }
   for (std::size_t k = 0; k < numbers.size(); ++k) {
-    if (auto valid = check_report(probe_states_[k], probe_ids_[k], time_, definition_, probing_call_); !valid)
+    if (auto valid = check_report(probe_states_[k], probe_ids_[k], time_, bodies().definition(), call_);
+        !valid)
       return valid;
   }
   for (std::size_t k = 0; k < numbers.size(); ++k) apply_report(numbers[k], probe_states_[k]);
   return {};
 }
 
-/// Outside advance(): probes those whose reports are not of this time, except for disabled ones. True when
-/// there were any.
-Result<bool> World::Engine::probe_stale(std::span<const std::uint32_t> numbers, const Probe& ask,
-                                        std::string_view call) {
-  std::vector<std::uint32_t> stale;
-  for (const std::uint32_t number : numbers)
-    if (bodies_[number].enabled && !bodies_[number].fresh(time_)) stale.push_back(number);
-  if (stale.empty()) return false;
-  probe_ = &ask;
-  probing_call_ = call;
-  if (auto probed = probe(stale); !probed) return probed.error();
-  return true;
-}
-
 /// Probes the body whose report is older; the second one, if they are of the same age. One of them at least
 /// is not fresh.
-Result<void> World::Engine::probe_staler(std::uint32_t a, std::uint32_t b) {
-  const bool a_is_staler = bodies_[a].bound.time < bodies_[b].bound.time;
-  const bool a_is_asked = !bodies_[a].fresh(time_) && (a_is_staler || bodies_[b].fresh(time_));
+Result<void> Island::probe_staler(std::uint32_t a, std::uint32_t b) {
+  const bool a_is_staler = bodies()[a].bound.time < bodies()[b].bound.time;
+  const bool a_is_asked = !bodies()[a].fresh(time_) && (a_is_staler || bodies()[b].fresh(time_));
   const std::uint32_t staler = a_is_asked ? a : b;
   return probe(std::span(&staler, 1));
 }
 
-void World::Engine::apply_report(std::uint32_t number, const State& answer) {
-  Body& body = bodies_[number];
+void Island::apply_report(std::uint32_t number, const State& answer) {
+  Body& body = bodies()[number];
   State state = answer;
-  if (space_.repeats())
-    state.position += space_.shift_to_nearest(answer.position, body.bound.centre_at(time_));
+  if (bodies().space().repeats())
+    state.position += bodies().space().shift_to_nearest(answer.position, body.bound.centre_at(time_));
   const Bound before = body.bound;
   std::optional<Vec3> kicked_to;
-  if (const Change* change = change_since_report(number)) {
+  if (const Change* change = bodies().change_since_report(number)) {
     kicked_to = change->kicked_to;
-    body.bound = bound_of(definition_of(number), state, time_);
-    forget_change(number);
+    body.bound = bound_of(bodies().definition_of(number), state, time_);
+    bodies().forget_change(number);
   } else {
     body.bound.time = time_;
     body.bound.position = state.position;
     body.bound.velocity = state.velocity;
   }
   const auto broken =
-      broken_promise(before, body.bound, body.radius, kicked_to, definition_.contact_tolerance);
-  if (body.is_resting()) stand_still(body);
+      broken_promise(before, body.bound, body.radius, kicked_to, bodies().definition().contact_tolerance);
+  if (body.is_resting()) body.stand_still();
   if (!broken) return;
   Sphere reported = sphere(number);
-  reported.state = {space_.wrapped(state.position).position, state.velocity};
-  book_.announce(violation_event(time_, reported, *broken));
+  reported.state = {bodies().space().wrapped(state.position).position, state.velocity};
+  instant_.announce(violation_event(time_, reported, *broken));
   void_facts(number);
 }
 

@@ -101,8 +101,8 @@ void keep_first_of_each_body(std::vector<Hit>& hits) {
 
 /// In the image that is nearest to a point.
 Place World::Engine::Queries::place(std::uint32_t number, const Vec3& point) const {
-  Place place = place_of(engine_.bodies_[number], now_);
-  place.centre += engine_.space_.shift_to_nearest(place.centre, point);
+  Place place = place_of(engine_.bodies()[number], now_);
+  place.centre += engine_.bodies().space().shift_to_nearest(place.centre, point);
   return place;
 }
 
@@ -112,11 +112,12 @@ std::vector<Found> World::Engine::Queries::overlapping(const Box& box, Distance 
   const Vec3 middle = 0.5 * (box.lower + box.upper);
   std::vector<Found> found;
   const double size = norm_one(box.lower) + norm_one(box.upper);
-  for (const std::uint32_t number : engine_.bodies_in(box)) {
-    if (const Shape* shape = engine_.extent(number).shape) {
+  for (const std::uint32_t number : engine_.everybody().bodies_in(box)) {
+    if (const Shape* shape = engine_.bodies().extent(number).shape) {
       const GapLimits gap = gap_to(*shape);
       if (gap.lower > 0.0) continue;
-      found.push_back({engine_.id_of(number), gap.upper <= 0.0 ? Certainty::certainly : Certainty::possibly});
+      found.push_back(
+          {engine_.bodies().id_of(number), gap.upper <= 0.0 ? Certainty::certainly : Certainty::possibly});
       continue;
     }
     const Place at = place(number, middle);
@@ -124,7 +125,7 @@ std::vector<Found> World::Engine::Queries::overlapping(const Box& box, Distance 
     const double wrong = part_lost * (size + norm_one(at.centre) + at.outer);
     if (distance - wrong > at.outer) continue;
     const bool certain = distance + wrong <= at.inner;
-    found.push_back({engine_.id_of(number), certain ? Certainty::certainly : Certainty::possibly});
+    found.push_back({engine_.bodies().id_of(number), certain ? Certainty::certainly : Certainty::possibly});
   }
   return found;
 }
@@ -136,7 +137,7 @@ std::vector<Found> World::Engine::Queries::overlapping(const Vec3& centre, doubl
 }
 
 std::vector<Found> World::Engine::Queries::overlapping(const Box& region) const {
-  const Box box = engine_.space_.within(region);
+  const Box box = engine_.bodies().space().within(region);
   return overlapping(
       box, [&](const Vec3& point) { return distance_to_box(point, box); },
       [&](const Shape& shape) { return limits_of(box, shape); });
@@ -146,15 +147,15 @@ std::vector<Near> World::Engine::Queries::distances(const std::vector<std::uint3
                                                     const Vec3& point) const {
   std::vector<Near> all;
   for (const std::uint32_t number : numbers) {
-    if (const Shape* shape = engine_.extent(number).shape) {
+    if (const Shape* shape = engine_.bodies().extent(number).shape) {
       const GapLimits gap = limits_of(resting(point, 0.0), *shape);
-      all.push_back({engine_.id_of(number), Certainty::possibly, gap.lower, gap.upper});
+      all.push_back({engine_.bodies().id_of(number), Certainty::possibly, gap.lower, gap.upper});
       continue;
     }
     const Place at = place(number, point);
     const double distance = norm(at.centre - point);
     const double wrong = part_lost * (norm_one(point) + norm_one(at.centre) + at.outer);
-    all.push_back({engine_.id_of(number), Certainty::possibly, distance - at.outer - wrong,
+    all.push_back({engine_.bodies().id_of(number), Certainty::possibly, distance - at.outer - wrong,
                    distance - at.inner + wrong});
   }
   return all;
@@ -163,23 +164,23 @@ std::vector<Near> World::Engine::Queries::distances(const std::vector<std::uint3
 /// At least all bodies that may be among the `count` nearest: `count` of them are certainly within a cube's
 /// half edge, and the others are outside the cube.
 std::vector<std::uint32_t> World::Engine::Queries::around(const Vec3& point, std::size_t count) const {
-  const double farthest = 8.0 * coordinate_limit(engine_.definition_);
+  const double farthest = 8.0 * coordinate_limit(engine_.definition());
   for (double reach = engine_.finest_length(); reach <= farthest; reach *= 2.0) {
-    std::vector<std::uint32_t> numbers = engine_.bodies_in(box_around(point, point, reach));
+    std::vector<std::uint32_t> numbers = engine_.everybody().bodies_in(box_around(point, point, reach));
     const std::vector<Near> all = distances(numbers, point);
     const auto within =
         std::count_if(all.begin(), all.end(), [=](const Near& n) { return n.upper <= reach; });
-    if (static_cast<std::size_t>(within) >= count || numbers.size() == engine_.present_count())
+    if (static_cast<std::size_t>(within) >= count || numbers.size() == engine_.bodies().present_count())
       return numbers;
   }
   std::vector<std::uint32_t> everybody;
-  for (std::uint32_t number = 0; number < engine_.bodies_.size(); ++number)
-    if (engine_.bodies_[number].present()) everybody.push_back(number);
+  for (std::uint32_t number = 0; number < engine_.bodies().numbers(); ++number)
+    if (engine_.bodies()[number].present()) everybody.push_back(number);
   return everybody;
 }
 
 std::vector<Near> World::Engine::Queries::nearest(const Vec3& point, std::size_t count) const {
-  count = std::min(count, engine_.present_count());
+  count = std::min(count, engine_.bodies().present_count());
   if (count == 0) return {};
   std::vector<Near> all = distances(around(point, count), point);
   std::vector<double> uppers;
@@ -206,24 +207,26 @@ std::vector<Near> World::Engine::Queries::nearest(const Vec3& point, std::size_t
 /// What becomes of a body on the way, in the first of its images that comes near this piece of it: nothing
 /// where it is missed.
 std::optional<Hit> World::Engine::Queries::hit(const Way& way, const Box& piece, std::uint32_t number) const {
-  if (const Shape* shape = engine_.extent(number).shape) {
+  if (const Shape* shape = engine_.bodies().extent(number).shape) {
     const WayLimits touch = touch_of(way, *shape);
     if (touch.lower == infinity) return std::nullopt;
-    return Hit{engine_.id_of(number), Certainty::possibly, touch.lower, touch.upper};
+    return Hit{engine_.bodies().id_of(number), Certainty::possibly, touch.lower, touch.upper};
   }
-  const Place at = place_of(engine_.bodies_[number], now_);
+  const Place at = place_of(engine_.bodies()[number], now_);
   std::optional<Hit> first;
-  engine_.space_.for_each_shift(box_around(at.centre, at.centre, at.outer), piece, [&](const Vec3& shift) {
-    const Vec3 centre = at.centre + shift;
-    const double wrong = part_lost * (norm_one(way.origin) + norm_one(centre) + at.outer + way.radius);
-    const auto may = passage(way, centre, at.outer + way.radius + wrong, wrong);
-    if (!may) return;
-    const auto must = passage(way, centre, at.inner + way.radius - wrong, -wrong);
-    const Hit image{engine_.id_of(number), Certainty::possibly, may->enter, must ? must->enter : infinity};
-    if (!first) first = image;
-    first->lower = std::min(first->lower, image.lower);
-    first->upper = std::min(first->upper, image.upper);
-  });
+  engine_.bodies().space().for_each_shift(
+      box_around(at.centre, at.centre, at.outer), piece, [&](const Vec3& shift) {
+        const Vec3 centre = at.centre + shift;
+        const double wrong = part_lost * (norm_one(way.origin) + norm_one(centre) + at.outer + way.radius);
+        const auto may = passage(way, centre, at.outer + way.radius + wrong, wrong);
+        if (!may) return;
+        const auto must = passage(way, centre, at.inner + way.radius - wrong, -wrong);
+        const Hit image{engine_.bodies().id_of(number), Certainty::possibly, may->enter,
+                        must ? must->enter : infinity};
+        if (!first) first = image;
+        first->lower = std::min(first->lower, image.lower);
+        first->upper = std::min(first->upper, image.upper);
+      });
   return first;
 }
 
@@ -237,7 +240,7 @@ std::vector<Hit> World::Engine::Queries::cast(const Way& way) const {
     const Box box =
         box_around(way.origin + way.direction * (k * piece), way.origin + way.direction * end, way.radius);
     std::vector<std::uint32_t> fresh;
-    const std::vector<std::uint32_t> here = engine_.bodies_in(box);
+    const std::vector<std::uint32_t> here = engine_.everybody().bodies_in(box);
     std::set_difference(here.begin(), here.end(), seen.begin(), seen.end(), std::back_inserter(fresh));
     for (const std::uint32_t number : fresh) {
       const std::optional<Hit> found = hit(way, box, number);
@@ -246,12 +249,12 @@ std::vector<Hit> World::Engine::Queries::cast(const Way& way) const {
       sure = std::min(sure, found->upper);
     }
     // Where space repeats, a body that is missed here may be hit in another image later.
-    if (engine_.space_.repeats()) continue;
+    if (engine_.bodies().space().repeats()) continue;
     const auto middle = static_cast<std::ptrdiff_t>(seen.size());
     seen.insert(seen.end(), fresh.begin(), fresh.end());
     std::inplace_merge(seen.begin(), seen.begin() + middle, seen.end());
   }
-  if (engine_.space_.repeats()) keep_first_of_each_body(hits);
+  if (engine_.bodies().space().repeats()) keep_first_of_each_body(hits);
   std::erase_if(hits, [=](const Hit& hit) { return hit.lower > sure; });
   std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) {
     return a.lower != b.lower ? a.lower < b.lower : a.body < b.body;

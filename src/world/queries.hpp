@@ -19,7 +19,7 @@ struct Way {
 
 class World::Engine::Queries {
  public:
-  explicit Queries(const Engine& engine) : engine_(engine), now_(engine.time_) {}
+  explicit Queries(const Engine& engine) : engine_(engine), now_(engine.time()) {}
 
   std::vector<Found> overlapping(const Vec3& centre, double radius) const;
   std::vector<Found> overlapping(const Box& region) const;

@@ -7,6 +7,7 @@
 
 #include "kinesphere/world.hpp"
 #include "parallel/crew.hpp"
+#include "world/engine.hpp"
 
 namespace kinesphere {
 
@@ -20,7 +21,7 @@ struct World::Backlog {
   std::optional<Event> take();
 };
 
-class World::Run {
+class World::Run final : private Answerer {
  public:
   /// Without mover and respond, events get no answer.
   Run(World& world, double until, const Probe& probe, const Sink& sink, Workers* workers)
@@ -37,23 +38,30 @@ class World::Run {
   class Unanswered;
 
   /// Does some work, and appends the events that came of it to the untold ones. True when the world has
-  /// reached the end of the run. Needs all events before to have been told. One event at a time: the place
-  /// for a phase of more work, by several threads.
+  /// reached the end of the run. Needs all events before to have been told.
+  Result<bool> work();
   Result<bool> phase();
+  Result<bool> step();
   void tell();
 
   Result<std::optional<Event>> next();
-  Result<void> answer(const Event& event);
+  Result<void> answer_one(const Event& event);
+  Result<Answer> answer(const Event& event) override;
+  void turn(const Event& event, const Answer& answer) override;
+  Departure departure(BodyId body) override { return mover_->departure(body); }
+  void depart(BodyId body, const Departure& departure) override { mover_->depart(body, departure); }
   Result<void> check(const Event& event, const Answer& answer) const;
   Result<void> check_kick(const Event& event, BodyId body, const std::optional<Vec3>& velocity,
                           std::string_view argument) const;
-  void depart(const Event& event, const Answer& answer);
 
   World& world_;
   double until_;
   const Probe& probe_;
   const Sink& sink_;
   Shift shift_;
+  std::optional<Islands> islands_;  ///< where several threads work
+  /// Where islands are not worth it: until this end of a phase.
+  std::optional<double> one_by_one_{};
   Mover* mover_ = nullptr;
   const Respond* respond_ = nullptr;
 };

@@ -64,7 +64,7 @@ Result<World> World::create(const WorldDefinition& definition) {
 Result<BodyId> World::add(const BodyDefinition& body) {
   const Check check(*this, "add");
   if (auto idle = check.idle(); !idle) return idle.error();
-  if (auto valid = check.new_body(body, engine_->next_id()); !valid) return valid.error();
+  if (auto valid = check.new_body(body, engine_->bodies().next_id()); !valid) return valid.error();
   return changing(step::Add{body}).add(body);
 }
 
@@ -86,7 +86,8 @@ Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodie
   std::size_t valid = 0;
   std::optional<Error> wrong;
   for (; valid < bodies.size() && !wrong; ++valid) {
-    const auto checked = Check(*this, call_for(valid)).new_body(bodies[valid], engine_->next_id(valid));
+    const auto checked =
+        Check(*this, call_for(valid)).new_body(bodies[valid], engine_->bodies().next_id(valid));
     if (!checked) {
       wrong = checked.error();
       break;
@@ -101,7 +102,8 @@ Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodie
   std::vector<BodyId> ids;
   ids.reserve(bodies.size());
   // Room for each of many small batches would be made one by one.
-  if (bodies.size() >= engine_->size()) changeable().reserve(engine_->size() + bodies.size());
+  if (bodies.size() >= engine_->bodies().size())
+    changeable().reserve(engine_->bodies().size() + bodies.size());
   for (const BodyDefinition& body : bodies) ids.push_back(changing(step::Add{body}).add(body));
   return ids;
 }
@@ -144,8 +146,8 @@ Result<void> World::teleport(BodyId body, const State& state) {
 Result<void> World::enable(BodyId body, const State& state) {
   auto valid = Check(*this, "enable").enabled(body, false);
   if (valid) {
-    valid = engine_->table()[body.index].is_fixed()
-                ? Check(*this, "enable").fixed_room(engine_->fixed_definition(body), body)
+    valid = engine_->bodies().table()[body.index].is_fixed()
+                ? Check(*this, "enable").fixed_room(engine_->bodies().fixed_definition(body), body)
                 : Check(*this, "enable").moved(body, state);
   }
   if (valid) changing(step::Enable{body, state}).enable(body, state);
@@ -173,7 +175,7 @@ Result<void> World::wake(BodyId body) {
 Result<void> World::set_radius(BodyId body, double radius) {
   auto valid = Check(*this, "set_radius").moving(body);
   if (!valid) return valid;
-  BodyDefinition changed = engine_->definition_of(body.index);
+  BodyDefinition changed = engine_->bodies().definition_of(body.index);
   changed.radius = radius;
   valid = check_radius(changed, body, engine_->definition(), "set_radius");
   if (valid) valid = Check(*this, "set_radius").growth(changed, body, "radius");
@@ -184,7 +186,7 @@ Result<void> World::set_radius(BodyId body, double radius) {
 Result<void> World::set_motion_limits(BodyId body, const MotionLimits& limits) {
   auto valid = Check(*this, "set_motion_limits").moving(body);
   if (!valid) return valid;
-  const BodyDefinition changed = with_motion_limits(engine_->definition_of(body.index), limits);
+  const BodyDefinition changed = with_motion_limits(engine_->bodies().definition_of(body.index), limits);
   valid = check_promise(changed, body, engine_->definition(), "set_motion_limits");
   if (valid) valid = Check(*this, "set_motion_limits").growth(changed, body, "position_error");
   if (valid) changing(step::SetMotionLimits{body, limits}).set_motion_limits(body, limits);
@@ -222,7 +224,7 @@ Result<void> World::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
   if (!valid) return valid;
   const double reach = reach_of(sensor);
   for (const BodyId id : bodies()) {
-    const BodyDefinition body = engine_->definition_of(id.index);
+    const BodyDefinition body = engine_->bodies().definition_of(id.index);
     if (valid && body.sensor_class == sensor_class)
       valid = check_reach(reach, body, id, "sensor", engine_->definition(), "set_sensor");
   }
@@ -233,7 +235,7 @@ Result<void> World::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
 Result<void> World::set_sensor_class(BodyId body, SensorClass sensor_class) {
   auto valid = Check(*this, "set_sensor_class").changeable(body);
   if (!valid) return valid;
-  BodyDefinition changed = engine_->definition_of(body.index);
+  BodyDefinition changed = engine_->bodies().definition_of(body.index);
   changed.sensor_class = sensor_class;
   valid = Check(*this, "set_sensor_class").reach(changed, body, "sensor_class");
   if (valid) changing(step::SetSensorClass{body, sensor_class}).set_sensor_class(body, sensor_class);
@@ -241,7 +243,7 @@ Result<void> World::set_sensor_class(BodyId body, SensorClass sensor_class) {
 }
 
 const Sensor& World::sensor(SensorClass sensor_class) const {
-  return engine("sensor").sensors().of(sensor_class);
+  return engine("sensor").bodies().sensors().of(sensor_class);
 }
 
 Result<void> World::set_user_data(BodyId body, std::uint64_t data) {
@@ -252,7 +254,7 @@ Result<void> World::set_user_data(BodyId body, std::uint64_t data) {
 
 Result<std::uint64_t> World::user_data(BodyId body) const {
   if (auto valid = Check(*this, "user_data").known(body); !valid) return valid.error();
-  return engine_->table()[body.index].user_data;
+  return engine_->bodies().table()[body.index].user_data;
 }
 
 Result<std::optional<Event>> World::advance(double until, Probe probe) {
@@ -289,7 +291,7 @@ Result<bool> World::refresh(std::span<const std::uint32_t> numbers, const Probe&
 }
 
 double World::time() const { return engine("time").time(); }
-std::size_t World::size() const { return engine("size").size(); }
+std::size_t World::size() const { return engine("size").bodies().size(); }
 const WorldDefinition& World::definition() const { return engine("definition").definition(); }
 const Counters& World::counters() const { return engine("counters").counters(); }
 
@@ -334,7 +336,7 @@ Result<void> World::start_recording() {
   if (recorder_)
     return Error{ErrorCode::recording, "world", no_body,
                  "start_recording: the world is being recorded already"};
-  recorder_ = std::make_unique<Recorder>(*this, engine_->has_pair_filter());
+  recorder_ = std::make_unique<Recorder>(*this, engine_->bodies().has_pair_filter());
   return {};
 }
 
@@ -355,7 +357,7 @@ Result<std::vector<BodyId>> World::touching(BodyId body) const {
   if (auto valid = Check(*this, "touching").known(body); !valid) return valid.error();
   std::vector<BodyId> partners;
   for (const std::uint32_t partner : engine_->book().partners_of(body.index))
-    partners.push_back(engine_->id_of(partner));
+    partners.push_back(engine_->bodies().id_of(partner));
   return partners;
 }
 
@@ -363,15 +365,15 @@ Result<std::vector<Sensed>> World::sensed(BodyId body) const {
   if (auto valid = Check(*this, "sensed").known(body); !valid) return valid.error();
   std::vector<Sensed> within;
   for (const Crossing& crossing : engine_->book().crossings_of(body.index))
-    within.push_back({engine_->id_of(crossing.partner), crossing.distance});
+    within.push_back({engine_->bodies().id_of(crossing.partner), crossing.distance});
   return within;
 }
 
 std::vector<BodyId> World::bodies() const {
   std::vector<BodyId> ids;
   const Engine& engine = this->engine("bodies");
-  for (std::uint32_t number = 0; number < engine.table().size(); ++number)
-    if (engine.table()[number].alive) ids.push_back(engine.id_of(number));
+  for (std::uint32_t number = 0; number < engine.bodies().table().size(); ++number)
+    if (engine.bodies().table()[number].alive) ids.push_back(engine.bodies().id_of(number));
   return ids;
 }
 

@@ -31,7 +31,7 @@ template <class Earliest, class Engine>
 Result<Earliest> earliest(const Engine* engine, const Result<Refined>& refined) {
   if (!refined) return refined.error();
   const Onset& onset = refined->onset;
-  const BodyId partner = onset.partner ? engine->id_of(*onset.partner) : no_body;
+  const BodyId partner = onset.partner ? engine->bodies().id_of(*onset.partner) : no_body;
   return Earliest{onset.time, partner, onset.wall, onset.touching, refined->probed};
 }
 

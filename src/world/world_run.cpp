@@ -94,7 +94,7 @@ Result<void> World::Run::go() {
   const InProgress guard(world_.running_);
   tell();
   for (;;) {
-    const auto done = phase();
+    const auto done = work();
     if (!done) return done.error();
     tell();
     if (*done) return {};
@@ -110,14 +110,33 @@ void World::Run::tell() {
   }
 }
 
+Result<bool> World::Run::work() {
+  // A recording and the timings follow one event after the other.
+  const bool alone = shift_.count() == 1 || world_.recorder_ || world_.timing_ || !world_.backlog_->empty();
+  if (alone || world_.engine_->phase_end() == one_by_one_) return step();
+  return phase();
+}
+
+/// Many events at once, where that is possible.
 Result<bool> World::Run::phase() {
+  Engine& engine = world_.changeable();
+  if (!islands_) islands_.emplace(engine.islands(shift_, probe_, respond_ != nullptr ? this : nullptr));
+  const auto done = engine.run_phase(until_, probe_, shift_, *islands_, world_.backlog_->untold);
+  if (!done) return renamed(done.error());
+  if (*done) return engine.time() == until_ && !engine.is_due();
+  one_by_one_ = engine.phase_end();
+  return step();
+}
+
+/// One event.
+Result<bool> World::Run::step() {
   Backlog& backlog = *world_.backlog_;
   const auto event = next();
   if (!event) return renamed(event.error());
   if (!*event) return true;
   if (respond_ != nullptr) {
     Unanswered unanswered(backlog, **event);
-    if (auto answered = answer(**event); !answered) return answered.error();
+    if (auto answered = answer_one(**event); !answered) return answered.error();
     unanswered.is_answered();
   }
   backlog.untold.push_back(**event);
@@ -129,16 +148,22 @@ Result<std::optional<Event>> World::Run::next() {
   return world_.engine_advance(until_, probe_);
 }
 
-Result<void> World::Run::answer(const Event& event) {
-  const Answer answer = (*respond_)(event);
-  if (auto valid = check(event, answer); !valid) return valid;
-  depart(event, answer);
+Result<void> World::Run::answer_one(const Event& event) {
+  const auto checked = answer(event);
+  if (!checked) return checked.error();
+  turn(event, *checked);
   const auto kick = [this](BodyId body, const std::optional<Vec3>& velocity) {
     if (velocity) world_.changing(step::SetVelocity{body, *velocity}).set_velocity(body, *velocity);
   };
-  kick(event.first, answer.first_velocity);
-  kick(event.second, answer.second_velocity);
+  kick(event.first, checked->first_velocity);
+  kick(event.second, checked->second_velocity);
   return {};
+}
+
+Result<Answer> World::Run::answer(const Event& event) {
+  const Answer answer = (*respond_)(event);
+  if (auto valid = check(event, answer); !valid) return valid.error();
+  return answer;
 }
 
 Result<void> World::Run::check(const Event& event, const Answer& answer) const {
@@ -149,18 +174,20 @@ Result<void> World::Run::check(const Event& event, const Answer& answer) const {
 Result<void> World::Run::check_kick(const Event& event, BodyId body, const std::optional<Vec3>& velocity,
                                     std::string_view argument) const {
   if (!velocity) return {};
-  const std::string call =
-      "run: respond: " + std::string(argument) + " at " + std::string(name_of(event.kind));
-  auto valid = Check(world_, call).can_turn(body);
-  if (valid) valid = check_velocity(*velocity, body, world_.definition(), call);
-  if (valid) return valid;
-  Error error = valid.error();
+  const auto check_for = [&](std::string_view call) {
+    auto valid = Check(world_, call).can_turn(body);
+    return valid ? check_velocity(*velocity, body, world_.definition(), call) : valid;
+  };
+  if (check_for("run")) return {};
+  // The name of the call takes longer to write than all else.
+  Error error =
+      check_for("run: respond: " + std::string(argument) + " at " + std::string(name_of(event.kind))).error();
   error.argument = argument;
   return error;
 }
 
 /// Tells the mover of all new velocities or, if it throws, of none.
-void World::Run::depart(const Event& event, const Answer& answer) {
+void World::Run::turn(const Event& event, const Answer& answer) {
   const auto turned = [&](BodyId body, const Vec3& velocity) {
     State state;
     mover_->states(std::span(&body, 1), event.time, std::span(&state, 1));

@@ -204,12 +204,12 @@ class Playground {
     report(number);
     Window window = window_to_start(number);
     if (registered_[number] && window.end < infinity && windows_.end_of(number) <= window.end)
-      window = {windows_.tier_of(number), windows_.end_of(number)};
+      window = windows_.window_of(number);
     bring_home(number, duration_until(window.end, now_));
     windows_.enter(number, roomy(number), now_, window);
     registered_[number] = true;
     EXPECT_EQ(windows_.end_of(number), window.end);
-    EXPECT_EQ(windows_.tier_of(number), window.tier);
+    EXPECT_EQ(windows_.window_of(number).tier, window.tier);
     expect_near(number);
   }
   void leave(std::uint32_t number) {
@@ -232,7 +232,7 @@ class Playground {
   }
   void expect_near(std::uint32_t number) {
     if (!registered_[number]) return;
-    const auto found = windows_.near(number, roomy(number), now_, scratch_);
+    const auto found = windows_.near(number, roomy(number), now_, windows_.end_of(number), scratch_);
     const std::set<std::uint32_t> near(found.begin(), found.end());
     EXPECT_TRUE(space_.repeats() || near.size() == found.size()) << "found twice";
     EXPECT_FALSE(near.contains(number));
@@ -371,8 +371,8 @@ class Playground {
     for (std::uint32_t number = 0; number < kind_.bodies; ++number) {
       if (!registered_[number]) continue;
       Windows::Scratch scratch;
-      const auto here = windows_.near(number, roomy(number), now_, scratch_);
-      const auto there = back.near(number, roomy(number), now_, scratch);
+      const auto here = windows_.near(number, roomy(number), now_, windows_.end_of(number), scratch_);
+      const auto there = back.near(number, roomy(number), now_, back.end_of(number), scratch);
       ASSERT_TRUE(std::equal(here.begin(), here.end(), there.begin(), there.end()));
     }
     windows_ = back;
@@ -496,7 +496,7 @@ class KickedBodies {
   void tidy() { windows_.tidy(); }
   /// Whom a body finds that is kicked.
   std::set<std::uint32_t> near(std::uint32_t number, double time) {
-    const auto found = windows_.near(number, roomy(number, time), time, scratch_);
+    const auto found = windows_.near(number, roomy(number, time), time, windows_.end_of(number), scratch_);
     return {found.begin(), found.end()};
   }
   Searches start(double time, bool all) {

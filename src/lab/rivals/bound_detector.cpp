@@ -21,8 +21,8 @@ Result<void> BoundDetector::add(std::uint32_t number, const BodyDefinition& defi
 }
 
 Result<void> BoundDetector::remove(std::uint32_t number) {
-  book_.depart(
-      number, time_, [this](std::uint32_t body) { return sphere(body); }, definition_.box);
+  instant_.depart(
+      book_, number, time_, [this](std::uint32_t body) { return sphere(body); }, definition_.box);
   std::erase(new_courses_, number);
   bodies_[number] = Body{};
   on_removed(number);
@@ -51,7 +51,7 @@ Result<std::optional<Event>> BoundDetector::advance(double until) {
     if (std::optional<Event> event = deliver()) return event;
     settle();
     handle_all_due();
-    if (error_ || !book_.pending().empty()) continue;
+    if (error_ || !instant_.pending().empty()) continue;
     if (next_time() > until) {
       move_on_to(until);
       return std::optional<Event>();
@@ -66,14 +66,14 @@ void BoundDetector::handle_all_due() {
 }
 
 void BoundDetector::move_on_to(double time) {
-  if (time > time_) book_.start_instant();
+  if (time > time_) instant_.start();
   time_ = time;
 }
 
 std::optional<Event> BoundDetector::deliver() {
-  std::optional<Event> event =
-      book_.deliver([this](BodyId id) { return bodies_[id.index].present; },
-                    [this](std::uint32_t number) { return sphere(number); }, definition_.box);
+  std::optional<Event> event = instant_.deliver(
+      book_, [this](BodyId id) { return bodies_[id.index].present; },
+      [this](std::uint32_t number) { return sphere(number); }, definition_.box);
   if (!event) return event;
   ++counters_.events[static_cast<std::size_t>(event->kind)];
   if (event->repeated) ++counters_.repeated_contacts;
@@ -91,7 +91,7 @@ void BoundDetector::settle() {
     bodies_[number].new_course = false;
     on_new_course(number);
   }
-  auto& changed = book_.changed();
+  auto& changed = instant_.changed();
   while (!changed.empty()) {
     const auto [a, b] = changed.back();
     changed.pop_back();
@@ -120,7 +120,7 @@ void BoundDetector::probe(std::uint32_t number) {
   const auto broken = broken_promise(before, body.bound, body.definition.radius, body.kicked_to,
                                      definition_.contact_tolerance);
   if (!broken) return;
-  book_.announce(violation_event(time_, {.id = {number, 0}, .state = state}, *broken));
+  instant_.announce(violation_event(time_, {.id = {number, 0}, .state = state}, *broken));
   begin_new_course(number);
 }
 
@@ -163,12 +163,12 @@ double BoundDetector::judge(const Outlook<Partner>& outlook, Event current, cons
     verdict = outlook.put_off(current, promise);
   if (verdict.is_news()) {
     current.kind = kind_of(verdict.change, false, current.wall);
-    book_.announce(current);
+    instant_.announce(current);
     return infinity;
   }
-  if (verdict.change == ContactRule::Change::release) book_.release(current);
+  if (verdict.change == ContactRule::Change::release) book_.set_touching(current, false);
   if (verdict.zeno_step) ++counters_.zeno_steps;
-  if (verdict.breaks_tolerance) book_.announce(current);
+  if (verdict.breaks_tolerance) instant_.announce(current);
   return verdict.next_look;
 }
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "contact/contact_book.hpp"
+#include "contact/instant.hpp"
 #include "contact/outlook.hpp"
 #include "kinesphere/bound.hpp"
 #include "lab/detector/detector.hpp"
@@ -76,7 +76,7 @@ class BoundDetector : public Detector {
   /// True when the two are in contact.
   bool touch(std::uint32_t a, std::uint32_t b) const { return book_.touch(a, b); }
   /// Partners in contact.
-  Chains<std::uint32_t>::List touching(std::uint32_t number) const { return book_.partners_of(number); }
+  std::span<const std::uint32_t> touching(std::uint32_t number) const { return book_.partners_of(number); }
   const WorldDefinition& definition() const { return definition_; }
   const ContactRule& rule() const { return book_.rule(); }
 
@@ -103,6 +103,7 @@ class BoundDetector : public Detector {
   WorldDefinition definition_;
   const Motion& motion_;
   ContactBook book_;
+  Instant instant_;
   double time_;
   std::vector<Body> bodies_;
   std::vector<std::uint32_t> new_courses_;

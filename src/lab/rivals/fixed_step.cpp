@@ -2,7 +2,7 @@
 // contacts.
 #include <vector>
 
-#include "contact/contact_book.hpp"
+#include "contact/instant.hpp"
 #include "contact/outlook.hpp"
 #include "input/input_check.hpp"
 #include "lab/detector/checked_detector.hpp"
@@ -41,8 +41,8 @@ class FixedStep final : public Detector {
   }
 
   Result<void> remove(std::uint32_t number) override {
-    book_.depart(
-        number, time_, [this](std::uint32_t body) { return sphere(body); }, definition_.box);
+    instant_.depart(
+        book_, number, time_, [this](std::uint32_t body) { return sphere(body); }, definition_.box);
     bodies_[number].present = false;
     if (search_ == FixedStepSearch::grid) grid_.remove(number);
     return {};
@@ -92,15 +92,15 @@ class FixedStep final : public Detector {
   }
 
   void move_on_to(double time) {
-    if (time > time_) book_.start_instant();
+    if (time > time_) instant_.start();
     time_ = time;
   }
 
   std::optional<Event> deliver() {
-    std::optional<Event> event =
-        book_.deliver([this](BodyId id) { return bodies_[id.index].present; },
-                      [this](std::uint32_t number) { return sphere(number); }, definition_.box);
-    book_.changed().clear();
+    std::optional<Event> event = instant_.deliver(
+        book_, [this](BodyId id) { return bodies_[id.index].present; },
+        [this](std::uint32_t number) { return sphere(number); }, definition_.box);
+    instant_.changed().clear();
     if (!event) return event;
     ++counters_.events[static_cast<std::size_t>(event->kind)];
     if (event->repeated) ++counters_.repeated_contacts;
@@ -170,13 +170,14 @@ class FixedStep final : public Detector {
   void judge(Event event, bool touching, double error) {
     const auto change = book_.rule().decide(touching, event.gap, event.approach_speed, error);
     if (change == ContactRule::Change::none) return;
-    if (change == ContactRule::Change::release) return book_.release(event);
+    if (change == ContactRule::Change::release) return book_.set_touching(event, false);
     event.kind = kind_of(change, false, event.wall);
-    book_.announce(event);
+    instant_.announce(event);
   }
 
   WorldDefinition definition_;
   ContactBook book_;
+  Instant instant_;
   const Motion& motion_;
   double step_;
   FixedStepSearch search_;

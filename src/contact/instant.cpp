@@ -1,0 +1,67 @@
+#include "contact/instant.hpp"
+
+#include <algorithm>
+
+namespace kinesphere {
+
+void Instant::end(ContactBook& book, const Event& contact) {
+  book.set_touching(contact, false);
+  // An end that had come by itself has not taken effect yet.
+  pending_.erase(contact);
+  if (is_of_sensor(contact.kind) || !book.rule().impacts_only()) ended_.insert(contact);
+}
+
+void Instant::announce(const Event& event) {
+  // A caller who kicks at a Zeno guard must not get the same one again at the same instant, for ever.
+  if (!guards_told_.contains(event)) pending_.insert(event);
+}
+
+/// Changes the contact's state and brings the event up to date with kicks of this instant. False when it does
+/// not hold any more.
+bool Instant::take_effect(ContactBook& book, Event& event, const Sphere& first, const Sphere& second,
+                          const std::optional<Box>& box) {
+  if (event.kind == EventKind::zeno_guard) guards_told_.insert(event);
+  if (event.kind == EventKind::zeno_guard || event.kind == EventKind::bound_violation) return true;
+  const bool begins_now = begins(event.kind);
+  book.describe_now(event, first, second, box);
+  if (begins_now && !book.still_begins(event, first, second)) return false;
+  if (begins_now && !is_of_sensor(event.kind)) book.note_contact(event);
+  book.set_touching(event, begins_now);
+  changed_.emplace_back(first.id.index, second.id.index);
+  return true;
+}
+
+bool Instant::is_sound(std::size_t bodies, double time, const std::optional<Box>& box,
+                       const std::function<bool(BodyId)>& is_known) const {
+  const auto event_is_sound = [&](const Event& event) {
+    const bool pair = is_known(event.second) && event.first < event.second && event.wall == Wall::none;
+    const bool wall = event.second == no_body && event.wall != Wall::none &&
+                      static_cast<int>(event.wall) <= wall_count && box && stands(*box, event.wall);
+    if (event.time != time || !is_known(event.first)) return false;
+    if (!(event.senses <= Senses::both)) return false;
+    switch (event.kind) {
+      case EventKind::bound_violation:
+      case EventKind::woken:
+        return event.second == no_body && event.wall == Wall::none;
+      case EventKind::contact_begin:
+      case EventKind::contact_end:
+        return pair;
+      case EventKind::wall_begin:
+      case EventKind::wall_end:
+        return wall;
+      case EventKind::zeno_guard:
+        return pair || wall;
+      case EventKind::sensor_enter:
+      case EventKind::sensor_leave:
+        return pair && event.distance >= 0.0;
+    }
+    return false;
+  };
+  const auto change_is_sound = [&](const auto& pair) { return pair.first < bodies && pair.second < bodies; };
+  return pending_.is_sound() && pending_.all_of(event_is_sound) &&
+         std::all_of(ended_.begin(), ended_.end(), event_is_sound) &&
+         std::all_of(guards_told_.begin(), guards_told_.end(), event_is_sound) &&
+         std::all_of(changed_.begin(), changed_.end(), change_is_sound);
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,19 @@
+// Which of many boxes overlap?
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "kinesphere/bound.hpp"
+#include "space/space.hpp"
+
+namespace kinesphere {
+
+/// All pairs (a, b), a < b, of boxes that may overlap: of two that do, also in another image where space
+/// repeats, the pair is among them, once. `size` is about the size of most boxes (length, > 0). Cost:
+/// linear, if most boxes are not much larger than that and do not overlap many others.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> overlapping_pairs(const std::vector<Box>& boxes,
+                                                                       const Space& space, double size);
+
+}  // namespace kinesphere

@@ -1,0 +1,79 @@
+// What an island knows that runs beside others: which bodies are its own, and what it does to them.
+//
+// Inside a phase, between two instants at which windows start, an island meets nobody else, unless one of its
+// bodies is kicked: that body's new capsule may touch others. While islands run, the capsules in the windows
+// stay as they are, for all; those of kicked bodies are kept here. A body of nobody's that a kicked one may
+// meet in time is claimed: then the island stops, and runs again with it from where the phase began. One that
+// it may meet later is counted on to stay nobody's.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "kinesphere/bound.hpp"
+#include "kinesphere/event.hpp"
+#include "kinesphere/run.hpp"
+#include "window/windows.hpp"
+
+namespace kinesphere {
+
+/// Whose a body is, and how often it has been kicked.
+struct Sea {
+  static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t none = nobody;
+
+  struct Place {
+    std::uint32_t island = nobody;
+    std::uint32_t kick = none;  ///< the last one, among those of its island
+  };
+  std::vector<Place> places;  ///< by body; an island changes those of its own
+  double phase_end = 0.0;
+  double stop = 0.0;   ///< islands go up to here,
+  double until = 0.0;  ///< and no further than this
+
+  bool comes(double time) const { return time < stop && time <= until; }
+};
+
+/// A capsule that a body has from `time` on, in its new window.
+struct BodyKick {
+  std::uint32_t number;
+  double time;
+  Window window;
+  Bound bound;
+  Vec3 middle;  ///< where space repeats
+};
+
+struct Beside {
+  /// More would take too long to go through.
+  static constexpr std::size_t most_kicks = 512;
+
+  Sea* sea = nullptr;
+  std::uint32_t own = Sea::nobody;
+  std::vector<BodyKick> kicks;        ///< in the order of their times
+  std::vector<std::uint32_t> claims;  ///< whom else it needs
+  /// Nobody's, with whom it has pairs that are due later: nobody may move them.
+  std::vector<std::uint32_t> counted_on;
+  std::vector<std::pair<BodyId, Departure>> turned;  ///< from where they had set out before
+
+  bool is_own(std::uint32_t number) const { return sea->places[number].island == own; }
+  void add(const BodyKick& kick) {
+    sea->places[kick.number].kick = static_cast<std::uint32_t>(kicks.size());
+    kicks.push_back(kick);
+  }
+  /// Of one of its own.
+  bool is_last(std::uint32_t place) const { return sea->places[kicks[place].number].kick == place; }
+  const BodyKick* last_kick(std::uint32_t number) const {
+    const Sea::Place& place = sea->places[number];
+    return place.island == own && place.kick != Sea::none ? &kicks[place.kick] : nullptr;
+  }
+};
+
+/// An event, and in which round of its instant it came.
+struct Told {
+  std::uint32_t round;
+  Event event;
+};
+
+}  // namespace kinesphere

@@ -1,0 +1,80 @@
+// Lists of partners, mirrored into plain ones.
+#include "contact/partner_list.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "archive/archive.hpp"
+#include "archive/heap_counter.hpp"
+#include "kinesphere/random.hpp"
+
+namespace kinesphere {
+namespace {
+
+using Numbers = std::vector<std::uint32_t>;
+
+Numbers content(const PartnerList& list) { return {list.all().begin(), list.all().end()}; }
+
+/// Side by side with a plain list.
+struct Mirrored {
+  PartnerList list;
+  Numbers plain;
+
+  void change(Random& random) {
+    const auto value = static_cast<std::uint32_t>(random.bits() % 9);
+    if (random.bits() % 40 == 0) {
+      list.clear();
+      plain.clear();
+    } else if (random.bits() % 5 < 2) {
+      list.erase(value);
+      std::erase(plain, value);
+    } else {
+      list.add(value);
+      plain.push_back(value);
+    }
+  }
+};
+
+TEST(PartnerList, IsInTheOrderOfAddition) {
+  Random random(1);
+  Mirrored pair;
+  for (int step = 0; step < 5000; ++step) {
+    pair.change(random);
+    ASSERT_EQ(content(pair.list), pair.plain) << "step " << step;
+  }
+}
+
+TEST(PartnerList, IsCopiedMovedAndReadBack) {
+  Random random(2);
+  Mirrored pair;
+  for (int step = 0; step < 500; ++step) {
+    for (int change = 0; change < 5; ++change) pair.change(random);
+    PartnerList copy = pair.list;
+    ASSERT_EQ(content(copy), pair.plain);
+    const PartnerList moved = std::move(copy);
+    ASSERT_EQ(content(moved), pair.plain);
+    copy = moved;
+    copy.add(77);
+    ASSERT_EQ(content(moved), pair.plain) << "a copy is independent";
+    ByteWriter writer;
+    writer(pair.list);
+    PartnerList read;
+    read.add(5);
+    ByteReader reader(writer.bytes());
+    reader(read);
+    ASSERT_EQ(content(read), pair.plain);
+  }
+}
+
+TEST(PartnerList, NeedsMemoryForMoreThanTwo) {
+  PartnerList list;
+  list.add(1);
+  list.add(2);
+  EXPECT_EQ(heap_bytes(list), 0u);
+  list.add(3);
+  EXPECT_GT(heap_bytes(list), 0u);
+}
+
+}  // namespace
+}  // namespace kinesphere
