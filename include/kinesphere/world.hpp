@@ -99,9 +99,9 @@ class Workers;
 ///   - a world that has been moved from answers every call with moved_from, or throws BadResult where a call
 ///     returns no Result.
 ///
-/// Threads. One thread at a time may use a world; const calls may run at the same time as other const calls
-/// of the same world, as long as its pair filter may be called so. Different worlds, clones too, are
-/// independent.
+/// Threads. One thread at a time may use a world, which may have the help of others in run(); const calls may
+/// run at the same time as other const calls of the same world, as long as its pair filter may be called so.
+/// Different worlds, clones too, are independent.
 ///
 /// Lifetimes. References that a world gives out (definition(), counters(), sensor()) are good as long as the
 /// world lives and is not assigned to; what they refer to changes as the world goes on. sensor() is good

@@ -98,7 +98,10 @@ std::uint32_t Windows::layer_for(const Window& window, int level) {
   for (std::uint32_t k = 0; k < layers_.size(); ++k) {
     const Member& member = layers_[k];
     if (member.tier == window.tier && member.level == level && member.end == window.end) return k;
-    if (member.end == -infinity && free == none) free = k;
+    // One that is over, though others go on, is of no use to anybody.
+    const bool over = member.layer.size() == 0 && window.end < infinity &&
+                      member.end <= window.end - power_of_two(window.tier);
+    if ((member.end == -infinity || over) && free == none) free = k;
   }
   if (free == none) {
     free = static_cast<std::uint32_t>(layers_.size());
@@ -513,7 +516,8 @@ bool Windows::is_sound(std::size_t bodies) const {
                                      ? member.end == infinity
                                      : std::abs(member.tier) <= longest_tier && std::isfinite(member.end);
            return member.layer.is_sound() && member.grain.is_sound() &&
-                  (possible || member.layer.size() == 0) && std::abs(member.level) <= largest_level;
+                  ((possible && member.has_frame) || member.layer.size() == 0) &&
+                  std::abs(member.level) <= largest_level;
          });
 }
 

@@ -74,6 +74,8 @@ class World::Engine::Audit {
     if (const auto wrong = engine_.windows().check(number)) find("registration", name(number) + " " + *wrong);
     const double end = engine_.windows().end_of(number);
     if (end < now_) find("queue", name(number) + " is in a window that has ended" + times(now_, end));
+    if (end < engine_.everybody().phase_end() && hot_.of(number, HotPair::renewal) > end)
+      find("queue", name(number) + " is in a window that is not renewed when it ends");
     if (b.is_resting() && !(b.is_at_rest() && b.bound.velocity == Vec3{} && b.largest_acceleration() == 0.0))
       find("registration", name(number) + " rests, but its bound does not stand still");
     if (b.is_fixed()) return check_fixed(number, end);

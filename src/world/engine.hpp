@@ -128,6 +128,7 @@ class World::Engine {
   static void transfer(Self& self, Archive& archive);
   const char* contradiction() const;
   bool agenda_is_sound() const;
+  bool renewals_are_sound() const;
   bool contacts_of_fixed_are_sound() const;
 
   Tables tables_;

@@ -183,7 +183,8 @@ class Island {
   Result<void> settle_dirty();
   void settle(std::span<const std::uint32_t> numbers);
   Result<void> renew(std::uint32_t number);
-  void enter(std::uint32_t number);
+  void search(std::span<const std::uint32_t> numbers);
+  void enter(std::uint32_t number, const Window& window);
   std::span<const std::uint32_t> near(std::uint32_t number);
   Window window_for(std::uint32_t number) const;
   std::optional<Window> registered_window(std::uint32_t number) const;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "number/infinity.hpp"
+#include "number/powers.hpp"
 #include "world/island.hpp"
 
 namespace kinesphere {
@@ -28,7 +29,8 @@ Window Island::window_for(std::uint32_t number) const {
   const Window window = window_to_start(number);
   const auto now = registered_window(number);
   if (!now || body.arrived) return window;
-  const bool suits = now->tier >= window.tier - 2 * Tempo::powers_between_tiers && now->end <= window.end;
+  const bool suits = now->tier >= window.tier - 2 * Tempo::powers_between_tiers && now->end <= window.end &&
+                     (now->tier <= window.tier || !bodies().space().repeats());
   return suits && time_ < now->end ? *now : window;
 }
 
@@ -36,8 +38,8 @@ Window Island::window_for(std::uint32_t number) const {
 Window Island::window_to_start(std::uint32_t number) const {
   Window window = Windows::window_at(time_, tables_->tempo.tier_for(bodies().pace_of(number, time_)));
   if (!bodies().space().repeats()) return window;
-  while (window.end - time_ >
-         bodies().longest_in_period(number, time_, window.end - time_, book().rule().release_gap())) {
+  const auto length = [&window] { return power_of_two(window.tier); };
+  while (length() > bodies().longest_in_period(number, time_, length(), book().rule().release_gap())) {
     const Window shorter = Windows::window_at(time_, window.tier - 1);
     if (shorter.tier == window.tier) break;
     window = shorter;
@@ -88,8 +90,13 @@ Result<void> Island::settle_dirty() {
 }
 
 void Island::settle(std::span<const std::uint32_t> numbers) {
+  for (const std::uint32_t number : numbers) enter(number, window_for(number));
+  search(numbers);
+}
+
+/// Of bodies that have a new capsule.
+void Island::search(std::span<const std::uint32_t> numbers) {
   counters_.restarts += numbers.size();
-  for (const std::uint32_t number : numbers) enter(number);
   if (!beside_) tables_->windows.tidy();
   found_.hot.clear();
   for (const std::uint32_t number : numbers) {
@@ -113,7 +120,13 @@ Result<void> Island::renew(std::uint32_t number) {
   if (needs_report(number)) {
     if (auto probed = probe(std::span(&number, 1)); !probed) return probed;
   }
-  if (!bodies()[number].dirty) settle(std::span(&number, 1));
+  if (bodies()[number].dirty) return {};
+  // Nothing has happened to it for a while: the next one may be longer, so that there are not many.
+  Window window = window_to_start(number);
+  if (const auto ended = registered_window(number); ended && !bodies().space().repeats())
+    window = Windows::window_at(time_, std::max(window.tier, ended->tier + 1));
+  enter(number, window);
+  search(std::span(&number, 1));
   return {};
 }
 
@@ -126,9 +139,8 @@ void Island::take(Found& found) {
 
 /// The body gets a capsule from now on. That it was kicked does not end the phase, so its window may end
 /// before.
-void Island::enter(std::uint32_t number) {
+void Island::enter(std::uint32_t number, const Window& window) {
   const Body& body = bodies()[number];
-  const Window window = window_for(number);
   if (bodies().space().repeats())
     bodies().bring_home(number, time_, window.end < infinity ? window.end - time_ : 0.0);
   if (body.arrived) {

@@ -89,7 +89,7 @@ const char* World::Engine::contradiction() const {
       !contacts_of_fixed_are_sound())
     return "contacts";
   if (!windows().is_sound(bodies().numbers()) || !tables_.tempo.is_sound()) return "windows";
-  if (!agenda_is_sound()) return "agenda";
+  if (!agenda_is_sound() || !renewals_are_sound()) return "agenda";
   for (std::uint32_t number = 0; number < bodies().numbers(); ++number) {
     const bool takes_part = bodies()[number].present();
     const bool registered = windows().contains(number);
@@ -116,6 +116,19 @@ bool World::Engine::agenda_is_sound() const {
            !(bodies()[pair.first].is_fixed() && bodies()[pair.second].is_fixed());
   };
   return std::all_of(read_pairs_.begin(), read_pairs_.end(), is_sound);
+}
+
+/// A body whose window ends within the phase has a renewal by then.
+bool World::Engine::renewals_are_sound() const {
+  std::vector<bool> is_renewed(bodies().numbers(), false);
+  for (const HotPair& pair : read_pairs_)
+    if (pair.second == HotPair::renewal && pair.time <= windows().end_of(pair.first))
+      is_renewed[pair.first] = true;
+  for (std::uint32_t number = 0; number < bodies().numbers(); ++number)
+    if (windows().contains(number) && !bodies()[number].dirty && !is_renewed[number] &&
+        windows().end_of(number) < everybody_.phase_end())
+      return false;
+  return true;
 }
 
 /// Fixed bodies touch neither each other nor walls, and are not about to.
