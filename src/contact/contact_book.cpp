@@ -74,7 +74,8 @@ void ContactBook::start_side_by_side(bool with_sensors) {
 
 ContactBook::Kept ContactBook::keep(std::uint32_t body) const {
   const Crossings::List crossed = crossings_of(body);
-  return {entries_[body], body < partners_.size() ? partners_[body] : PartnerList(),
+  return {entries_[body],
+          body < partners_.size() ? partners_[body] : PartnerList(),
           {crossed.begin(), crossed.end()}};
 }
 

@@ -72,8 +72,8 @@ class Windows {
   /// Registers a body in a window from `now` on, perhaps anew.
   void enter(std::uint32_t number, const RoomyBound& bound, double now, const Window& window);
   void leave(std::uint32_t number);
-  /// The bodies other than `number` whose registered capsule may touch that which it would have from now until
-  /// `end`, before their windows end. Good until the next search with this scratch.
+  /// The bodies other than `number` whose registered capsule may touch that which it would have from now
+  /// until `end`, before their windows end. Good until the next search with this scratch.
   std::span<const std::uint32_t> near(std::uint32_t number, const RoomyBound& bound, double now, double end,
                                       Scratch& scratch) const;
 

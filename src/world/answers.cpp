@@ -134,8 +134,7 @@ Onset World::Engine::Answers::of_body(std::uint32_t number) const {
   consider_walls(number, hot, first);
   // Those that are near leave little to compute of the others.
   for (const HotPair& pair : hot.pairs())
-    if (pair.has_second())
-      consider(number, pair.first == number ? pair.second : pair.first, hot, first);
+    if (pair.has_second()) consider(number, pair.first == number ? pair.second : pair.first, hot, first);
   for (std::uint32_t other = 0; other < engine_.bodies().numbers(); ++other)
     if (other != number && body(other).present()) consider(number, other, hot, first);
   return first;

@@ -172,6 +172,14 @@ class Island {
   Window window_to_start(std::uint32_t number) const;
   bool needs_report(std::uint32_t number) const;
 
+  /// What a snapshot holds of it: the agenda comes apart.
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    archive(self.instant_, self.time_, self.phase_end_, self.dirty_, self.gathering_, self.counters_,
+            self.kicks_);
+  }
+  std::size_t bytes() const;
+
  private:
   class StillDue;
   Bodies& bodies() { return tables_->bodies; }
@@ -243,15 +251,6 @@ class Island {
   std::vector<State> probe_states_;
   std::vector<std::uint32_t> round_;
   Found found_;
-
- public:
-  /// What a snapshot holds of it: the agenda comes apart.
-  template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
-    archive(self.instant_, self.time_, self.phase_end_, self.dirty_, self.gathering_, self.counters_,
-            self.kicks_);
-  }
-  std::size_t bytes() const;
 };
 
 template <class Visit>
