@@ -95,7 +95,7 @@ class World::Engine {
   /// The first of new bodies that certainly overlaps one before it, and may touch it: as the second of a
   /// pair, beside the first that it overlaps. Cost: a search for each.
   std::optional<std::pair<std::size_t, std::size_t>> first_overlap(
-      std::span<const BodyDefinition> bodies) const;
+      std::span<const BodyDefinition> added) const;
   /// Where a body with this definition would be now.
   Bound bound_now(const BodyDefinition& body) const;
   /// The body's bound, if its radius and errors were those of `changed`.

@@ -203,8 +203,9 @@ void Islands::take_back(Group& group) {
     tables_.book.put_back(kept.number, kept.contacts);
     sea_.places[kept.number].kick = Sea::none;
   }
-  for (auto at = group.turned.rbegin(); at != group.turned.rend(); ++at)
-    answerer_->depart(at->first, at->second);
+  // A body that turned several times set out from where it did before the first.
+  std::reverse(group.turned.begin(), group.turned.end());
+  for (const auto& [body, departure] : group.turned) answerer_->depart(body, departure);
   group.turned.clear();
   group.attempted = false;
 }
