@@ -1,8 +1,10 @@
 // World::run by several threads: the same events as a loop over advance(), to the last bit.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -140,6 +142,57 @@ TEST_P(Islands, AreAsOneLoop) {
     EXPECT_EQ(run.world.counters().probes, looped.world.counters().probes) << threads << " threads";
     EXPECT_TRUE(is_clean(run.world)) << threads << " threads";
   }
+}
+
+/// Throws at the events from a time on, until it is told not to.
+TEST(IslandsThatFail, LeaveAWorldThatGoesOnAsIfNothingHadHappened) {
+  const Kind kind{.name = "failing", .sensors = true, .fixed = true};
+  Hall looped(kind);
+  looped.loop();
+  Workers workers = Workers::create(3).value();
+  Hall run(kind);
+  MotionMover mover(run.motion);
+  std::atomic<double> fails_from = 1.0;
+  const auto respond = [&](const Event& event) {
+    if (event.time >= fails_from) throw std::runtime_error("no answer");
+    return run.answer(event);
+  };
+  const auto sink = [&](const Event& event) { run.tell(event); };
+  for (const double next : {1.5, 2.2, std::numeric_limits<double>::infinity()}) {
+    EXPECT_THROW((void)run.world.run(kind.end, mover, respond, sink, &workers), std::runtime_error);
+    EXPECT_LE(run.last, fails_from);
+    fails_from = next;
+  }
+  EXPECT_TRUE(run.world.run(kind.end, mover, respond, sink, &workers));
+  EXPECT_EQ(run.told, looped.told);
+  EXPECT_EQ(run.hash.value(), looped.hash.value());
+  EXPECT_TRUE(is_clean(run.world));
+}
+
+/// An answer that is refused once is asked for again.
+TEST(IslandsThatFail, GoOnWhenTheyFailNoMore) {
+  const Kind kind{.name = "failing once"};
+  Hall looped(kind);
+  looped.loop();
+  Workers workers = Workers::create(2).value();
+  Hall run(kind);
+  MotionMover mover(run.motion);
+  std::atomic<int> asked = 0;
+  const auto respond = [&](const Event& event) {
+    Answer answer = run.answer(event);
+    if (++asked % 400 == 0) answer.first_velocity = Vec3{0.0, std::numeric_limits<double>::quiet_NaN(), 0.0};
+    return answer;
+  };
+  const auto sink = [&](const Event& event) { run.tell(event); };
+  int refused = 0;
+  for (;;) {
+    const auto result = run.world.run(kind.end, mover, respond, sink, &workers);
+    if (result) break;
+    EXPECT_EQ(result.error().code, ErrorCode::not_finite);
+    ASSERT_LT(++refused, 100);
+  }
+  EXPECT_EQ(run.told, looped.told);
+  EXPECT_EQ(run.hash.value(), looped.hash.value());
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Islands,
