@@ -72,7 +72,8 @@ bool Layer::replace(std::uint32_t place, const Capsule& capsule, float from) {
   if (place < sorted_) {
     const auto after = std::upper_bound(starts_.begin(), starts_.end(), place);
     const auto cell = static_cast<std::uint32_t>(after - starts_.begin() - 1);
-    const float out = overhang(cell, corners_of(capsule, from, 1.0f));
+    const Corners corners = corners_of(capsule, from, 1.0f);
+    const float out = overhang(nearest_image(cell, grid_.cell_around(corners)), corners);
     if (!(out <= grid_.edge[1])) return false;
     reach_ = std::max(reach_, out);
   }
@@ -131,13 +132,11 @@ Layer::Cell Layer::Grid::cell_around(const Corners& corners) const {
   return cell;
 }
 
-std::uint32_t Layer::Grid::index_of(const Corners& corners) const {
+std::uint32_t Layer::Grid::index_of(const Cell& cell) const {
   std::uint32_t index = 0;
-  for (std::size_t axis = 3; axis-- > 0;) {
-    const std::int32_t cell =
-        wrapped(cell_of(0.5f * (corners.lower[axis] + corners.upper[axis]), axis), axis);
-    index = index * static_cast<std::uint32_t>(count[axis]) + static_cast<std::uint32_t>(cell);
-  }
+  for (std::size_t axis = 3; axis-- > 0;)
+    index = index * static_cast<std::uint32_t>(count[axis]) +
+            static_cast<std::uint32_t>(wrapped(cell[axis], axis));
   return index;
 }
 
@@ -162,18 +161,25 @@ bool Layer::Grid::is_sound() const {
   return true;
 }
 
-/// How far corners reach out of a cell, or of one that shares its capsules; a little more, as what is added
-/// to it or taken from it may be lost in rounding.
-float Layer::overhang(std::uint32_t cell, const Corners& corners) const {
-  const Cell wrapped = grid_.cell_at(cell);
-  float most = 0.0f;
+/// The one of the cells that share capsules with this one which is nearest to another.
+Layer::Cell Layer::nearest_image(std::uint32_t cell, const Cell& of) const {
+  Cell image = grid_.cell_at(cell);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::int32_t count = grid_.count[axis];
-    const std::int32_t middle = grid_.cell_of(0.5f * (corners.lower[axis] + corners.upper[axis]), axis);
-    std::int32_t way = wrapped[axis] - grid_.wrapped(middle, axis);
+    std::int32_t way = image[axis] - grid_.wrapped(of[axis], axis);
     if (2 * way > count) way -= count;
     if (2 * way < -count) way += count;
-    const auto here = static_cast<float>(middle + way);
+    image[axis] = of[axis] + way;
+  }
+  return image;
+}
+
+/// How far corners reach out of a cell; a little more, as what is added to it or taken from it may be lost in
+/// rounding.
+float Layer::overhang(const Cell& cell, const Corners& corners) const {
+  float most = 0.0f;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto here = static_cast<float>(cell[axis]);
     const float below = here * grid_.edge[axis] - corners.lower[axis];
     const float above = corners.upper[axis] - (here + 1.0f) * grid_.edge[axis];
     // What is not a number reaches everywhere.
@@ -187,30 +193,45 @@ Layer::Corners Layer::corners_at(std::uint32_t place) const {
   return corners_of(capsule_at(place), 0.0f, 1.0f);
 }
 
-/// Where the middles of all capsules are, and how wide the widest is.
+/// Where the middles of all capsules are, and how wide the widest is; but for those that are too large for
+/// whole numbers of cells.
 struct Layer::Spread {
-  Point lower;
-  Point upper;
-  float widest;
-  float extent;  ///< of the box around the middles, but no less than the widest
-};
+  Point lower{most_cells, most_cells, most_cells};
+  Point upper{-most_cells, -most_cells, -most_cells};
+  float widest = 0.0f;
+  float extent = 0.0f;   ///< of the box around the middles, but no less than the widest
+  float largest = 0.0f;  ///< the widest without that limit
 
-Layer::Spread Layer::spread() const {
-  Spread spread{.widest = 0.0f, .extent = 0.0f};
-  spread.lower.fill(most_cells);
-  spread.upper.fill(-most_cells);
-  for (std::uint32_t place = 0; place < numbers_.size(); ++place) {
-    if (numbers_[place] == nobody) continue;
-    const Corners corners = corners_at(place);
+  void add(const Corners& corners) {
+    largest = std::max(largest, width_of(corners));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const float middle = 0.5f * (corners.lower[axis] + corners.upper[axis]);
       if (!(std::abs(middle) < most_cells)) continue;
-      spread.lower[axis] = std::min(spread.lower[axis], middle);
-      spread.upper[axis] = std::max(spread.upper[axis], middle);
+      lower[axis] = std::min(lower[axis], middle);
+      upper[axis] = std::max(upper[axis], middle);
       const float width = corners.upper[axis] - corners.lower[axis];
-      if (width < most_cells) spread.widest = std::max(spread.widest, width);
+      if (width < most_cells) widest = std::max(widest, width);
     }
   }
+  void add(const Spread& more) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lower[axis] = std::min(lower[axis], more.lower[axis]);
+      upper[axis] = std::max(upper[axis], more.upper[axis]);
+    }
+    widest = std::max(widest, more.widest);
+    largest = std::max(largest, more.largest);
+  }
+};
+
+Layer::Spread Layer::spread_of(const Unsorted& all, Shift& shift) {
+  std::vector<Spread> spreads(shift.count());
+  shift.for_each(all.capsules.size(), many, [&](std::size_t begin, std::size_t end, std::size_t worker) {
+    Spread spread;
+    for (std::size_t k = begin; k < end; ++k) spread.add(corners_of(all.capsules[k], 0.0f, 1.0f));
+    spreads[worker].add(spread);
+  });
+  Spread spread;
+  for (const Spread& one : spreads) spread.add(one);
   spread.extent = spread.widest;
   for (std::size_t axis = 0; axis < 3; ++axis)
     spread.extent = std::max(spread.extent, spread.upper[axis] - spread.lower[axis]);
@@ -219,12 +240,12 @@ Layer::Spread Layer::spread() const {
 
 /// Cells as wide as the largest capsule, times the coarseness, over the box that holds all centres; fewer,
 /// which then stand for several places each, if there would be more cells than capsules.
-void Layer::choose_grid(const Spread& spread) {
-  const auto& [lower, upper, widest, extent] = spread;
-  const float edge = std::max(size() > few ? coarseness_ * widest : 4.0f * extent, 0x1p-20f);
+void Layer::choose_grid(const Spread& spread, std::size_t size) {
+  const Point& lower = spread.lower;
+  const float edge = std::max(size > few ? coarseness_ * spread.widest : 4.0f * spread.extent, 0x1p-20f);
   grid_.edge = {edge / Grid::slices, edge, edge};
   for (std::size_t axis = 0; axis < 3; ++axis) grid_.per_edge[axis] = 1.0f / grid_.edge[axis];
-  if (size() <= few) {
+  if (size <= few) {
     grid_.first = {};
     grid_.count = {1, 1, 1};
     return;
@@ -232,11 +253,11 @@ void Layer::choose_grid(const Spread& spread) {
   std::size_t cells = 1;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     grid_.first[axis] = grid_.cell_of(lower[axis], axis);
-    const std::int32_t last = grid_.cell_of(std::max(lower[axis], upper[axis]), axis);
+    const std::int32_t last = grid_.cell_of(std::max(lower[axis], spread.upper[axis]), axis);
     grid_.count[axis] = std::min(last - grid_.first[axis] + 1, 1 << 20);
     cells *= static_cast<std::size_t>(grid_.count[axis]);
   }
-  while (cells > 8 * numbers_.size()) {
+  while (cells > 8 * size) {
     std::int32_t& most = *std::max_element(grid_.count.begin(), grid_.count.end());
     cells /= static_cast<std::size_t>(most);
     most = (most + 1) / 2;
@@ -244,13 +265,13 @@ void Layer::choose_grid(const Spread& spread) {
   }
 }
 
-/// Of cells that have been counted: starts_[cell + 1] has how many are in it.
+/// Of cells that have been counted: starts_[cell] has how many are in it.
 std::uint32_t Layer::filled_cubes() const {
   std::uint32_t filled = 0;
   const auto along = static_cast<std::size_t>(grid_.count[0]);
   for (std::size_t row = 0; row + 1 < starts_.size(); row += along)
     for (std::size_t first = 0; first < along; first += Grid::slices) {
-      const auto begin = starts_.begin() + static_cast<std::ptrdiff_t>(row + first + 1);
+      const auto begin = starts_.begin() + static_cast<std::ptrdiff_t>(row + first);
       const auto end =
           begin + static_cast<std::ptrdiff_t>(std::min<std::size_t>(Grid::slices, along - first));
       filled += std::any_of(begin, end, [](std::uint32_t count) { return count > 0; }) ? 1 : 0;
@@ -292,60 +313,72 @@ double Layer::density(bool flat) const {
   return sorted_ / (filled_ * (flat ? edge * edge : edge * edge * edge));
 }
 
-/// Counts how many are in each cell, starts_[cell + 1], tells in which cell each is, and finds out how far
-/// they stick out of them.
-void Layer::count_by_cells(std::vector<std::uint32_t>& cells) {
+/// Counts how many are in each cell, starts_[cell], tells in which cell each is, and finds out how far they
+/// stick out of them.
+void Layer::count_by_cells(const Unsorted& all, std::vector<std::uint32_t>& cells, Shift& shift) {
+  std::vector<float> reaches(shift.count());
+  shift.for_each(all.capsules.size(), many, [&](std::size_t begin, std::size_t end, std::size_t worker) {
+    float reach = 0.0f;
+    for (std::size_t k = begin; k < end; ++k) {
+      const Corners corners = corners_of(all.capsules[k], 0.0f, 1.0f);
+      const Cell cell = grid_.cell_around(corners);
+      cells[k] = grid_.index_of(cell);
+      reach = std::max(reach, overhang(cell, corners));
+    }
+    reaches[worker] = std::max(reaches[worker], reach);
+  });
+  reach_ = *std::max_element(reaches.begin(), reaches.end());
   starts_.assign(cell_count() + 1, 0);
-  reach_ = 0.0f;
-  for (std::uint32_t place = 0; place < numbers_.size(); ++place) {
-    if (numbers_[place] == nobody) continue;
-    const Corners corners = corners_at(place);
-    const std::uint32_t cell = grid_.index_of(corners);
-    cells[place] = cell;
-    ++starts_[cell + 1];
-    reach_ = std::max(reach_, overhang(cell, corners));
-  }
+  for (const std::uint32_t cell : cells) ++starts_[cell];
 }
 
-void Layer::sort_places() {
-  const auto count = static_cast<std::uint32_t>(numbers_.size());
+Layer::Unsorted Layer::without_holes() const {
+  Unsorted all(size());
+  std::size_t next = 0;
+  for (std::uint32_t place = 0; place < numbers_.size(); ++place) {
+    if (numbers_[place] == nobody) continue;
+    all.numbers[next] = numbers_[place];
+    all.capsules[next++] = capsule_at(place);
+  }
+  return all;
+}
+
+/// Returns how wide the widest is.
+float Layer::arrange(const Unsorted& all, Shift& shift) {
+  const auto count = static_cast<std::uint32_t>(all.numbers.size());
   std::vector<std::uint32_t> cells(count);
-  const Spread all = spread();
+  const Spread spread = spread_of(all, shift);
   // Larger ones would be of no use.
-  const auto is_of_use = [&all](float coarseness) {
-    return coarseness == 1.0f || coarseness * all.widest <= 4.0f * all.extent;
+  const auto is_of_use = [&spread](float coarseness) {
+    return coarseness == 1.0f || coarseness * spread.widest <= 4.0f * spread.extent;
   };
   while (!is_of_use(coarseness_)) coarseness_ *= 0.5f;
   for (;;) {
-    choose_grid(all);
-    count_by_cells(cells);
+    choose_grid(spread, count);
+    count_by_cells(all, cells, shift);
     filled_ = filled_cubes();
-    const bool few_in_cells = cell_count() > 1 && size() < too_few_in_a_cell * filled_;
+    const bool few_in_cells = cell_count() > 1 && count < too_few_in_a_cell * filled_;
     if (!(few_in_cells && coarseness_ < coarsest && is_of_use(2.0f * coarseness_))) break;
     coarseness_ *= 2.0f;
   }
-  if (size() > std::size_t{too_many_in_a_cell} * filled_ && coarseness_ > 1.0f) coarseness_ *= 0.5f;
-  for (std::size_t cell = 1; cell < starts_.size(); ++cell) starts_[cell] += starts_[cell - 1];
+  if (count > std::size_t{too_many_in_a_cell} * filled_ && coarseness_ > 1.0f) coarseness_ *= 0.5f;
 
-  // To its place among those of its cell, in the order in which they stand.
-  std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
-  for (std::uint32_t place = 0; place < count; ++place)
-    if (numbers_[place] != nobody) cells[place] = next[cells[place]]++;
-  const auto kept = static_cast<std::uint32_t>(size());
-  std::vector<float> sorted(kept + capsule_padding);
-  for (std::vector<float>& column : columns_) {
-    for (std::uint32_t place = 0; place < count; ++place)
-      if (numbers_[place] != nobody) sorted[cells[place]] = column[place];
-    column.resize(kept + capsule_padding);
-    std::copy(sorted.begin(), sorted.end(), column.begin());
-  }
-  std::vector<std::uint32_t> numbers(kept);
-  for (std::uint32_t place = 0; place < count; ++place)
-    if (numbers_[place] != nobody) numbers[cells[place]] = numbers_[place];
-  numbers_.assign(numbers.begin(), numbers.end());
-  sorted_ = kept;
-  most_behind_ = least_behind + static_cast<std::uint32_t>(4.0 * std::sqrt(static_cast<double>(kept)));
+  // Each to its place among those of its cell, in the order in which they stand: cells tell of the ends of
+  // their parts first, and of their begins when the last one has been taken from there.
+  for (std::size_t cell = 1; cell < starts_.size(); ++cell) starts_[cell] += starts_[cell - 1];
+  for (std::uint32_t k = count; k-- > 0;) cells[k] = --starts_[cells[k]];
+  for (std::vector<float>& column : columns_) column.resize(count + capsule_padding);
+  numbers_.resize(count);
+  shift.for_each(count, many, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t k = begin; k < end; ++k) {
+      store(cells[k], all.capsules[k]);
+      numbers_[cells[k]] = all.numbers[k];
+    }
+  });
+  sorted_ = count;
+  most_behind_ = least_behind + static_cast<std::uint32_t>(4.0 * std::sqrt(static_cast<double>(count)));
   holes_ = 0;
+  return spread.largest;
 }
 
 /// The rows of cells that may hold a capsule which meets the corners.

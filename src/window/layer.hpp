@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "parallel/crew.hpp"
 #include "window/capsule.hpp"
 #include "window/capsule_search.hpp"
 
@@ -87,11 +88,29 @@ class Layer {
   bool is_untidy() const {
     return numbers_.size() - sorted_ > most_behind_ || holes_ > 64 + numbers_.size() / 2;
   }
+  /// Capsules in no order, each of a body.
+  struct Unsorted {
+    std::vector<std::uint32_t> numbers;
+    std::vector<Capsule> capsules;
+
+    explicit Unsorted(std::size_t size = 0) : numbers(size), capsules(size) {}
+  };
+  /// Makes these all that there are, sorted by cells. They hold from time 0 of the frame until 1.
+  /// moved(number, place) is told of each, by several threads. Cost: linear.
+  template <class Moved>
+  void fill(const Unsorted& all, Shift& shift, Moved moved) {
+    widest_ = arrange(all, shift);
+    shift.for_each(numbers_.size(), many, [&](std::size_t begin, std::size_t end, std::size_t) {
+      for (std::size_t place = begin; place < end; ++place)
+        moved(numbers_[place], static_cast<std::uint32_t>(place));
+    });
+  }
   /// Sorts all by cells, and leaves no holes. Places change: moved(number, place) is told of each. Cost:
   /// linear.
   template <class Moved>
   void sort(Moved moved) {
-    sort_places();
+    Shift alone;
+    arrange(without_holes(), alone);
     for (std::uint32_t place = 0; place < numbers_.size(); ++place) moved(numbers_[place], place);
   }
 
@@ -138,6 +157,8 @@ class Layer {
 
  private:
   static constexpr std::uint32_t least_behind = 64;
+  /// So many are worth the while of a thread.
+  static constexpr std::size_t many = 1024;
   using Point = std::array<float, 3>;
   struct Corners {
     Point lower;
@@ -157,7 +178,7 @@ class Layer {
     std::int32_t cell_of(float coordinate, std::size_t axis) const;
     std::int32_t wrapped(std::int32_t cell, std::size_t axis) const;
     Cell cell_around(const Corners& corners) const;
-    std::uint32_t index_of(const Corners& corners) const;
+    std::uint32_t index_of(const Cell& cell) const;
     Cell cell_at(std::uint32_t index) const;
     bool is_sound() const;
     template <class Self, class Archive>
@@ -173,15 +194,17 @@ class Layer {
   CapsuleColumns columns() const;
   void store(std::uint32_t place, const Capsule& capsule);
   struct Spread;
-  Spread spread() const;
-  void choose_grid(const Spread& spread);
+  static Spread spread_of(const Unsorted& all, Shift& shift);
+  void choose_grid(const Spread& spread, std::size_t size);
   std::size_t cell_count() const {
     return std::size_t(grid_.count[0]) * std::size_t(grid_.count[1]) * std::size_t(grid_.count[2]);
   }
-  void count_by_cells(std::vector<std::uint32_t>& cells);
+  void count_by_cells(const Unsorted& all, std::vector<std::uint32_t>& cells, Shift& shift);
   std::uint32_t filled_cubes() const;
-  void sort_places();
-  float overhang(std::uint32_t cell, const Corners& corners) const;
+  Unsorted without_holes() const;
+  float arrange(const Unsorted& all, Shift& shift);
+  float overhang(const Cell& cell, const Corners& corners) const;
+  Cell nearest_image(std::uint32_t cell, const Cell& of) const;
   void runs_near(const Corners& corners, std::vector<Run>& runs) const;
   std::span<const std::uint32_t> near(const CapsuleQuery& query, Scratch& scratch) const;
 

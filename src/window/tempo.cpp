@@ -11,6 +11,8 @@ namespace {
 
 /// What it costs to start a body, apart from its search, in looks at a capsule.
 constexpr double start_cost = 120.0;
+/// What a hot pair costs in all, in looks at a capsule, with the looks and reports that come of it.
+constexpr double price_of_hot_pair = 240.0;
 /// Another length has to be so much cheaper.
 constexpr double enough_cheaper = 0.9;
 /// A body is much faster than most if it goes so many times as far.
@@ -70,6 +72,17 @@ double Tempo::Starts::times_larger(double factor, int dimensions) const {
   return power(short_side(factor) / short_side(1.0), dimensions - 1) * times_longer(factor);
 }
 
+Tempo::Starts& Tempo::Starts::operator+=(const Starts& more) {
+  bodies += more.bodies;
+  in_main += more.in_main;
+  for (std::size_t k = 0; k < magnitudes.size(); ++k) magnitudes[k] += more.magnitudes[k];
+  widths += more.widths;
+  ways += more.ways;
+  growths += more.growths;
+  cost += more.cost;
+  return *this;
+}
+
 /// Searches go through cubes, in which there are no more than all bodies, and find what lies along a way.
 double Tempo::Starts::units(double factor, int dimensions, double among, double rows) const {
   const auto count = static_cast<double>(bodies);
@@ -108,31 +121,51 @@ double Tempo::fast_rate(double times_longer) const {
 void Tempo::start_main(double now, const Kicks& kicks) {
   if (now > main_start_ && main_.bodies > 0) adapt_main(kicks, (now - main_start_) / length_of(main_tier_));
   main_ = {};
-  magnitudes_.fill(0);
-  main_starts_ = true;
   main_start_ = now;
 }
 
-void Tempo::note_start(const Pace& pace, double width, int tier) {
-  Starts& starts = main_starts_ ? main_ : fast_;
-  if (tier == main_tier_) ++starts.in_main;
-  if (!main_starts_) return fast_.add(width, pace, length_of(tier), longest_way_);
-  main_.add(width, pace, length_of(main_tier_), much_farther * typical_way_);
-  const double way = pace.way(length_of(main_tier_));
-  const int magnitude = way > 0.0 ? exponent_of(way / typical_way_) : -least_magnitude;
-  const int last = static_cast<int>(magnitudes_.size()) - 1;
-  ++magnitudes_[static_cast<std::size_t>(std::clamp(magnitude + least_magnitude, 0, last))];
+void Tempo::Round::note(const Pace& pace, double width, int tier) {
+  if (tier == tempo_->main_tier_) ++starts_.in_main;
+  if (!most_) return starts_.add(width, pace, length_of(tier), tempo_->longest_way_);
+  const double time = length_of(tempo_->main_tier_);
+  starts_.add(width, pace, time, much_farther * tempo_->typical_way_);
+  const double way = pace.way(time);
+  const int magnitude = way > 0.0 ? exponent_of(way / tempo_->typical_way_) : -least_magnitude;
+  const int last = static_cast<int>(starts_.magnitudes.size()) - 1;
+  ++starts_.magnitudes[static_cast<std::size_t>(std::clamp(magnitude + least_magnitude, 0, last))];
 }
 
-void Tempo::finish_start(const SearchCost& cost, std::size_t bodies) {
+void Tempo::finish_start(const Round& round, const SearchCost& cost, std::size_t bodies) {
   bodies_ = bodies;
-  if (main_starts_) {
-    main_.cost = cost;
-  } else {
-    fast_.cost += cost;
-    if (fast_.bodies >= enough_starts) adapt_fast();
+  Starts& starts = round.most_ ? main_ : fast_;
+  starts += round.starts_;
+  starts.cost += cost;
+  if (round.most_) {
+    note_price();
+  } else if (fast_.bodies >= enough_starts) {
+    adapt_fast();
   }
-  main_starts_ = false;
+}
+
+void Tempo::note_price() {
+  const auto count = static_cast<double>(main_.bodies);
+  const double pairs = units_of(0.0, 0.0, static_cast<double>(main_.cost.found), 0.0) +
+                       price_of_hot_pair * static_cast<double>(main_.cost.hot);
+  const double across = (main_.widths + main_.growths) / count;
+  const double along = across + main_.ways / count;
+  price_ = {};
+  if (along < infinity && across > 0.0)
+    price_ = {across, along, static_cast<double>(main_.cost.capsules) / count, pairs / count};
+}
+
+/// As Starts::units() has it.
+double Tempo::cost_of_width(double more) const {
+  const auto& [across, along, capsules, pairs] = price_;
+  if (!(across > 0.0)) return 0.0;
+  const double longer = 1.0 + more / along;
+  const double larger = power(1.0 + more / across, dimensions_ - 1) * longer;
+  const double cost = capsules * (power(longer, dimensions_) - 1.0) + pairs * (larger - 1.0);
+  return std::isnan(cost) ? infinity : cost;
 }
 
 void Tempo::adapt_main(const Kicks& kicks, double windows) {
@@ -149,9 +182,10 @@ void Tempo::adapt_main(const Kicks& kicks, double windows) {
   change = std::clamp(change, -most_powers - main_tier_, most_powers - main_tier_);
   main_tier_ += change;
   // An eighth of the bodies may be faster than most.
-  std::size_t magnitude = magnitudes_.size() - 1;
-  for (std::uint64_t faster = magnitudes_[magnitude]; 8 * faster <= main_.bodies && magnitude > 0;)
-    faster += magnitudes_[--magnitude];
+  const auto& magnitudes = main_.magnitudes;
+  std::size_t magnitude = magnitudes.size() - 1;
+  for (std::uint64_t faster = magnitudes[magnitude]; 8 * faster <= main_.bodies && magnitude > 0;)
+    faster += magnitudes[--magnitude];
   const double way = typical_way_ * power_of_two(static_cast<int>(magnitude) - least_magnitude + change);
   const double before = typical_way_;
   typical_way_ = std::clamp(way, power_of_two(-most_powers), longest_way_);
@@ -180,8 +214,10 @@ bool Tempo::is_sound() const {
   const auto are_sound = [](const Starts& starts) {
     return starts.widths >= 0.0 && starts.ways >= 0.0 && starts.growths >= 0.0;
   };
-  return std::abs(main_tier_) <= most_powers && is_way(typical_way_) && is_way(fast_way_) &&
-         are_sound(main_) && are_sound(fast_) && !main_starts_ && std::isfinite(main_start_);
+  const bool is_price = price_.short_side >= 0.0 && price_.long_side >= price_.short_side &&
+                        price_.capsules >= 0.0 && price_.pairs >= 0.0;
+  return is_price && std::abs(main_tier_) <= most_powers && is_way(typical_way_) && is_way(fast_way_) &&
+         are_sound(main_) && are_sound(fast_) && std::isfinite(main_start_);
 }
 
 }  // namespace kinesphere

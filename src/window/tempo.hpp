@@ -70,19 +70,19 @@ class Tempo {
   /// Few bodies go farther in a main window (length).
   double typical_way() const { return typical_way_; }
 
+  class Round;
   /// Most bodies are going to start. Chooses the length of the main windows, knowing what the searches of
   /// those that started last time have cost, and how many have been kicked since then.
   void start_main(double now, const Kicks& kicks);
-  /// A body starts in a window; `width` is that of its capsule without its way.
-  void note_start(const Pace& pace, double width, int tier);
-  /// All have started, among so many bodies, and their searches have cost this much.
-  void finish_start(const SearchCost& cost, std::size_t bodies);
+  /// All of a round have started, so that there are so many bodies, and their searches have cost this much.
+  void finish_start(const Round& round, const SearchCost& cost, std::size_t bodies);
+  /// What it costs that the capsule of a typical body is so much wider (length), in looks at a capsule.
+  double cost_of_width(double more) const;
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [longest, dimensions, tier, way, fast_way, bodies, main, fast, magnitudes, main_starts, start] =
-        self;
-    archive(tier, way, fast_way, bodies, main, fast, magnitudes, main_starts, start);
+    auto& [longest, dimensions, tier, way, fast_way, bodies, main, fast, start, price] = self;
+    archive(tier, way, fast_way, bodies, main, fast, start, price);
   }
   /// For one that was read.
   bool is_sound() const;
@@ -94,6 +94,8 @@ class Tempo {
   struct Starts {
     std::uint64_t bodies = 0;
     std::uint64_t in_main = 0;  ///< of them, in a main window
+    /// How many went about 2^(k - least_magnitude) times the typical way, or less for k = 0.
+    std::array<std::uint64_t, 64> magnitudes{};
     // Sums of what makes capsules large.
     double widths = 0.0;
     double ways = 0.0;     ///< straight on
@@ -101,6 +103,7 @@ class Tempo {
     SearchCost cost;
 
     void add(double width, const Pace& pace, double time, double most);
+    Starts& operator+=(const Starts& more);
     /// How much more they would be, and in how much more space, if windows were so many times as long.
     double times_longer(double factor) const { return long_side(factor) / long_side(1.0); }
     double times_larger(double factor, int dimensions) const;
@@ -108,8 +111,8 @@ class Tempo {
     double units(double factor, int dimensions, double among, double rows) const;
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
-      auto& [count, most, width, way, growth, searches] = self;
-      archive(count, most, width, way, growth, searches);
+      auto& [count, most, ways_gone, width, way, growth, searches] = self;
+      archive(count, most, ways_gone, width, way, growth, searches);
     }
 
    private:
@@ -117,8 +120,23 @@ class Tempo {
     double long_side(double factor) const { return short_side(factor) + ways * factor; }
   };
 
+  /// What those that started last as most did tell of wider capsules.
+  struct PriceOfWidth {
+    double short_side = 0.0;
+    double long_side = 0.0;
+    double capsules = 0.0;  ///< of each body
+    double pairs = 0.0;     ///< the same: their price, in looks at a capsule
+
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+      auto& [across, along, seen, due] = self;
+      archive(across, along, seen, due);
+    }
+  };
+
   double main_rate(double times_longer, const Kicks& kicks, double windows) const;
   double fast_rate(double times_longer) const;
+  void note_price();
   void adapt_main(const Kicks& kicks, double windows);
   void adapt_fast();
 
@@ -130,10 +148,29 @@ class Tempo {
   std::uint64_t bodies_ = 0;  ///< in all windows
   Starts main_;               ///< when most bodies started
   Starts fast_;               ///< of those that have started between
-  /// How many went about 2^(k - least_magnitude) times the typical way, or less for k = 0.
-  std::array<std::uint64_t, 64> magnitudes_{};
-  bool main_starts_ = false;  ///< most bodies are starting
-  double main_start_ = 0.0;   ///< when they did
+  double main_start_ = 0.0;   ///< when most did
+  PriceOfWidth price_;
+};
+
+/// Bodies that start together, or some of them: rounds may be made side by side, and added up.
+class Tempo::Round {
+ public:
+  /// Needs the tempo to stay as it is. `most`: of all bodies, after start_main().
+  Round(const Tempo& tempo, bool most) : tempo_(&tempo), most_(most) {}
+
+  /// A body starts in a window; `width` is that of its capsule without its way.
+  void note(const Pace& pace, double width, int tier);
+  /// Sums depend on the order in which they are made: always the same one, where results have to be.
+  Round& operator+=(const Round& more) {
+    starts_ += more.starts_;
+    return *this;
+  }
+
+ private:
+  friend class Tempo;
+  const Tempo* tempo_;
+  bool most_;
+  Starts starts_;
 };
 
 }  // namespace kinesphere

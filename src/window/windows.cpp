@@ -27,15 +27,6 @@ double end_of_window(int tier, double now) {
 
 double largest_part(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// By the size of its capsule for the whole window.
-int level_of(const RoomyBound& bound, const Window& window) {
-  const double duration = window.end < infinity ? power_of_two(window.tier) : 0.0;
-  const double width =
-      2.0 * (bound.moved.radius_after(duration) + bound.room) + largest_part(bound.moved.velocity) * duration;
-  const int power = power_below(width, largest_level);
-  return power >= 0 ? power / powers_in_a_level : -((powers_in_a_level - 1 - power) / powers_in_a_level);
-}
-
 /// What the last search of a layer that has just been sorted has cost.
 void note_cost(Windows::Scratch& scratch, std::size_t found) {
   scratch.cost.found += found;
@@ -75,6 +66,15 @@ Box RoomyBound::box_of_way(double duration) const {
     box.upper[axis] = std::max(moved.centre[axis], end[axis]) + half;
   }
   return box;
+}
+
+/// By the size of its capsule for the whole window.
+int Windows::level_of(const RoomyBound& bound, const Window& window) {
+  const double duration = window.end < infinity ? power_of_two(window.tier) : 0.0;
+  const double width =
+      2.0 * (bound.moved.radius_after(duration) + bound.room) + largest_part(bound.moved.velocity) * duration;
+  const int power = power_below(width, largest_level);
+  return power >= 0 ? power / powers_in_a_level : -((powers_in_a_level - 1 - power) / powers_in_a_level);
 }
 
 void Windows::reserve(std::size_t bodies) { registrations_.reserve(bodies); }
@@ -187,7 +187,7 @@ int Windows::level_to_enter(int level) const {
 }
 
 /// Next time bodies will share the layer of the next larger ones if searches there find few of them.
-void Windows::merge_levels() {
+void Windows::merge_levels(const Sizes& sizes) {
   constexpr double few = 48.0;
   constexpr double widths_searched = 2.5;
   double volume = 0.0;
@@ -204,14 +204,14 @@ void Windows::merge_levels() {
   next_merged_.clear();
   std::vector<int> together;
   double density = 0.0;
-  for (auto at = sizes_.begin(); at != sizes_.end(); ++at) {
+  for (auto at = sizes.begin(); at != sizes.end(); ++at) {
     together.push_back(at->first);
     density += static_cast<double>(at->second) / volume;
     const auto next = std::next(at);
     const double width =
-        widths_searched * power_of_two(powers_in_a_level * (next == sizes_.end() ? 0 : next->first) + 2);
+        widths_searched * power_of_two(powers_in_a_level * (next == sizes.end() ? 0 : next->first) + 2);
     const double found = density * (space_.is_flat() ? width * width : width * width * width);
-    if (next != sizes_.end() && found < few) continue;
+    if (next != sizes.end() && found < few) continue;
     for (const int level : together) next_merged_.push_back({level, at->first});
     together.clear();
     density = 0.0;
@@ -369,18 +369,32 @@ bool Windows::is_free(const Window& window) const {
   });
 }
 
-void Windows::start(std::uint32_t number, const RoomyBound& bound, double now, const Window& window) {
-  if (number >= registrations_.size()) registrations_.resize(number + std::size_t{1});
-  const int level = level_of(bound, window);
-  ++sizes_[level];
-  const std::uint32_t layer = layer_for(window, level_to_start(level));
-  if (Member& member = layers_[layer]; !member.fresh) {
-    member.fresh = true;
-    base_ = bound.moved.centre;
-    has_base_ = true;
-    open(member, base_, now);
+/// Gives each its place in what is to become a layer.
+std::vector<Windows::Opening> Windows::choose_layers(std::span<const Starter> starters, Sizes& sizes) {
+  std::vector<Opening> openings;
+  // Most are like the one before.
+  std::size_t at = 0;
+  auto size = sizes.end();
+  for (const auto& [number, level, window] : starters) {
+    if (size == sizes.end() || size->first != level) size = sizes.try_emplace(level).first;
+    ++size->second;
+    const int level_there = level_to_start(level);
+    const auto suits = [&, tier = window.tier](const Opening& opening) {
+      return layers_[opening.layer].tier == tier && layers_[opening.layer].level == level_there;
+    };
+    if (at == openings.size() || !suits(openings[at])) {
+      const auto found = std::find_if(openings.begin(), openings.end(), suits);
+      at = static_cast<std::size_t>(found - openings.begin());
+      if (found == openings.end()) {
+        openings.push_back({layer_for(window, level_there), number, 0});
+        layers_[openings.back().layer].fresh = true;
+      }
+    }
+    if (number >= registrations_.size()) registrations_.resize(number + std::size_t{1});
+    registrations_[number] = {window.end, openings[at].layer,
+                              static_cast<std::uint32_t>(openings[at].bodies++)};
   }
-  add(number, layer, bound, now);
+  return openings;
 }
 
 void Windows::tidy() {
@@ -388,24 +402,32 @@ void Windows::tidy() {
     if (layers_[k].layer.is_untidy()) sort(k);
 }
 
-void Windows::finish_start() {
+/// Of the layers that bodies start in, which are empty, the capsules are given.
+void Windows::finish_start(const std::vector<Layer::Unsorted>& unsorted, Shift& shift) {
   std::size_t layers = 0;
   for (std::uint32_t k = 0; k < layers_.size(); ++k) {
     Member& member = layers_[k];
+    if (member.fresh) {
+      sort_to_start(k, [&] {
+        member.layer.fill(unsorted[k], shift, [&](std::uint32_t number, std::uint32_t place) {
+          registrations_[number].place = place;
+        });
+      });
+    } else if (member.changes > least_changes + member.layer.size() / 2) {
+      sort_to_start(k, [&] { sort(k); });
+    }
     if (member.layer.size() > 0) ++layers;
-    if (member.fresh || member.changes > least_changes + member.layer.size() / 2) sort_to_start(k);
   }
   needs_bounds_ = layers > 1 || space_.repeats();
-  merge_levels();
-  sizes_.clear();
 }
 
 /// What is known of the layer from now on is the same, whatever has been changed in which order.
-void Windows::sort_to_start(std::uint32_t layer) {
+template <class Sort>
+void Windows::sort_to_start(std::uint32_t layer, Sort sort_layer) {
   Member& member = layers_[layer];
   const float before = coarseness_of(member);
   member.layer.set_coarseness(before);
-  sort(layer);
+  sort_layer();
   member.grain = member.layer.grain();
   member.changes = 0;
   const float after = member.layer.coarseness();

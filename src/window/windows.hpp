@@ -86,9 +86,39 @@ class Windows {
   void end_windows(double now, bool all);
   /// Whether bodies may start in a window: others are not in it already.
   bool is_free(const Window& window) const;
-  void start(std::uint32_t number, const RoomyBound& bound, double now, const Window& window);
-  /// All have started.
-  void finish_start();
+  /// A body that starts, in which window, and of what size its capsule is.
+  struct Starter {
+    std::uint32_t number;
+    int level;
+    Window window;
+  };
+  static int level_of(const RoomyBound& bound, const Window& window);
+  /// They start, in windows that are free, in the order in which they are given; bound_of(number) is asked by
+  /// several threads. Ends what end_windows() has begun.
+  template <class BoundOf>
+  void start(std::span<const Starter> starters, double now, BoundOf bound_of, Shift& shift) {
+    std::vector<Layer::Unsorted> unsorted(layers_.size());
+    Sizes sizes;
+    for (const Opening& opening : choose_layers(starters, sizes)) {
+      base_ = bound_of(opening.first).moved.centre;
+      has_base_ = true;
+      open(layers_[opening.layer], base_, now);
+      unsorted.resize(layers_.size());
+      unsorted[opening.layer] = Layer::Unsorted(opening.bodies);
+    }
+    constexpr std::size_t bodies_at_once = 512;
+    shift.for_each(starters.size(), bodies_at_once, [&](std::size_t begin, std::size_t end, std::size_t) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const std::uint32_t number = starters[k].number;
+        const Registration& here = registrations_[number];
+        Layer::Unsorted& all = unsorted[here.layer];
+        all.numbers[here.place] = number;
+        all.capsules[here.place] = layers_[here.layer].capsule(bound_of(number), now);
+      }
+    });
+    finish_start(unsorted, shift);
+    merge_levels(sizes);
+  }
   /// Makes searches fast again, if many have entered or left one by one.
   void tidy();
   /// How many have started since windows ended; the k-th of them.
@@ -132,7 +162,7 @@ class Windows {
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [space, registrations, layers, sizes, merged, next_merged, coarse, base, has_base, next_end,
+    auto& [space, registrations, layers, merged, next_merged, coarse, base, has_base, next_end,
            needs_bounds] = self;
     archive(registrations, layers, merged, next_merged, coarse, base, has_base, next_end, needs_bounds);
   }
@@ -206,14 +236,25 @@ class Windows {
     std::uint32_t layer;
     std::uint32_t place;
   };
+  /// How many bodies are of each level.
+  using Sizes = std::map<int, std::size_t>;
+  /// A layer that so many start in; the first one of them.
+  struct Opening {
+    std::uint32_t layer;
+    std::uint32_t first;
+    std::size_t bodies;
+  };
 
-  void merge_levels();
+  void merge_levels(const Sizes& sizes);
   int level_to_start(int level) const;
   int level_to_enter(int level) const;
   std::uint32_t layer_for(const Window& window, int level);
   void open(Member& member, const Vec3& base, double origin);
   float coarseness_of(const Member& member) const;
-  void sort_to_start(std::uint32_t layer);
+  std::vector<Opening> choose_layers(std::span<const Starter> starters, Sizes& sizes);
+  void finish_start(const std::vector<Layer::Unsorted>& unsorted, Shift& shift);
+  template <class Sort>
+  void sort_to_start(std::uint32_t layer, Sort sort_layer);
   void take_out(std::uint32_t number);
   void add(std::uint32_t number, std::uint32_t layer, const RoomyBound& bound, double now);
   void sort(std::uint32_t layer);
@@ -228,9 +269,8 @@ class Windows {
   Space space_;
   std::vector<Registration> registrations_;
   std::vector<Member> layers_;
-  std::map<int, std::size_t> sizes_;  ///< by level, of those that have started
-  std::vector<Merged> merged_;        ///< levels that few bodies have, into larger ones; by level
-  std::vector<Merged> next_merged_;   ///< the same from the next start on
+  std::vector<Merged> merged_;       ///< levels that few bodies have, into larger ones; by level
+  std::vector<Merged> next_merged_;  ///< the same from the next start on
   std::vector<Coarseness> coarse_;
   Vec3 base_{};  ///< of layers that bodies open by entering
   bool has_base_ = false;

@@ -175,20 +175,22 @@ void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t
   if (first.time <= now_) return;
   const double horizon = first.time;
   Windows windows(engine_.bodies().space());
+  std::vector<Windows::Starter> starters;
   std::vector<std::uint32_t> anywhere;
+  const auto bound_of = [&](std::uint32_t number) { return until_horizon(number, horizon); };
   for (const std::uint32_t number : numbers) {
     const bool fixed = body(number).is_fixed();
     if (fixed || (horizon < infinity &&
                   engine_.bodies().space().is_narrow(swept_box(guarded(number), now_, horizon)))) {
       const Window window = fixed ? Windows::endless() : Window{0, horizon};
-      windows.start(number, until_horizon(number, horizon), now_, window);
+      starters.push_back({number, Windows::level_of(bound_of(number), window), window});
     } else {
       anywhere.push_back(number);
     }
   }
-  windows.finish_start();
+  Shift alone;
+  windows.start(starters, now_, bound_of, alone);
   Windows::Scratch scratch;
-  const auto bound_of = [&](std::uint32_t number) { return until_horizon(number, horizon); };
   for (std::size_t k = 0; k < windows.started(); ++k)
     for (const std::uint32_t other : windows.near_started(k, now_, bound_of, scratch))
       consider(windows.started_number(k), other, hot, first);

@@ -64,9 +64,12 @@ std::optional<std::pair<std::size_t, std::size_t>> World::Engine::first_overlap(
     return RoomyBound{MovedBound(ball, time()), definition().contact_tolerance};
   };
   Windows windows(bodies().space());
+  std::vector<Windows::Starter> starters;
+  starters.reserve(added.size());
   for (std::uint32_t number = 0; number < added.size(); ++number)
-    windows.start(number, ball_of(number), time(), Windows::endless());
-  windows.finish_start();
+    starters.push_back({number, Windows::level_of(ball_of(number), Windows::endless()), Windows::endless()});
+  Shift alone;
+  windows.start(starters, time(), ball_of, alone);
   std::optional<std::pair<std::size_t, std::size_t>> least;
   Windows::Scratch scratch;
   for (std::size_t k = 0; k < windows.started(); ++k) {

@@ -10,8 +10,8 @@
 namespace kinesphere {
 namespace {
 
-/// A bound that has grown by more than this part of a body's way is so large that a report costs less.
-constexpr double largest_growth = 0.25;
+/// What a report costs, in looks at a capsule: with it, all that the caller does for it.
+constexpr double price_of_report = 500.0;
 
 }  // namespace
 
@@ -56,8 +56,11 @@ bool Island::needs_report(std::uint32_t number) const {
   const Bound& bound = body.bound;
   const Window window = window_to_start(number);
   const double s = window.end - bound.time;
-  const double growth = (bound.growth_speed + 0.5 * bound.growth_acceleration * s) * s;
-  if (growth > largest_growth * tables_->tempo.typical_way()) return true;
+  const auto growth_after = [&bound](double time) {
+    return (bound.growth_speed + 0.5 * bound.growth_acceleration * time) * time;
+  };
+  const double saved = growth_after(s) - growth_after(window.end - time_);
+  if (tables_->tempo.cost_of_width(2.0 * saved) > price_of_report) return true;
   const double speed = norm(bound.velocity) + bound.growth_speed + body.largest_acceleration() * s;
   if (!bodies().space().repeats()) return speed * s > bodies().longest_way();
   if (window.tier < tables_->tempo.tier_for(bodies().pace_of(number, time_))) return true;

@@ -10,6 +10,9 @@
 namespace kinesphere {
 namespace {
 
+/// So many are worth the while of a thread.
+constexpr std::size_t bodies_at_once = 256;
+
 /// About the distance between so many points along a line or in a layer, if their box is thinner than that,
 /// or in a cube around it. The same on all machines, without std::cbrt().
 double spacing_within(const Vec3& size, int count) {
@@ -75,9 +78,8 @@ Result<void> World::Engine::start_with_arrivals(Shift& shift) {
   return {};
 }
 
-/// Probes those whose bounds have grown so far that no window suits them.
+/// Probes those for whom a larger capsule would cost more.
 Result<void> World::Engine::refresh(std::span<const std::uint32_t> ending, Shift& shift) {
-  constexpr std::size_t bodies_at_once = 512;
   std::vector<std::uint8_t> is_asked(ending.size());
   shift.for_each(ending.size(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
     for (std::size_t k = from; k < to; ++k)
@@ -90,47 +92,81 @@ Result<void> World::Engine::refresh(std::span<const std::uint32_t> ending, Shift
   return everybody_.probe(asked, shift);
 }
 
+/// The windows that suit the bodies of a round, which are in none. A layer in which others are already would
+/// have to be sorted anew: rather a shorter window. Those for whom there is none are left out.
+std::vector<Windows::Starter> World::Engine::choose_windows(std::span<const std::uint32_t> numbers, bool most,
+                                                            Tempo::Round& round, Shift& shift) {
+  const double now = time();
+  std::vector<Windows::Starter> starters(numbers.size());
+  const std::size_t parts = (numbers.size() + bodies_at_once - 1) / bodies_at_once;
+  std::vector<Tempo::Round> rounds(parts, Tempo::Round(tables_.tempo, most));
+  shift.for_each(parts, 1, [&](std::size_t from, std::size_t to, std::size_t) {
+    for (std::size_t part = from; part < to; ++part) {
+      const std::size_t end = std::min((part + 1) * bodies_at_once, numbers.size());
+      for (std::size_t k = part * bodies_at_once; k < end; ++k) {
+        const std::uint32_t number = numbers[k];
+        Window window = everybody_.window_to_start(number);
+        while (!windows().is_free(window)) {
+          const int tier = window.tier;
+          window = Windows::window_at(now, tier - Tempo::powers_between_tiers);
+          if (window.tier == tier) window.end = now;
+        }
+        starters[k] = {number, 0, window};
+        if (window.end == now) continue;
+        if (bodies().space().repeats()) tables_.bodies.bring_home(number, now, window.end - now);
+        const RoomyBound bound = bodies().roomy_bound(number, now);
+        starters[k].level = Windows::level_of(bound, window);
+        rounds[part].note(bodies().pace_of(number, now), 2.0 * (bound.moved.radius + bound.room),
+                          window.tier);
+      }
+    }
+  });
+  for (const Tempo::Round& one : rounds) round += one;
+  return starters;
+}
+
 /// New windows for those whose windows have ended, or for all, and for some that join them.
 Result<void> World::Engine::start_windows(Shift& shift, bool all, std::span<const std::uint32_t> joining) {
   Windows& windows = tables_.windows;
   Tempo& tempo = tables_.tempo;
   const double now = time();
-  std::vector<std::uint32_t> round = windows.ended(now, all);
-  const bool most = 2 * (round.size() + joining.size()) > windows.moving();
-  if (auto probed = refresh(round, shift); !probed) return probed;
+  std::vector<std::uint32_t> numbers = windows.ended(now, all);
+  const bool most = 2 * (numbers.size() + joining.size()) > windows.moving();
+  if (auto probed = refresh(numbers, shift); !probed) return probed;
   if (most) tempo.start_main(now, everybody_.take_kicks());
   windows.end_windows(now, all);
   // Those with a broken promise, too, are settled by themselves.
-  std::erase_if(round, [this](std::uint32_t number) { return bodies()[number].dirty; });
+  std::erase_if(numbers, [this](std::uint32_t number) { return bodies()[number].dirty; });
   ++everybody_.counters().window_ends;
-  everybody_.counters().starts += round.size();
+  everybody_.counters().starts += numbers.size();
   everybody_.counters().restarts += joining.size();
-  const auto ended = static_cast<std::ptrdiff_t>(round.size());
-  round.insert(round.end(), joining.begin(), joining.end());
-  std::inplace_merge(round.begin(), round.begin() + ended, round.end());
-  for (const std::uint32_t number : round) {
+  const auto ended = static_cast<std::ptrdiff_t>(numbers.size());
+  numbers.insert(numbers.end(), joining.begin(), joining.end());
+  std::inplace_merge(numbers.begin(), numbers.begin() + ended, numbers.end());
+  for (const std::uint32_t number : joining)
     if (windows.contains(number)) windows.leave(number);
-    Window window = everybody_.window_to_start(number);
-    // A layer in which others are already would have to be sorted anew: rather a shorter window.
-    while (!windows.is_free(window)) {
-      const int tier = window.tier;
-      window = Windows::window_at(now, tier - Tempo::powers_between_tiers);
-      if (window.tier == tier) break;
-    }
-    if (!windows.is_free(window)) {
-      // There is none: the body is settled by itself.
-      everybody_.mark_dirty(number);
-      continue;
-    }
-    if (bodies().space().repeats()) tables_.bodies.bring_home(number, now, window.end - now);
-    const RoomyBound bound = bodies().roomy_bound(number, now);
-    windows.start(number, bound, now, window);
-    tempo.note_start(bodies().pace_of(number, now), 2.0 * (bound.moved.radius + bound.room), window.tier);
-  }
-  std::erase_if(round, [&](std::uint32_t number) { return !windows.contains(number); });
-  windows.finish_start();
+  Tempo::Round round(tempo, most);
+  std::vector<Windows::Starter> starters = choose_windows(numbers, most, round, shift);
+  std::erase_if(starters, [&](const Windows::Starter& starter) {
+    if (starter.window.end > now) return false;
+    // There is no window for the body: it is settled by itself.
+    everybody_.mark_dirty(starter.number);
+    return true;
+  });
+  windows.start(
+      starters, now, [this, now](std::uint32_t number) { return bodies().roomy_bound(number, now); }, shift);
+  tempo.finish_start(round, find_pairs_of_started(shift), windows.size());
+  find_others_of(starters, shift);
+  for (Island::Found& found : found_) everybody_.take(found);
+  everybody_.begin_phase(windows.next_end());
+  return {};
+}
+
+/// The hot pairs that searches find of those that have started.
+SearchCost World::Engine::find_pairs_of_started(Shift& shift) {
+  const double now = time();
+  const Windows& windows = tables_.windows;
   found_.resize(shift.count());
-  constexpr std::size_t bodies_at_once = 256;
   shift.for_each(
       windows.started(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
         Island::Found& found = found_[worker];
@@ -146,18 +182,19 @@ Result<void> World::Engine::start_windows(Shift& shift, bool all, std::span<cons
     cost += std::exchange(found.scratch.cost, {});
     cost.hot += found.pairs;
   }
-  tempo.finish_start(cost, windows.size());
-  for (const std::uint32_t number : round) tables_.bodies[number].settled = true;
-  shift.for_each(round.size(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
+  return cost;
+}
+
+/// Pairs that touch or sense each other, and walls, of those that have started.
+void World::Engine::find_others_of(std::span<const Windows::Starter> starters, Shift& shift) {
+  for (const Windows::Starter& starter : starters) tables_.bodies[starter.number].settled = true;
+  shift.for_each(starters.size(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
     for (std::size_t k = from; k < to; ++k) {
-      everybody_.find_known_pairs(round[k], found_[worker]);
-      everybody_.find_walls(round[k], found_[worker]);
+      everybody_.find_known_pairs(starters[k].number, found_[worker]);
+      everybody_.find_walls(starters[k].number, found_[worker]);
     }
   });
-  for (Island::Found& found : found_) everybody_.take(found);
-  everybody_.begin_phase(windows.next_end());
-  for (const std::uint32_t number : round) tables_.bodies[number].settled = false;
-  return {};
+  for (const Windows::Starter& starter : starters) tables_.bodies[starter.number].settled = false;
 }
 
 }  // namespace kinesphere

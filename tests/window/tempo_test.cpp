@@ -42,24 +42,23 @@ struct Round {
   Kicks kicks;        ///< until their windows end
 };
 
-void note(Tempo& tempo, const std::vector<Pace>& paces, double width) {
-  for (const Pace& pace : paces) tempo.note_start(pace, width, tempo.tier_for(pace));
+Tempo::Round round_of(const Tempo& tempo, bool most, const std::vector<Pace>& paces, double width) {
+  Tempo::Round round(tempo, most);
+  for (const Pace& pace : paces) round.note(pace, width, tempo.tier_for(pace));
+  return round;
 }
 
 /// They start at `now`, and those that start when their windows end know what it has cost.
 void start_main(Tempo& tempo, double& now, const Round& round) {
   tempo.start_main(now, {});
-  note(tempo, round.paces, round.width);
-  tempo.finish_start(round.starts, many);
+  tempo.finish_start(round_of(tempo, true, round.paces, round.width), round.starts, many);
   now += length_of(main_tier(tempo));
   tempo.start_main(now, round.kicks);
-  tempo.finish_start(nothing, many);
 }
 
 /// Bodies start while most do not.
 void start_between(Tempo& tempo, const std::vector<Pace>& paces, const SearchCost& cost) {
-  note(tempo, paces, usual_width);
-  tempo.finish_start(cost, many);
+  tempo.finish_start(round_of(tempo, false, paces, usual_width), cost, many);
 }
 
 std::vector<Pace> bodies(std::size_t count, const Pace& pace = everyday) {
@@ -124,10 +123,8 @@ TEST(Tempo, CostsOfKicksAreOfAMainWindow) {
     Tempo tempo = chosen();
     const int before = main_tier(tempo);
     tempo.start_main(0.0, {});
-    note(tempo, bodies(100), usual_width);
-    tempo.finish_start(nothing, many);
+    tempo.finish_start(round_of(tempo, true, bodies(100), usual_width), nothing, many);
     tempo.start_main(windows * length_of(before), kicks);
-    tempo.finish_start(nothing, many);
     if (windows == 1.0) {
       EXPECT_LT(main_tier(tempo), before);
     } else {
@@ -205,8 +202,7 @@ TEST(Tempo, AtOneInstantNothingIsKnown) {
   const int before = main_tier(tempo);
   for (int round = 0; round < 3; ++round) {
     tempo.start_main(0.0, countless);
-    note(tempo, bodies(100), usual_width);
-    tempo.finish_start(immense, many);
+    tempo.finish_start(round_of(tempo, true, bodies(100), usual_width), immense, many);
   }
   EXPECT_EQ(main_tier(tempo), before);
   EXPECT_EQ(tempo.typical_way(), 1.0);
@@ -285,9 +281,10 @@ TEST(Tempo, FollowsBodiesThatBecomeFaster) {
 TEST(Tempo, GrowsWhereMostAreInLongerWindows) {
   Tempo tempo = chosen();
   const int before = main_tier(tempo);
-  for (int round = 0; round < 6; ++round) {
-    for (int k = 0; k < 64; ++k) tempo.note_start({1e-3, 0.0}, usual_width, main_tier(tempo));
-    tempo.finish_start(nothing, many);
+  for (int k = 0; k < 6; ++k) {
+    Tempo::Round round(tempo, false);
+    for (int body = 0; body < 64; ++body) round.note({1e-3, 0.0}, usual_width, main_tier(tempo));
+    tempo.finish_start(round, nothing, many);
   }
   EXPECT_EQ(main_tier(tempo), before + 6 * Tempo::powers_between_tiers);
   EXPECT_EQ(tempo.typical_way(), length_of(main_tier(tempo) - before));
@@ -391,18 +388,36 @@ TEST(Tempo, StaysPossibleWhateverTheNumbers) {
     double now = -1e300;
     for (int round = 0; round < 4; ++round) {
       now = std::max(now, value());
-      if (random.bits() % 2 == 0) tempo.start_main(std::min(now, 1e300), kicks());
+      const bool most = random.bits() % 2 == 0;
+      if (most) tempo.start_main(std::min(now, 1e300), kicks());
+      Tempo::Round starts(tempo, most);
       std::uint64_t left = random.bits() % 5;
       if (random.bits() % 8 == 0) left += 64;
       for (; left > 0; --left) {
         const Pace pace{value(), value()};
         const int tier = tempo.tier_for(pace);
         ASSERT_LE(std::abs(tier), 300 + Tempo::powers_between_tiers);
-        tempo.note_start(pace, value(), tier);
+        starts.note(pace, value(), tier);
       }
-      tempo.finish_start(cost(), many);
+      tempo.finish_start(starts, cost(), many);
+      ASSERT_GE(tempo.cost_of_width(positive()), 0.0);
       ASSERT_TRUE(tempo.is_sound()) << "round " << round;
     }
+  }
+}
+
+/// Of spheres that stand still, each in the middle of what its search goes through.
+TEST(Tempo, WiderCapsulesCostAsTheirVolume) {
+  for (const int dimensions : {2, 3}) {
+    Tempo tempo = chosen(1.0, everyday, dimensions);
+    EXPECT_EQ(tempo.cost_of_width(1.0), 0.0) << "nothing is known yet";
+    tempo.start_main(0.0, {});
+    const auto round = round_of(tempo, true, bodies(10, {0.0, 0.0}), 2.0);
+    tempo.finish_start(round, {.capsules = 1000}, many);
+    EXPECT_EQ(tempo.cost_of_width(0.0), 0.0);
+    EXPECT_DOUBLE_EQ(tempo.cost_of_width(2.0), dimensions == 2 ? 300.0 : 700.0);
+    tempo.finish_start(Tempo::Round(tempo, true), {.hot = 10}, many);
+    EXPECT_GT(tempo.cost_of_width(2.0), dimensions == 2 ? 310.0 : 710.0) << "hot pairs cost, too";
   }
 }
 
@@ -431,8 +446,7 @@ TEST(Tempo, GoesOnAsBeforeAfterItWasBytes) {
     const bool most = random.bits() % 2 == 0;
     const auto kicks = [&] { return Kicks{.bodies = random.bits() % 1000, .hot = random.bits() % 1000}; };
     if (most) tempo.start_main(now, kicks());
-    note(tempo, paces, random.uniform());
-    tempo.finish_start(of_starts, many);
+    tempo.finish_start(round_of(tempo, most, paces, random.uniform()), of_starts, many);
     ByteWriter writer;
     writer(tempo);
     Tempo back = chosen();
@@ -448,9 +462,9 @@ TEST(Tempo, GoesOnAsBeforeAfterItWasBytes) {
     for (Tempo* each : {&tempo, &back}) {
       start_between(*each, bodies(70, {1e3, 0.0}), of_fast);
       each->start_main(now, kicks_since);
-      each->finish_start(nothing, many);
     }
     ASSERT_EQ(back.typical_way(), tempo.typical_way());
+    ASSERT_EQ(back.cost_of_width(1.0), tempo.cost_of_width(1.0));
     for (const Pace& pace : paces) ASSERT_EQ(back.tier_for(pace), tempo.tier_for(pace));
   }
 }

@@ -262,6 +262,7 @@ class Playground {
       if (!registered_[number] && !stands(bounds_[number]) && chance(random_, all ? 0.8 : 0.1))
         round.push_back(number);
     std::set<std::uint32_t> started;
+    std::vector<Windows::Starter> starters;
     for (const std::uint32_t number : round) {
       report(number);
       registered_[number] = false;
@@ -269,12 +270,14 @@ class Playground {
       if (window.end == infinity) continue;
       while (!windows_.is_free(window)) window = Windows::window_at(now_, window.tier - 3);
       bring_home(number, window.end - now_);
-      windows_.start(number, roomy(number), now_, window);
+      starters.push_back({number, Windows::level_of(roomy(number), window), window});
       registered_[number] = true;
       started.insert(number);
-      EXPECT_EQ(windows_.end_of(number), window.end);
     }
-    windows_.finish_start();
+    Shift alone;
+    windows_.start(
+        starters, now_, [this](std::uint32_t number) { return roomy(number); }, alone);
+    for (const auto& [number, level, window] : starters) EXPECT_EQ(windows_.end_of(number), window.end);
     expect_pairs_of(started);
   }
   void expect_pairs_of(const std::set<std::uint32_t>& started) {
@@ -440,19 +443,21 @@ TEST(Windows, SearchesLookAtFewOfMany) {
     Random random(seed);
     Windows windows{Space{}};
     std::vector<RoomyBound> bounds;
+    std::vector<Windows::Starter> starters;
     constexpr std::uint32_t many = 3000;
     for (std::uint32_t number = 0; number < many; ++number) {
       const Bound bound{.position = 25.0 * random.point_in_ball(),
                         .velocity = random.point_in_ball(),
                         .radius = log_uniform(random, mixed ? -8 : -1, -1)};
       bounds.push_back({MovedBound(bound, 0.0), 0.0});
-      windows.start(number, bounds.back(), 0.0, Windows::window_at(0.0, 0));
+      const Window window = Windows::window_at(0.0, 0);
+      starters.push_back({number, Windows::level_of(bounds.back(), window), window});
     }
-    windows.finish_start();
+    const auto bound_of = [&](std::uint32_t number) { return bounds[number]; };
+    Shift alone;
+    windows.start(starters, 0.0, bound_of, alone);
     Windows::Scratch scratch;
-    for (std::size_t k = 0; k < windows.started(); ++k)
-      windows.near_started(
-          k, 0.0, [&](std::uint32_t number) { return bounds[number]; }, scratch);
+    for (std::size_t k = 0; k < windows.started(); ++k) windows.near_started(k, 0.0, bound_of, scratch);
     EXPECT_LT(scratch.cost.capsules, std::uint64_t{many} * many / 20) << mixed;
     EXPECT_LT(scratch.cost.found, std::uint64_t{many} * 20) << mixed;
     EXPECT_GT(scratch.cost.found, 100u) << mixed;
@@ -507,9 +512,13 @@ class KickedBodies {
         if (!stands(number)) round.push_back(number);
     }
     windows_.end_windows(time, all);
+    std::vector<Windows::Starter> starters;
     for (const std::uint32_t number : round)
-      windows_.start(number, roomy(number, time), time, window(number, time));
-    windows_.finish_start();
+      starters.push_back(
+          {number, Windows::level_of(roomy(number, time), window(number, time)), window(number, time)});
+    const auto bound_now = [&](std::uint32_t number) { return roomy(number, time); };
+    Shift alone;
+    windows_.start(starters, time, bound_now, alone);
     Searches searches;
     scratch_.cost = {};
     for (std::size_t k = 0; k < windows_.started(); ++k) {

@@ -172,6 +172,8 @@ TEST(BadAnswer, BodyMayBeRemovedInstead) {
 TEST(BadAnswer, KicksAndNewBodiesBeforeTheRepetitionCount) {
   Playground p;
   const BodyId a = p.add({.radius = 1, .acceleration_limit = 1, .velocity = {1, 0, 0}});
+  // Somebody has to be near for a report to matter.
+  p.add({.radius = 1, .position = {-40, 0, 0}});
   bool fail = false;
   p.distort = [&](BodyId, double, State& state) {
     if (fail) state.position.x = nan;

@@ -52,7 +52,7 @@ class Reports : public ::testing::TestWithParam<std::string> {
 };
 
 TEST_P(Reports, ThatBreakAPromiseAreToldAndTheDetectorGoesOn) {
-  const Jumping motion({0, 30, 0});
+  const Jumping motion({0, 120, 0});
   const auto detector = detector_of(motion);
   const auto event = detector->advance(10.0).value();
   ASSERT_TRUE(event);
@@ -60,10 +60,10 @@ TEST_P(Reports, ThatBreakAPromiseAreToldAndTheDetectorGoesOn) {
   EXPECT_EQ(event->first.index, 0u);
   EXPECT_GE(event->time, 1.0);
   // The bound is as old as the last report, and 4 t^2 wide at most.
-  EXPECT_LE(event->position_excess, 30.0);
-  EXPECT_GE(event->position_excess, 30.0 - 4.0 * event->time * event->time - 1e-6);
+  EXPECT_LE(event->position_excess, 120.0);
+  EXPECT_GE(event->position_excess, 120.0 - 4.0 * event->time * event->time - 1e-6);
   EXPECT_FALSE(detector->advance(10.0).value());
-  EXPECT_EQ(detector->bound(0)->position.y, 30.0);
+  EXPECT_EQ(detector->bound(0)->position.y, 120.0);
 }
 
 TEST_P(Reports, ThatAreNotFitAreRefused) {
