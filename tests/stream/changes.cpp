@@ -16,9 +16,10 @@ T accepted(Result<T> result) {
 
 }  // namespace
 
-/// Where space repeats there is no room for large ones.
+/// In a crowd all are smaller. Where space repeats there is no room for large ones.
 double Player::radius(const Operation& operation) const {
-  return truth_.definition().periodic.any() ? std::min(0.3, operation.radius()) : operation.radius();
+  const double radius = kind_.crowd ? 0.25 * operation.radius() : operation.radius();
+  return truth_.definition().periodic.any() ? std::min(0.3, radius) : radius;
 }
 
 MotionLimits Player::limits(const Operation& operation) const {
@@ -375,7 +376,16 @@ PairFilter Player::pair_filter() const {
 
 void Player::give_pair_filter(World& world) const { accepted(world.set_pair_filter(pair_filter())); }
 
+/// The same one as before, which copies do not have.
+void Player::give_pair_filters() {
+  give_pair_filter(world_);
+  if (twin_) give_pair_filter(*twin_);
+  for (const BodyId id : truth_.ids()) told_.refiltered(id, {});
+  changed();
+}
+
 void Player::set_pair_filter(const Operation& operation) {
+  if (kind_.crowd) return;
   refilter(truth_.ids(), [&] {
     truth_.has_pair_filter = operation.byte(0) % 4 != 0;
     give_pair_filter(world_);

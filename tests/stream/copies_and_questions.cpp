@@ -15,7 +15,8 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// The world goes on as the restored one, or has a twin from now on that must do the same to the last bit.
 void Player::restore(const Operation& operation) {
   const std::vector<std::byte> bytes = world_.save().value();
-  if (twin_) require(twin_->save().value() == bytes, "a restored world is not what the saved one became");
+  if (twin_ && twin_saves_the_same_)
+    require(twin_->save().value() == bytes, "a restored world is not what the saved one became");
   twin_.reset();
   auto restored = operation.byte(1) % 4 == 0 ? world_.clone() : World::restore(bytes);
   if (!restored) throw Disagreement("restore: " + restored.error().message);
@@ -24,13 +25,8 @@ void Player::restore(const Operation& operation) {
     world_ = std::move(*restored);
   else
     twin_ = std::move(*restored);
-  if (truth_.has_pair_filter) {
-    // It is not saved.
-    give_pair_filter(world_);
-    if (twin_) give_pair_filter(*twin_);
-    for (const BodyId id : truth_.ids()) told_.refiltered(id, {});
-    changed();
-  }
+  twin_saves_the_same_ = true;
+  if (truth_.has_pair_filter) give_pair_filters();
 }
 
 /// With a probe or without: the truth lies within all answers.

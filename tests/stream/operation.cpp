@@ -141,8 +141,10 @@ WorldKind kind_of(std::span<const std::uint8_t> bytes) {
   if (lengths % 4 == 2) world.separation_distance = 0.1;
   if (lengths / 4 % 4 == 1) world.zeno_interval = 0.01;
   world.start_time = lengths / 16 - 3.0;
-  kind.most_bodies = bodies >= 252 ? 100 : 3 + bodies % 32;
-  kind.first_bodies = header(bytes, 3) % kind.most_bodies;
+  kind.crowd = bodies == 255 && choices / 64 % 2 == 1;
+  kind.most_bodies = kind.crowd ? 240 : bodies >= 252 ? 100 : 3 + bodies % 32;
+  const std::size_t first = header(bytes, 3);
+  kind.first_bodies = kind.crowd ? std::min(kind.most_bodies, 2 * first) : first % kind.most_bodies;
   kind.sensors = features % 2 == 1;
   kind.fixed = features / 2 % 2 == 1;
   if (features / 4 % 4 == 1) world.dimensions = 2;
@@ -156,6 +158,16 @@ Bytes random_stream(std::uint64_t seed, std::size_t operations) {
   Random random(seed);
   Bytes bytes(header_size + operations * Operation::size);
   for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random.bits());
+  return bytes;
+}
+
+Bytes crowd_stream(std::uint64_t seed, std::size_t operations) {
+  Bytes bytes = random_stream(seed, operations);
+  bytes[0] |= 64;
+  bytes[1] = 255;
+  bytes[3] |= 64;
+  constexpr std::uint8_t run = 60;
+  for (std::size_t k = 0; k < operations; k += 2) bytes[header_size + k * Operation::size] = run;
   return bytes;
 }
 

@@ -79,12 +79,16 @@ struct WorldKind {
   std::size_t first_bodies;  ///< there from the start
   bool sensors;              ///< some bodies sense others, and some are not solid
   bool fixed;                ///< there are bodies that never move
+  bool crowd;                ///< hundreds of small bodies, among whom World::run finds islands: none rests
 };
 /// What the header of a stream asks for.
 WorldKind kind_of(std::span<const std::uint8_t> bytes);
 
 /// A stream of this many random operations.
 Bytes random_stream(std::uint64_t seed, std::size_t operations);
+
+/// The same in a crowd of hundreds, in which every other operation is a run.
+Bytes crowd_stream(std::uint64_t seed, std::size_t operations);
 
 /// The same stream without operations [from, to).
 Bytes without(const Bytes& bytes, std::size_t from, std::size_t to);

@@ -9,8 +9,9 @@
 
 namespace kinesphere::stream {
 
-const std::array<Player::Kind, 28> Player::kinds{{
-    {"advance", 64, &Player::advance},
+const std::array<Player::Kind, 29> Player::kinds{{
+    {"advance", 58, &Player::advance},
+    {"run", 6, &Player::run},
     {"advance to the next event", 22, &Player::advance_to_next},
     {"advance with a bad probe", 4, &Player::advance_with_bad_probe},
     {"add", 16, &Player::add},
@@ -221,7 +222,7 @@ void Player::answer(const Event& event, const Operation& operation) {
     Operation other = random_operation(random);
     const BodyId id = choice == 13 || event.second == no_body ? event.first : event.second;
     if (choice < 15 && truth_.is_alive(id)) other = about(id, other);
-    // All but the first three, which are advances.
+    // All but the first four, which move time on.
     other.bytes[0] = static_cast<std::uint8_t>(90 + other.bytes[0] % (256 - 90));
     perform(other);
   }

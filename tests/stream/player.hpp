@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "kinesphere/workers.hpp"
 #include "lab/scene/scene.hpp"
 #include "stream/operation.hpp"
 #include "stream/told_contacts.hpp"
@@ -32,11 +33,12 @@ class Player {
     int weight;
     void (Player::*perform)(const Operation&);
   };
-  static const std::array<Kind, 28> kinds;
+  static const std::array<Kind, 29> kinds;
   static const Kind& kind_of(std::uint8_t code);
 
   // The operations. Those without a body to be done to do nothing.
   void advance(const Operation& operation);
+  void run(const Operation& operation);
   void advance_to_next(const Operation& operation);
   void advance_with_bad_probe(const Operation& operation);
   void add(const Operation& operation);
@@ -97,6 +99,10 @@ class Player {
   template <class Call>
   auto waking(const Island& island, Call call);
 
+  // run.cpp
+  Workers& workers(int threads);
+  std::vector<Event> loop(double until, const Respond& respond);
+
   // sprint.cpp
   void sprint(BodyId id, const Operation& operation) const;
   void check_touching(const World& world, BodyId id, const Vec3& place) const;
@@ -122,13 +128,16 @@ class Player {
   void check_snapshot() const;
   PairFilter pair_filter() const;
   void give_pair_filter(World& world) const;
+  void give_pair_filters();
   void changed() { rounds_ = 3; }
 
   WorldKind kind_;
   Truth truth_;
   ToldContacts told_;
   World world_;
-  std::optional<World> twin_;  ///< has to go on as the world does
+  std::optional<World> twin_;                      ///< has to go on as the world does
+  bool twin_saves_the_same_ = false;               ///< to the last byte
+  std::array<std::optional<Workers>, 3> workers_;  ///< by their number, less one
   std::vector<BodyId> removed_;
   std::set<BodyId> woken_;  ///< at this instant, and not told yet
   std::size_t events_ = 0;

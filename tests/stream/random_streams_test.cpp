@@ -10,30 +10,37 @@ namespace kinesphere::stream {
 namespace {
 
 /// Each shard is a test of its own, so that they run side by side.
-class RandomStreams : public testing::TestWithParam<int> {};
-
-constexpr int shards = 16;
-constexpr int streams = 63;       ///< of one shard
-constexpr int operations = 1000;  ///< of one stream: over a million in all
-
-TEST_P(RandomStreams, AgreeWithTheTruth) {
-  std::size_t events = 0;
-  std::size_t performed = 0;
-  for (int k = 0; k < streams; ++k) {
-    const auto seed = static_cast<std::uint64_t>(1000 * GetParam() + k);
-    const Bytes bytes = random_stream(seed, operations);
-    const Played played = play(bytes);
-    events += played.events;
-    performed += played.operations;
-    ASSERT_FALSE(played.failure) << "seed " << seed << ", operation " << played.failure->operation << ": "
-                                 << played.failure->what << "\nshrunk to " << story_of(shrunk(bytes));
+class RandomStreams : public testing::TestWithParam<int> {
+ protected:
+  void play_all(Bytes (*stream)(std::uint64_t seed, std::size_t operations), int streams, int operations) {
+    std::size_t events = 0;
+    std::size_t performed = 0;
+    for (int k = 0; k < streams; ++k) {
+      const auto seed = static_cast<std::uint64_t>(1000 * GetParam() + k);
+      const Bytes bytes = stream(seed, static_cast<std::size_t>(operations));
+      const Played played = play(bytes);
+      events += played.events;
+      performed += played.operations;
+      ASSERT_FALSE(played.failure) << "seed " << seed << ", operation " << played.failure->operation << ": "
+                                   << played.failure->what << "\nshrunk to " << story_of(shrunk(bytes));
+    }
+    EXPECT_EQ(performed, static_cast<std::size_t>(streams) * static_cast<std::size_t>(operations));
+    EXPECT_GT(events, performed / 10) << "too little happens";
+    RecordProperty("events", std::to_string(events));
   }
-  EXPECT_EQ(performed, std::size_t{streams} * operations);
-  EXPECT_GT(events, performed / 10) << "too little happens";
-  RecordProperty("events", std::to_string(events));
-}
+};
 
-INSTANTIATE_TEST_SUITE_P(Shards, RandomStreams, testing::Range(0, shards));
+/// Over a million operations in all shards.
+TEST_P(RandomStreams, AgreeWithTheTruth) { play_all(random_stream, 63, 1000); }
+
+INSTANTIATE_TEST_SUITE_P(Shards, RandomStreams, testing::Range(0, 16));
+
+class RandomCrowds : public RandomStreams {};
+
+/// Worlds in which islands run side by side.
+TEST_P(RandomCrowds, RunAsALoopDoes) { play_all(crowd_stream, 4, 30); }
+
+INSTANTIATE_TEST_SUITE_P(Shards, RandomCrowds, testing::Range(0, 4));
 
 }  // namespace
 }  // namespace kinesphere::stream

@@ -108,6 +108,7 @@ void Player::rest(BodyId id) {
 
 /// One body, or it and all that are in contact with it.
 void Player::rest(const Operation& operation) {
+  if (kind_.crowd) return;
   const auto id = any_moving(operation);
   if (!id || !truth_.is_present(*id)) return;
   std::vector<BodyId> ids{*id};

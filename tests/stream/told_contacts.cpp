@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "kinesphere/event_hash.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere::stream {
 namespace {
@@ -17,6 +18,17 @@ Contact contact_of(const Event& event) {
   if (event.kind == EventKind::sensor_enter || event.kind == EventKind::sensor_leave)
     contact.sensed = event.distance;
   return contact;
+}
+
+/// Of a half-space it has no end.
+Ball ball_around(const Shape& shape) {
+  if (const auto* box = std::get_if<Box>(&shape))
+    return {0.5 * (box->lower + box->upper), 0.501 * norm(box->upper - box->lower) + 1e-9};
+  if (const auto* triangle = std::get_if<Triangle>(&shape)) {
+    const auto& [a, b, c] = *triangle;
+    return {a, 1.001 * std::max(norm(b - a), norm(c - a)) + 1e-9};
+  }
+  return {{}, infinity};
 }
 
 bool is_end(const Event& event) {
@@ -312,17 +324,51 @@ void ToldContacts::check_account(const World& world, BodyId id) const {
 void ToldContacts::move_on_to(double time) {
   if (time > truth_.time()) {
     settle_ends();
+    const std::vector<Ball> ways = ways_until(time);
     for (const TrueBody& body : truth_.bodies()) {
       if (!body.present()) continue;
       for (const TrueBody& other : truth_.bodies()) {
         if (other.id.index >= body.id.index) break;
-        if (other.present()) check_pair({other.id, body.id}, time);
+        const Contact contact{other.id, body.id};
+        if (other.present() && (any_told(contact) || may_meet(ways[other.id.index], ways[body.id.index])))
+          check_pair(contact, time);
       }
       if (body.fixed) continue;
       for (const Wall wall : truth_.walls()) check_contact({.first = body.id, .wall = wall}, time);
     }
   }
   truth_.move_on_to(time);
+}
+
+/// For each body, by index, a ball that it does not leave until then.
+std::vector<Ball> ToldContacts::ways_until(double time) const {
+  const double s = time - truth_.time();
+  std::vector<Ball> ways(truth_.bodies().size());
+  for (const TrueBody& body : truth_.bodies()) {
+    if (!body.present()) continue;
+    if (body.shape) {
+      ways[body.id.index] = ball_around(*body.shape);
+      continue;
+    }
+    const State state = truth_.state(body.id);
+    const double way = (norm(state.velocity) + 0.5 * norm(body.path.front().acceleration) * s) * s;
+    ways[body.id.index] = {state.position, body.definition.radius + 1.001 * way + 1e-9};
+  }
+  return ways;
+}
+
+/// Or sense each other, or be near enough for a contact to go on.
+bool ToldContacts::may_meet(const Ball& a, const Ball& b) const {
+  const Vec3 way = b.centre + truth_.shift_to_nearest(b.centre, a.centre) - a.centre;
+  const double near = sensor_distances.back() + rule_.release_gap() + slack_;
+  return norm(way) <= a.radius + b.radius + near;
+}
+
+bool ToldContacts::any_told(const Contact& contact) const {
+  const auto [first, second] = std::pair(contact.first.index, contact.second.index);
+  return pairs_(first, second) != Told{} ||
+         std::any_of(sensed_.begin(), sensed_.end(),
+                     [=](const PairTable<Told>& pairs) { return pairs(first, second) != Told{}; });
 }
 
 void ToldContacts::check_pair(Contact contact, double until) {

@@ -57,6 +57,8 @@ class ToldContacts {
     bool opened = false;  ///< since the begin the gap may have opened for a while
     bool due = false;     ///< an approach now has to be told before time moves on
     double floor = 0.0;   ///< no lower gap may come unreported; 0 stands for minus the tolerance
+
+    friend bool operator==(const Told&, const Told&) = default;
   };
   /// An end that a change brought about, on its way to the caller.
   struct End {
@@ -80,6 +82,9 @@ class ToldContacts {
   void begin(const Event& event, const Contact& contact);
   void end(const Event& event, const Contact& contact);
   bool is_repeated(BodyId id) const;
+  std::vector<Ball> ways_until(double time) const;
+  bool may_meet(const Ball& a, const Ball& b) const;
+  bool any_told(const Contact& contact) const;
   void check_pair(Contact contact, double until);
   void check_contact(const Contact& contact, double until);
   void check_impacts(const Contact& contact, Told& state, double until);

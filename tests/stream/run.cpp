@@ -1,0 +1,326 @@
+// World::run: a copy of the world runs by itself, and does to the last bit what a loop over advance() does
+// that answers in the same way. The loop is held against the truth, event by event; so the truth holds for
+// the run as well.
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <limits>
+#include <utility>
+
+#include "kinesphere/response.hpp"
+#include "stream/on_world.hpp"
+#include "stream/player.hpp"
+
+namespace kinesphere::stream {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// A loop that has had so many events goes no further than to the end of their instant.
+constexpr std::size_t most_events = 300;
+
+bool same_in_all(const Event& a, const Event& b) {
+  return a.kind == b.kind && a.time == b.time && a.first == b.first && a.second == b.second &&
+         a.wall == b.wall && a.repeated == b.repeated && a.jammed == b.jammed && a.senses == b.senses &&
+         a.first_state == b.first_state && a.second_state == b.second_state && a.point == b.point &&
+         a.normal == b.normal && a.gap == b.gap && a.approach_speed == b.approach_speed &&
+         a.position_excess == b.position_excess && a.velocity_excess == b.velocity_excess &&
+         a.distance == b.distance && a.first_user_data == b.first_user_data &&
+         a.second_user_data == b.second_user_data;
+}
+
+bool is_begin(const Event& event) {
+  return event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
+}
+
+/// Where a run fails, at one event.
+enum class Fault { nowhere, sink, respond, refused_answer, departure, states, refused_states };
+
+/// What a callback throws that fails.
+struct Failed {};
+
+/// Answers an event from the event alone: two that meet bounce, lose speed, settle, or pass.
+class Answering {
+ public:
+  Answering(const Truth& truth, std::uint64_t seed, bool passes)
+      : truth_(truth), seed_(seed), passes_(passes) {}
+
+  Answer operator()(const Event& event) const {
+    if (passes_) return {};
+    // It sets out from there, with the acceleration that it has when it is awake.
+    if (event.kind == EventKind::woken && moves(event.first))
+      return {.first_velocity = event.first_state.velocity};
+    if (!is_begin(event) || event.approach_speed <= 0.0) return {};
+    const std::optional<Bounce> after = bounce(event);
+    if (!after) return {};
+    Answer answer;
+    if (moves(event.first)) answer.first_velocity = after->first_velocity;
+    if (event.second != no_body && moves(event.second)) answer.second_velocity = after->second_velocity;
+    return answer;
+  }
+  bool moves(BodyId id) const { return truth_.is_present(id) && !truth_.at(id).fixed; }
+
+ private:
+  std::optional<Bounce> bounce(const Event& event) const {
+    Random random(seed_ ^ std::bit_cast<std::uint64_t>(event.time) ^ event.first.pack());
+    const double first = mass(event.first);
+    const double second = event.second == no_body ? 1.0 : mass(event.second);
+    switch (random.bits() % 8) {
+      case 0:
+      case 1:
+        return std::nullopt;
+      case 2:
+        return kinesphere::bounce(event, first, second, 0.3);
+      case 3:
+        return settle(event, first, second, 0.3, 0.1);
+      default:
+        return kinesphere::bounce(event, first, second, 1.0);
+    }
+  }
+  double mass(BodyId id) const { return moves(id) ? 1.0 : std::numeric_limits<double>::infinity(); }
+
+  const Truth& truth_;
+  std::uint64_t seed_;
+  bool passes_;
+};
+
+/// Moves bodies from where they are in truth when the run begins.
+class Moving final : public Mover {
+ public:
+  explicit Moving(const Truth& truth) : bodies_(truth.bodies()) {}
+  void fail_at(const Event& event, const Answer& answer, Fault fault) {
+    event_ = event;
+    answer_ = answer;
+    fault_ = fault;
+  }
+  void fail_no_more() { fault_ = Fault::nowhere; }
+  /// Whatever was thrown from islands would only have made the run do without them.
+  void check_use() const {
+    if (const char* misuse = misuse_) throw Disagreement(misuse);
+  }
+
+  void states(std::span<const BodyId> ids, double time, std::span<State> states) override {
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      const TrueBody& body = bodies_[ids[k].index];
+      if (!body.present() || body.id != ids[k] || body.fixed)
+        misuse_ = "a run asks for a body that does not move";
+      if (time < body.path.front().begin) misuse_ = "a run asks for a time before the body set out";
+      states[k] = body.path.front().state_at(time);
+      if (time != event_.time || (ids[k] != event_.first && ids[k] != event_.second)) continue;
+      if (fault_ == Fault::states) throw Failed();
+      if (fault_ == Fault::refused_states) states[k].position.y = nan;
+    }
+  }
+  Departure departure(BodyId id) const override {
+    const Segment& path = bodies_[id.index].path.front();
+    return {path.begin, {path.position, path.velocity}};
+  }
+  /// A body that rested is awake then.
+  void depart(BodyId id, const Departure& departure) override {
+    const auto& velocity = id == event_.first ? answer_.first_velocity : answer_.second_velocity;
+    if (fault_ == Fault::departure && departure.time == event_.time &&
+        (id == event_.first || id == event_.second) && departure.state.velocity == velocity)
+      throw Failed();
+    TrueBody& body = bodies_[id.index];
+    Segment& path = body.path.front();
+    path.begin = departure.time;
+    path.position = departure.state.position;
+    path.velocity = departure.state.velocity;
+    if (std::exchange(body.resting, false)) path.acceleration = body.on_waking;
+  }
+
+ private:
+  std::vector<TrueBody> bodies_;
+  std::atomic<const char*> misuse_ = nullptr;
+  Fault fault_ = Fault::nowhere;
+  Event event_;
+  Answer answer_;
+};
+
+/// A world that runs, and what it has to tell.
+class Run {
+ public:
+  Run(World& world, Moving& mover, const Answering& answer, const std::vector<Event>& expected)
+      : world_(world), mover_(mover), answer_(answer), expected_(expected) {}
+
+  /// At the first event that is as this one of those that are expected.
+  void fail_at(std::size_t place, Fault fault) {
+    const Event& event = expected_[place];
+    const auto same = [&](const Event& other) { return same_in_all(other, event); };
+    place_ =
+        static_cast<std::size_t>(std::find_if(expected_.begin(), expected_.end(), same) - expected_.begin());
+    fault_ = fault;
+    mover_.fail_at(event, answer_(event), fault);
+  }
+
+  /// False if it failed, as it was to; it fails no more then.
+  bool go(double until, bool answers, Workers& workers) {
+    const auto states = [this](std::span<const BodyId> ids, double time, std::span<State> answer) {
+      mover_.states(ids, time, answer);
+    };
+    const auto respond = [this](const Event& event) { return respond_to(event); };
+    const auto sink = [this](const Event& event) { tell(event); };
+    try {
+      const auto done = answers ? world_.run(until, mover_, respond, sink, &workers)
+                                : world_.run(until, states, sink, &workers);
+      if (done) {
+        require(told_ == expected_.size(), "a run leaves out events");
+        require(fault_ != Fault::sink && fault_ != Fault::respond && fault_ != Fault::refused_answer,
+                "a run does not say that a callback has failed");
+        return true;
+      }
+      require(fault_ == Fault::refused_answer || fault_ == Fault::refused_states,
+              "a run is refused without a reason");
+      const bool refers_to_nobody =
+          fault_ == Fault::refused_answer && !answer_.moves(expected_[place_].first);
+      require(refers_to_nobody || done.error().code == ErrorCode::not_finite,
+              "a run is refused for a wrong reason");
+    } catch (const Failed&) {
+      require(fault_ != Fault::nowhere, "a failure is told twice");
+    }
+    check_failure();
+    fault_ = Fault::nowhere;
+    mover_.fail_no_more();
+    return false;
+  }
+
+  /// The rest by a loop.
+  void go_by_loop(double until, bool answers) {
+    const auto probe = [this](std::span<const BodyId> ids, double time, std::span<State> states) {
+      mover_.states(ids, time, states);
+    };
+    for (;;) {
+      const auto event = world_.advance(until, probe);
+      if (!event) throw Disagreement("advance after a run: " + event.error().message);
+      if (!*event) break;
+      tell(**event);
+      const Answer answer = answers ? answer_(**event) : Answer{};
+      turn((*event)->first, answer.first_velocity);
+      turn((*event)->second, answer.second_velocity);
+    }
+    require(told_ == expected_.size(), "a loop after a run leaves out events");
+  }
+
+ private:
+  Answer respond_to(const Event& event) const {
+    Answer answer = answer_(event);
+    if (place_ >= expected_.size() || !same_in_all(event, expected_[place_])) return answer;
+    if (fault_ == Fault::respond) throw Failed();
+    if (fault_ == Fault::refused_answer) answer.first_velocity = Vec3{nan, 0, 0};
+    return answer;
+  }
+  void tell(const Event& event) {
+    require(event.time <= world_.time(), "an event is told before its time");
+    require(told_ < expected_.size(), "a run tells more than a loop");
+    require(same_in_all(event, expected_[told_]), "a run tells something else than a loop");
+    ++told_;
+    if (fault_ == Fault::sink && told_ > place_) throw Failed();
+  }
+  void turn(BodyId id, const std::optional<Vec3>& velocity) {
+    if (!velocity) return;
+    State state;
+    mover_.states(std::span(&id, 1), world_.time(), std::span(&state, 1));
+    mover_.depart(id, {world_.time(), {state.position, *velocity}});
+    if (const auto done = world_.set_velocity(id, *velocity); !done)
+      throw Disagreement("set_velocity after a run: " + done.error().message);
+  }
+  /// The world stands where it should, and is clean.
+  void check_failure() const {
+    const bool at_event = fault_ == Fault::respond || fault_ == Fault::refused_answer;
+    require(fault_ != Fault::sink || told_ == place_ + 1, "a run goes on when the sink has failed");
+    require(!at_event || told_ == place_, "a run fails at another event than the callback");
+    require(told_ == 0 || expected_[told_ - 1].time <= expected_[place_].time,
+            "events are told that come after a failure");
+    if (const auto finding = world_.audit())
+      throw Disagreement("audit of a run that failed: " + finding->where + ": " + finding->what);
+  }
+
+  World& world_;
+  Moving& mover_;
+  const Answering& answer_;
+  const std::vector<Event>& expected_;
+  std::size_t told_ = 0;
+  Fault fault_ = Fault::nowhere;
+  std::size_t place_ = 0;
+};
+
+}  // namespace
+
+Workers& Player::workers(int threads) {
+  auto& place = workers_[static_cast<std::size_t>(threads - 1)];
+  if (!place) place = Workers::create(threads).value();
+  return *place;
+}
+
+/// To `until`, or where much happens to some event before.
+std::vector<Event> Player::loop(double until, const Respond& respond) {
+  std::vector<Event> events;
+  while (const auto event = next_event(until)) {
+    events.push_back(*event);
+    const Answer answer = respond(*event);
+    if (answer.first_velocity) set_velocity(event->first, *answer.first_velocity);
+    if (answer.second_velocity) set_velocity(event->second, *answer.second_velocity);
+    if (events.size() >= most_events) until = world_.time();
+  }
+  return events;
+}
+
+/// The world is replaced by the copy that has run; the one that was moved by a loop may become its twin.
+void Player::run(const Operation& operation) {
+  const bool rests = !woken_.empty() || std::any_of(truth_.bodies().begin(), truth_.bodies().end(),
+                                                    [](const TrueBody& body) { return body.resting; });
+  const bool answers = rests || operation.byte(2) % 8 != 0;
+  const double length = operation.fraction(0);
+  Random random = operation.random();
+  const Answering answer(truth_, random.bits(), !answers);
+  World world = world_.clone().value();
+  if (truth_.has_pair_filter) {
+    give_pair_filters();
+    give_pair_filter(world);
+  }
+  Moving mover(truth_);
+  const double start = world_.time();
+  const std::uint64_t probes = world_.counters().probes - world.counters().probes;
+  const std::vector<Event> events = loop(start + (kind_.crowd ? 0.3 : 0.1) * length * length, answer);
+
+  Run run(world, mover, answer, events);
+  Fault fault = Fault::nowhere;
+  if (!events.empty() && operation.byte(3) % 2 == 0) {
+    static constexpr std::array faults{Fault::sink,    Fault::states,    Fault::refused_states,
+                                       Fault::respond, Fault::departure, Fault::refused_answer};
+    fault = faults[operation.byte(3) / 2 % (answers ? 6 : 3)];
+    // A mover cannot set a body back to where it rested: it would be awake.
+    if (fault == Fault::departure && rests) fault = Fault::respond;
+    const std::size_t place = operation.byte(4) % events.size();
+    // What the mover is asked after a report of this instant, the world believes.
+    if (fault == Fault::refused_states && (events[place].time == start || !is_begin(events[place])))
+      fault = Fault::states;
+    run.fail_at(place, fault);
+  }
+  const int threads = 1 + operation.byte(1) % 3;
+  if (!run.go(world_.time(), answers, workers(threads))) {
+    // What the sink has not been told is answered already, and a loop would not know.
+    if (fault != Fault::sink && operation.byte(5) % 2 == 0)
+      run.go_by_loop(world_.time(), answers);
+    else
+      require(run.go(world_.time(), answers, workers(1 + operation.byte(5) / 2 % 3)), "a run fails again");
+  }
+  mover.check_use();
+  require(world.time() == world_.time(), "a run ends at another time than a loop");
+  if (fault == Fault::nowhere)
+    require(world.counters().probes + probes == world_.counters().probes,
+            "a run probes otherwise than a loop");
+  for (const BodyId id : truth_.ids()) {
+    const Segment& path = truth_.at(id).path.front();
+    const Departure departure = mover.departure(id);
+    require(departure.time == path.begin && departure.state == State{path.position, path.velocity},
+            "a run leaves a body on another way than a loop");
+  }
+  std::swap(world_, world);
+  if (!twin_ && operation.byte(6) % 2 == 0) twin_ = std::move(world);
+  // It has the same pairs in another order.
+  twin_saves_the_same_ = false;
+}
+
+}  // namespace kinesphere::stream
