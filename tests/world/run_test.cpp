@@ -10,6 +10,7 @@
 #include "kinesphere/kinesphere.hpp"
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
+#include "world/bouncing_world.hpp"
 
 namespace kinesphere {
 namespace {
@@ -18,60 +19,22 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double end = 16.0;
 
 /// Bodies that bounce in a box around a post.
-struct Bouncing {
-  RandomForces motion = RandomForces::create({.start = start(), .acceleration_limits = limits()}).value();
-  World world = World::create({.box = Box{{0, 0, 0}, {12, 12, 12}}}).value();
-  BodyId post = no_body;
-  EventHash hash;
-  std::size_t told = 0;
-
-  Bouncing() {
+struct Bouncing : BouncingWorld<RandomForces> {
+  Bouncing()
+      : BouncingWorld(RandomForces::create({.start = start(), .acceleration_limits = limits()}).value(),
+                      World::create({.box = Box{{0, 0, 0}, {12, 12, 12}}}).value(), 0.95) {
     for (std::uint32_t number = 0; number < motion.size(); ++number) {
-      BodyDefinition body = motion.definition(number, 0.0);
+      BodyDefinition body = next();
       body.radius = 0.4;
       body.sensor_class = number % 2 == 0 ? 1 : 0;
-      world.add(body).value();
+      add(body, 1.0);
     }
     world.set_sensor(1, {.distances = {0.5}}).value();
-    post = world.add_fixed({.shape = Ball{{6, 6, 6}, 1.5}}).value();
+    world.add_fixed({.shape = Ball{{6, 6, 6}, 1.5}}).value();
   }
 
-  Answer answer(const Event& event) const {
-    const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
-    if (!begins || event.approach_speed <= 0.0) return {};
-    const double heavy = std::numeric_limits<double>::infinity();
-    const Bounce after = bounce(event, 1.0, event.second == post ? heavy : 1.0, 0.95);
-    if (event.second == no_body || event.second == post) return {.first_velocity = after.first_velocity};
-    return {after.first_velocity, after.second_velocity};
-  }
-  void tell(const Event& event) {
-    hash.add(event);
-    ++told;
-  }
-
-  void loop(double until = end) {
-    while (const auto event = world.advance(until, motion.probe()).value()) {
-      const Answer given = answer(*event);
-      const auto kick = [&](BodyId body, const std::optional<Vec3>& velocity) {
-        if (!velocity) return;
-        motion.set_velocity(body.index, event->time, *velocity).value();
-        world.set_velocity(body, *velocity).value();
-      };
-      kick(event->first, given.first_velocity);
-      kick(event->second, given.second_velocity);
-      tell(*event);
-    }
-  }
-
-  Result<void> run(double until = end) {
-    MotionMover mover(motion);
-    return run_with(mover, until);
-  }
-  Result<void> run_with(Mover& mover, double until = end) {
-    return world.run(
-        until, mover, [this](const Event& event) { return answer(event); },
-        [this](const Event& event) { tell(event); });
-  }
+  void loop(double until = end) { BouncingWorld::loop(until); }
+  Result<void> run(double until = end) { return BouncingWorld::run(until); }
 
  private:
   static std::vector<State> start() {
