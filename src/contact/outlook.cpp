@@ -47,8 +47,9 @@ Verdict Outlook<Partner>::judge(const Event& current, const Promise& promise) co
     verdict.next_look = std::max(separation(rule_.release_gap()), just_after(now_));
     return verdict;
   }
-  // A certificate cannot guard a gap that lies within its own rounding of the present one.
-  const double gap = beyond - resolution();
+  // A certificate cannot guard a gap that lies within its own rounding of the present one, as it may for two
+  // within the tolerance.
+  const double gap = beyond > rule_.tolerance() ? beyond : beyond - resolution();
   double time = meeting(rule_.guarded_gap(gap));
   const double hidden_approach = std::max(current.approach_speed + error, 0.0);
   const double least =
