@@ -95,7 +95,7 @@ class SceneList {
              .walls = false,
              .kinds = {{drones, 0.5, 0.5, 15.0, 15.0, 5.0}},
              .gap = alarm,
-             .seconds = shorter(4.0)});
+             .seconds = shorter(20.0)});
     const CrowdParameters people{.people = fewer(20'000), .area_each = 4.0, .seconds = shorter(4.0)};
     scenes_.push_back({.name = "crowd",
                        .bodies = people.people,

@@ -20,7 +20,7 @@ const SpeedSettings& speed_settings(Effort effort) {
                                        .most_bodies = 1'000'000,
                                        .most_with_rivals = 108'000,
                                        .most_recorded = 15'000'000,
-                                       .most_looked = 30'000'000};
+                                       .most_looked = 130'000'000};
   static constexpr SpeedSettings full{.name = "full",
                                       .repetitions = 5,
                                       .least_turn = 0.1,
