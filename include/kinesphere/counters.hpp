@@ -34,6 +34,22 @@ struct Counters {
   /// Contacts that came within the Zeno interval of an earlier one of the same body.
   std::uint64_t repeated_contacts = 0;
 
+  Counters& operator+=(const Counters& more) {
+    for (std::size_t kind = 0; kind < events.size(); ++kind) events[kind] += more.events[kind];
+    probes += more.probes;
+    window_ends += more.window_ends;
+    starts += more.starts;
+    restarts += more.restarts;
+    pair_checks += more.pair_checks;
+    wall_checks += more.wall_checks;
+    searches += more.searches;
+    candidates += more.candidates;
+    hot_pairs += more.hot_pairs;
+    certificates += more.certificates;
+    zeno_steps += more.zeno_steps;
+    repeated_contacts += more.repeated_contacts;
+    return *this;
+  }
   /// How often the world had to do something about a body, a pair or a body and the walls.
   std::uint64_t steps() const { return starts + restarts + pair_checks + wall_checks; }
   std::uint64_t count(EventKind kind) const { return events[static_cast<std::size_t>(kind)]; }

@@ -44,7 +44,8 @@ class ContactBook {
   // Who touches whom.
   bool touch(std::uint32_t a, std::uint32_t b) const;
   bool touches_wall(std::uint32_t body, Wall wall) const { return (walls_of(body) & wall_bit(wall)) != 0; }
-  /// In the order in which the contacts began; good until one begins or ends with the body.
+  /// In the order in which the contacts began (of a fixed body in any order, after several threads have
+  /// worked); good until one begins or ends with the body.
   std::span<const std::uint32_t> partners_of(std::uint32_t body) const {
     return body < partners_.size() ? partners_[body].all() : std::span<const std::uint32_t>();
   }

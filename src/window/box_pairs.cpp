@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace kinesphere {
 namespace {
@@ -30,9 +31,8 @@ class CellGrid {
     }
   }
 
-  /// False for a box that covers too many.
-  bool cover(const Box& box, std::array<Cells, 3>& cells) const {
-    constexpr double most = 64.0;
+  /// False for a box that covers more than `most`.
+  bool cover(const Box& box, double most, std::array<Cells, 3>& cells) const {
     double all = 1.0;
     for (int axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<std::size_t>(axis);
@@ -89,39 +89,57 @@ bool overlap(const Box& a, const Box& b, const Space& space) {
   return true;
 }
 
+constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t several = nobody - 1;
+constexpr std::uint32_t none = nobody;
+
+/// A box in a place, and the one that came there before it.
+struct Link {
+  std::uint32_t box;
+  std::uint32_t before;
+};
+
 }  // namespace
 
-Pairs overlapping_pairs(const std::vector<Box>& boxes, const Space& space, double size) {
-  const CellGrid grid(space, size);
-  const std::size_t mask = std::bit_ceil(2 * boxes.size() + 1) - 1;
-  std::vector<std::array<Cells, 3>> cells(boxes.size());
-  std::vector<std::uint32_t> wide;
-  std::vector<bool> is_wide(boxes.size(), false);
-  // Sorted by the hash of their cells, by counting.
-  std::vector<std::uint32_t> starts(mask + 2, 0);
-  for (std::uint32_t k = 0; k < boxes.size(); ++k) {
-    is_wide[k] = !grid.cover(boxes[k], cells[k]);
-    if (is_wide[k]) {
-      wide.push_back(k);
-    } else {
-      grid.for_each_hash(cells[k], [&](std::uint64_t hash) { ++starts[(hash & mask) + 1]; });
-    }
-  }
-  for (std::size_t k = 1; k < starts.size(); ++k) starts[k] += starts[k - 1];
-  std::vector<std::uint32_t> places(starts.begin(), starts.end() - 1);
-  std::vector<std::uint32_t> sorted(starts.back());
-  for (std::uint32_t k = 0; k < boxes.size(); ++k)
-    if (!is_wide[k])
-      grid.for_each_hash(cells[k], [&](std::uint64_t hash) { sorted[places[hash & mask]++] = k; });
-
+Pairs overlapping_pairs(std::span<const Box> boxes, std::span<const std::uint32_t> owners, const Space& space,
+                        double size) {
   Pairs pairs;
   const auto hold = [&](std::uint32_t a, std::uint32_t b) {
-    if (a != b && overlap(boxes[a], boxes[b], space)) pairs.emplace_back(std::min(a, b), std::max(a, b));
+    if (owners[a] != owners[b] && overlap(boxes[a], boxes[b], space))
+      pairs.emplace_back(std::min(a, b), std::max(a, b));
   };
-  for (std::size_t bucket = 0; bucket + 1 < starts.size(); ++bucket)
-    for (std::uint32_t one = starts[bucket]; one < starts[bucket + 1]; ++one)
-      for (std::uint32_t other = one + 1; other < starts[bucket + 1]; ++other)
-        hold(sorted[one], sorted[other]);
+  const CellGrid grid(space, size);
+  // Holding a box against all others is cheaper than going through more cells than that.
+  const double most = std::max(64.0, 0.125 * static_cast<double>(boxes.size()));
+  // A cell's place is its hash.
+  const std::size_t places = std::bit_ceil(16 * boxes.size() + 1);
+  std::vector<std::array<Cells, 3>> cells(boxes.size());
+  std::vector<std::uint32_t> owner_of(places, nobody);
+  std::vector<std::uint32_t> wide;
+  const auto for_each_place = [&](std::uint32_t box, auto visit) {
+    grid.for_each_hash(cells[box], [&](std::uint64_t hash) { visit(hash & (places - 1)); });
+  };
+  for (std::uint32_t k = 0; k < boxes.size(); ++k) {
+    if (!grid.cover(boxes[k], most, cells[k])) {
+      wide.push_back(k);
+      cells[k][0].count = 0;
+    }
+    for_each_place(k, [&](std::size_t place) {
+      std::uint32_t& owner = owner_of[place];
+      owner = owner == nobody || owner == owners[k] ? owners[k] : several;
+    });
+  }
+  // Only places of several owners matter.
+  std::vector<std::uint32_t> last(places, none);
+  std::vector<Link> links;
+  for (std::uint32_t k = 0; k < boxes.size(); ++k) {
+    for_each_place(k, [&](std::size_t place) {
+      if (owner_of[place] != several) return;
+      for (std::uint32_t at = last[place]; at != none; at = links[at].before) hold(links[at].box, k);
+      links.push_back({k, last[place]});
+      last[place] = static_cast<std::uint32_t>(links.size() - 1);
+    });
+  }
   for (const std::uint32_t a : wide)
     for (std::uint32_t b = 0; b < boxes.size(); ++b) hold(a, b);
   // They may share several cells.

@@ -67,19 +67,22 @@ std::uint32_t Layer::add(std::uint32_t number, const Capsule& capsule, float fro
   return place;
 }
 
-bool Layer::replace(std::uint32_t place, const Capsule& capsule, float from) {
+std::optional<float> Layer::overhang_at(std::uint32_t place, const Capsule& capsule, float from) const {
   assert(numbers_[place] != nobody);
-  if (place < sorted_) {
-    const auto after = std::upper_bound(starts_.begin(), starts_.end(), place);
-    const auto cell = static_cast<std::uint32_t>(after - starts_.begin() - 1);
-    const Corners corners = corners_of(capsule, from, 1.0f);
-    const float out = overhang(nearest_image(cell, grid_.cell_around(corners)), corners);
-    if (!(out <= grid_.edge[1])) return false;
-    reach_ = std::max(reach_, out);
-  }
+  // Those that were added later have no cell.
+  if (place >= sorted_) return 0.0f;
+  const auto after = std::upper_bound(starts_.begin(), starts_.end(), place);
+  const auto cell = static_cast<std::uint32_t>(after - starts_.begin() - 1);
+  const Corners corners = corners_of(capsule, from, 1.0f);
+  const float out = overhang(nearest_image(cell, grid_.cell_around(corners)), corners);
+  return out <= grid_.edge[1] ? std::optional(out) : std::nullopt;
+}
+
+void Layer::replace(std::uint32_t place, const Capsule& capsule, float from, float overhang) {
+  assert(numbers_[place] != nobody);
+  reach_ = std::max(reach_, overhang);
   widest_ = std::max(widest_, width_of(corners_of(capsule, from, 1.0f)));
   store(place, capsule);
-  return true;
 }
 
 void Layer::remove(std::uint32_t place) {

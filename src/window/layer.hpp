@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -78,9 +79,11 @@ class Layer {
 
   /// A capsule that holds from time `from` of the frame until 1. Returns its place.
   std::uint32_t add(std::uint32_t number, const Capsule& capsule, float from);
-  /// Another one for the same body, which holds from time `from` until 1. False, and nothing has changed, if
-  /// it is so large or so far from the others of its cell that searches would cost more.
-  bool replace(std::uint32_t place, const Capsule& capsule, float from);
+  /// How far another one for the same body, which holds from time `from` until 1, would stick out of its
+  /// cell. Nothing if that is so far that searches would cost more.
+  std::optional<float> overhang_at(std::uint32_t place, const Capsule& capsule, float from) const;
+  /// It takes the place.
+  void replace(std::uint32_t place, const Capsule& capsule, float from, float overhang);
   /// Leaves a hole.
   void remove(std::uint32_t place);
 

@@ -151,17 +151,39 @@ Window Windows::window_at(double now, int tier) {
   return {possible, end_of_window(possible, now)};
 }
 
+Windows::Entry Windows::prepare(std::uint32_t number, const RoomyBound& bound, double now,
+                                const Window& window) const {
+  Entry entry{.level = level_to_enter(level_of(bound, window))};
+  if (!contains(number)) return entry;
+  const Registration& here = registrations_[number];
+  const Member& member = layers_[here.layer];
+  if (member.tier != window.tier || member.level != entry.level || member.end != window.end) return entry;
+  entry.capsule = member.capsule(bound, now);
+  const auto overhang = member.layer.overhang_at(here.place, entry.capsule, member.time(now));
+  if (!overhang) return entry;
+  entry.layer = here.layer;
+  entry.place = here.place;
+  entry.overhang = *overhang;
+  return entry;
+}
+
 /// As the body is of the same size for the same window, whenever in it the body enters, and as a layer has
 /// the same frame, whoever enters first, searches find the same in whatever order bodies enter.
-void Windows::enter(std::uint32_t number, const RoomyBound& bound, double now, const Window& window) {
+void Windows::enter(std::uint32_t number, const RoomyBound& bound, double now, const Window& window,
+                    const Entry& entry) {
+  if (entry.layer != none && registrations_[number].layer == entry.layer &&
+      registrations_[number].place == entry.place) {
+    Member& member = layers_[entry.layer];
+    ++member.changes;
+    return member.layer.replace(entry.place, entry.capsule, member.time(now), entry.overhang);
+  }
   if (number >= registrations_.size()) registrations_.resize(number + std::size_t{1});
-  const std::uint32_t layer = layer_for(window, level_to_enter(level_of(bound, window)));
+  const std::uint32_t layer = layer_for(window, entry.level);
   Member& member = layers_[layer];
   ++member.changes;
-  if (const Registration& here = registrations_[number]; here.layer == layer) {
-    if (member.layer.replace(here.place, member.capsule(bound, now), member.time(now))) return;
+  if (registrations_[number].layer == layer) {
     take_out(number);
-  } else if (here.layer != none) {
+  } else if (registrations_[number].layer != none) {
     leave(number);
   }
   if (!member.has_frame) {

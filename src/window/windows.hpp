@@ -39,6 +39,8 @@ struct Window {
 };
 
 class Windows {
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
  public:
   /// What searches need on the way: one for each thread.
   struct Scratch {
@@ -70,7 +72,22 @@ class Windows {
   static constexpr int shortest = std::numeric_limits<int>::min();
   static constexpr Window endless() { return {never_ends, infinity}; }
   /// Registers a body in a window from `now` on, perhaps anew.
-  void enter(std::uint32_t number, const RoomyBound& bound, double now, const Window& window);
+  void enter(std::uint32_t number, const RoomyBound& bound, double now, const Window& window) {
+    enter(number, bound, now, window, prepare(number, bound, now, window));
+  }
+  /// What of it several threads may do at the same time; and the rest, before anything but other bodies
+  /// enters.
+  struct Entry {
+    int level = 0;
+    // Unless it is another one, the body may have the place that it has.
+    std::uint32_t layer = none;
+    std::uint32_t place = 0;
+    Capsule capsule{};
+    float overhang = 0.0f;
+  };
+  Entry prepare(std::uint32_t number, const RoomyBound& bound, double now, const Window& window) const;
+  void enter(std::uint32_t number, const RoomyBound& bound, double now, const Window& window,
+             const Entry& entry);
   void leave(std::uint32_t number);
   /// The bodies other than `number` whose registered capsule may touch that which it would have from now
   /// until `end`, before their windows end. Good until the next search with this scratch.
@@ -170,7 +187,6 @@ class Windows {
   bool is_sound(std::size_t bodies) const;
 
  private:
-  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   static constexpr int never_ends = std::numeric_limits<int>::max();
 
   struct Registration {

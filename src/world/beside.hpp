@@ -1,10 +1,10 @@
 // What an island knows that runs beside others: which bodies are its own, and what it does to them.
 //
-// Inside a phase, between two instants at which windows start, an island meets nobody else, unless one of its
-// bodies is kicked: that body's new capsule may touch others. While islands run, the capsules in the windows
-// stay as they are, for all; those of kicked bodies are kept here. A body of nobody's that a kicked one may
-// meet in time is claimed: then the island stops, and runs again with it from where the phase began. One that
-// it may meet later is counted on to stay nobody's.
+// Inside a part of a phase (islands.hpp) an island meets nobody else, unless one of its bodies is kicked:
+// that body's new capsule may touch others. While islands run, the capsules in the windows stay as they are,
+// for all; those of kicked bodies are kept here. A body of nobody's that a kicked one may meet in time is
+// claimed: then the island stops, and runs again with it from where the part began. One that it may meet
+// later is counted on to stay nobody's.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace kinesphere {
 
-/// Whose a body is, and how often it has been kicked.
+/// Whose each body is, and how far islands go.
 struct Sea {
   static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
   static constexpr std::uint32_t none = nobody;
@@ -45,6 +45,7 @@ struct BodyKick {
   Vec3 middle;  ///< where space repeats
 };
 
+/// What one island knows, and what it has done that others have to see.
 struct Beside {
   /// More would take too long to go through.
   static constexpr std::size_t most_kicks = 512;

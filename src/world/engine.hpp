@@ -30,8 +30,9 @@ class World::Engine {
 
   // The clock.
   Result<std::optional<Event>> advance(double until, const Probe& probe);
-  /// The same for many events at once (islands.hpp), up to `until` or to the phase's end. Appends them to
-  /// `events`. False where that cannot be done, or is not worth it, until the phase's end: advance() can.
+  /// The same for many events at once (islands.hpp), up to `until` or to the end of a part of the phase.
+  /// Appends them to `events`. False where that cannot be done, or is not worth it, until the phase's end:
+  /// advance() can.
   Result<bool> run_phase(double until, const Probe& probe, Shift& shift, Islands& islands,
                          std::deque<Event>& events);
   Islands islands(Shift& shift, const Probe& probe, Answerer* answerer) {

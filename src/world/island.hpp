@@ -25,6 +25,7 @@
 #include <utility>
 #include <vector>
 
+#include "bound/broken_promise.hpp"
 #include "contact/instant.hpp"
 #include "contact/outlook.hpp"
 #include "kinesphere/counters.hpp"
@@ -39,7 +40,7 @@
 
 namespace kinesphere {
 
-class Island {
+class alignas(128) Island {
  public:
   Island(Tables& tables, double time) : tables_(&tables), time_(time) {}
   /// Its world has another place now.
@@ -123,12 +124,17 @@ class Island {
   std::vector<HotPair> hot_pairs(std::optional<std::uint32_t> number = std::nullopt) const;
   /// The hot pairs of a body that has got a capsule with `others`, with whom it touches or senses, and with
   /// walls.
-  struct Found {
+  struct alignas(128) Found {
     std::vector<HotPair> hot;
     Windows::Scratch scratch;
     std::uint64_t searches = 0;
     std::uint64_t candidates = 0;
     std::uint64_t pairs = 0;  ///< that candidates have given
+
+    void forget() {
+      hot.clear();
+      searches = candidates = pairs = 0;
+    }
   };
   /// Into the agenda and the counters; nothing is left in it.
   void take(Found& found);
@@ -222,7 +228,10 @@ class Island {
   std::optional<double> judge(const Outlook<Partner>& outlook, const Threshold& threshold, Event current,
                               const Promise& promise);
   Result<void> probe_staler(std::uint32_t a, std::uint32_t b);
-  void apply_report(std::uint32_t number, const State& answer);
+  // The k-th of those that have been asked.
+  Result<void> check(std::size_t k) const;
+  std::optional<BrokenPromise> apply_report(std::uint32_t number, const State& answer);
+  void tell_broken(std::size_t k, const BrokenPromise& broken);
   Event contact(EventKind kind, std::uint32_t a, std::uint32_t b) const;
   Event wall_contact(EventKind kind, std::uint32_t number, Wall wall) const;
   Senses senses_in(const Event& event) const;

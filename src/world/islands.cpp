@@ -10,21 +10,9 @@
 namespace kinesphere {
 namespace {
 
-void add(const Counters& more, Counters& sum) {
-  for (std::size_t kind = 0; kind < more.events.size(); ++kind) sum.events[kind] += more.events[kind];
-  sum.probes += more.probes;
-  sum.window_ends += more.window_ends;
-  sum.starts += more.starts;
-  sum.restarts += more.restarts;
-  sum.pair_checks += more.pair_checks;
-  sum.wall_checks += more.wall_checks;
-  sum.searches += more.searches;
-  sum.candidates += more.candidates;
-  sum.hot_pairs += more.hot_pairs;
-  sum.certificates += more.certificates;
-  sum.zeno_steps += more.zeno_steps;
-  sum.repeated_contacts += more.repeated_contacts;
-}
+/// Fewer are not worth the while.
+constexpr std::size_t least_due = 128;
+constexpr std::size_t kicks_at_once = 256;
 
 }  // namespace
 
@@ -42,23 +30,37 @@ bool Islands::run(double until, std::deque<Event>& events) {
   // What these do reaches beyond an island, or asks the caller's own code in the middle of one.
   if (bodies.any_rests() || bodies.has_changes() || bodies.has_pair_filter()) return false;
   begin_ = everybody_.time();
-  until_ = until;
   sea_.phase_end = everybody_.phase_end();
   sea_.until = until;
-  // In a short time few kicked bodies meet others.
-  const std::size_t most = std::max<std::size_t>(128, bodies.size() / 16);
+  if (most_due_ == 0) most_due_ = std::max(least_due, bodies.size() / 16);
+  return run_part(events);
+}
+
+bool Islands::run_part(std::deque<Event>& events) {
   std::vector<HotPair> due;
-  sea_.stop = everybody_.agenda().take_until(
-      until, sea_.phase_end, most, due, [this](const HotPair& pair) { return everybody_.is_void(pair); });
+  sea_.stop =
+      everybody_.agenda().take_until(sea_.until, sea_.phase_end, most_due_, due,
+                                     [this](const HotPair& pair) { return everybody_.is_void(pair); });
   form(due);
   const bool done = are_worth_it() && attempt_all();
   if (done) {
     finish(events);
+    choose_part();
   } else {
     everybody_.agenda().add_all(due);
   }
   leave();
   return done;
+}
+
+/// In a short part few kicked bodies meet others; in a long one each body is copied once for many pairs.
+void Islands::choose_part() {
+  const std::size_t again = attempts_ - count_;
+  if (16 * again < count_) {
+    most_due_ = std::min(2 * most_due_, std::max(least_due, tables_.bodies.size()));
+  } else if (6 * again > count_) {
+    most_due_ = std::max(most_due_ / 2, least_due);
+  }
 }
 
 /// Bodies that due pairs join.
@@ -106,8 +108,8 @@ Islands::Group& Islands::new_group() {
   Group& group = groups_[count_];
   group.members.clear();
   group.due.clear();
-  group.joined_to = static_cast<std::uint32_t>(count_++);
-  group.joined = group.attempted = group.failed = false;
+  group.own = group.joined_to = static_cast<std::uint32_t>(count_++);
+  group.attempted = group.failed = false;
   group.again = true;
   group.kicks.clear();
   group.claims.clear();
@@ -130,6 +132,7 @@ bool Islands::are_worth_it() const {
 
 /// False, and everything is as it was, when one of them has failed.
 bool Islands::attempt_all() {
+  attempts_ = 0;
   tables_.book.start_side_by_side(tables_.bodies.sensors().any());
   bool failed = false;
   try {
@@ -143,6 +146,7 @@ bool Islands::attempt_all() {
         const std::size_t of_b = groups_[b].due.size();
         return of_a != of_b ? of_a > of_b : a < b;
       });
+      attempts_ += again_.size();
       constexpr std::size_t islands_at_once = 8;
       shift_.for_each(again_.size(), islands_at_once,
                       [this](std::size_t begin, std::size_t end, std::size_t worker) {
@@ -233,7 +237,7 @@ bool Islands::join_claims() {
     }
   }
   for (std::uint32_t own = 0; own < count_; ++own) {
-    if (groups_[own].joined) continue;
+    if (groups_[own].joined()) continue;
     for (const std::uint32_t number : groups_[own].counted_on) {
       const std::uint32_t theirs = sea_.places[number].island;
       if (theirs == Sea::nobody || root_of(theirs) == root_of(own)) continue;
@@ -244,29 +248,44 @@ bool Islands::join_claims() {
   return any;
 }
 
+/// Of all groups that are not part of others, in the order of groups and times.
+std::vector<Islands::OwnKick> Islands::kicks() const {
+  std::vector<OwnKick> all;
+  for (std::uint32_t own = 0; own < count_; ++own) {
+    if (groups_[own].joined()) continue;
+    for (const BodyKick& kick : groups_[own].kicks) all.push_back({own, &kick});
+  }
+  return all;
+}
+
+RoomyBound Islands::bound_of(const BodyKick& kick) const {
+  return tables_.bodies.room_for(kick.number, MovedBound(kick.bound, kick.time));
+}
+
 /// Joins groups of which kicked bodies may meet. True when some have to run again.
 bool Islands::join_kicks() {
   const Bodies& bodies = tables_.bodies;
-  std::vector<std::pair<std::uint32_t, const BodyKick*>> kicks;
-  std::vector<Box> boxes;
-  double widths = 0.0;
-  for (std::uint32_t own = 0; own < count_; ++own) {
-    if (groups_[own].joined) continue;
-    for (const BodyKick& kick : groups_[own].kicks) {
-      kicks.emplace_back(own, &kick);
-      const double duration = kick.window.end < infinity ? kick.window.end - kick.time : 0.0;
-      boxes.push_back(bodies.room_for(kick.number, MovedBound(kick.bound, kick.time)).box_of_way(duration));
-      widths += boxes.back().upper.x - boxes.back().lower.x;
-    }
-  }
+  const std::vector<OwnKick> kicks = this->kicks();
   if (kicks.empty()) return false;
+  std::vector<Box> boxes(kicks.size());
+  shift_.for_each(kicks.size(), kicks_at_once, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const BodyKick& kick = *kicks[k].kick;
+      boxes[k] = bound_of(kick).box_of_way(kick.window.end < infinity ? kick.window.end - kick.time : 0.0);
+    }
+  });
+  std::vector<std::uint32_t> owners;
+  owners.reserve(kicks.size());
+  for (const OwnKick& kick : kicks) owners.push_back(kick.own);
+  double widths = 0.0;
+  for (const Box& box : boxes) widths += box.upper.x - box.lower.x;
   const double size = std::clamp(2.0 * widths / static_cast<double>(kicks.size()), 0x1p-900, 0x1p900);
   bool any = false;
-  for (const auto& [a, b] : overlapping_pairs(boxes, bodies.space(), size)) {
-    const auto& [one, kick] = kicks[a];
-    const auto& [other, other_kick] = kicks[b];
-    if (root_of(one) == root_of(other) || !may_meet(*kick, *other_kick)) continue;
-    join(root_of(one), root_of(other));
+  for (const auto& [a, b] : overlapping_pairs(boxes, owners, bodies.space(), size)) {
+    const std::uint32_t one = root_of(kicks[a].own);
+    const std::uint32_t other = root_of(kicks[b].own);
+    if (one == other || !may_meet(*kicks[a].kick, *kicks[b].kick)) continue;
+    join(one, other);
     any = true;
   }
   return any;
@@ -307,46 +326,57 @@ void Islands::join(std::uint32_t one, std::uint32_t other) {
   into.due.insert(into.due.end(), gone.due.begin(), gone.due.end());
   into.again = true;
   gone.again = false;
-  gone.joined = true;
   gone.joined_to = to;
 }
 
 /// What came of the groups becomes what came of everybody.
 void Islands::finish(std::deque<Event>& events) {
-  const double end = std::min(until_, sea_.stop);
+  register_kicks();
   std::vector<HotPair> left;
   std::vector<const Told*> told;
   for (std::uint32_t own = 0; own < count_; ++own) {
     const Group& group = groups_[own];
-    if (group.joined) continue;
-    add(group.counters, everybody_.counters());
+    if (group.joined()) continue;
+    everybody_.counters() += group.counters;
     everybody_.add_kicks(group.settled);
     left.insert(left.end(), group.left.begin(), group.left.end());
     for (const Told& one : group.told) told.push_back(&one);
-    for (const BodyKick& kick : group.kicks) register_kick(kick);
     if (tables_.bodies.any_fixed()) {
       for (const std::uint32_t place : group.members)
         tables_.book.tell_fixed(kept_[place].number, kept_[place].contacts);
     }
   }
-  tables_.windows.tidy();
   everybody_.agenda().add_all(left);
   std::sort(told.begin(), told.end(), [](const Told* a, const Told* b) {
     if (a->event.time != b->event.time) return a->event.time < b->event.time;
     return a->round != b->round ? a->round < b->round : delivered_before(a->event, b->event);
   });
   for (const Told* one : told) events.push_back(one->event);
-  everybody_.move_on_to(end);
+  everybody_.move_on_to(std::min(sea_.until, sea_.stop));
 }
 
-/// The body has the capsule that it got, unless it starts anew in any case when the phase is over.
-void Islands::register_kick(const BodyKick& kick) {
+/// Bodies have the capsules that they got, unless they start anew in any case when the part is over.
+void Islands::register_kicks() {
+  Windows& windows = tables_.windows;
+  std::vector<OwnKick> all = kicks();
   const double end = sea_.phase_end;
-  if (until_ >= end && sea_.stop == end && kick.window.end == end &&
-      tables_.windows.end_of(kick.number) == end)
-    return;
-  const RoomyBound bound = tables_.bodies.room_for(kick.number, MovedBound(kick.bound, kick.time));
-  tables_.windows.enter(kick.number, bound, kick.time, kick.window);
+  if (sea_.until >= end && sea_.stop == end) {
+    std::erase_if(all, [&](const OwnKick& one) {
+      return one.kick->window.end == end && windows.end_of(one.kick->number) == end;
+    });
+  }
+  std::vector<Windows::Entry> entries(all.size());
+  shift_.for_each(all.size(), kicks_at_once, [&](std::size_t begin, std::size_t last, std::size_t) {
+    for (std::size_t k = begin; k < last; ++k) {
+      const BodyKick& kick = *all[k].kick;
+      entries[k] = windows.prepare(kick.number, bound_of(kick), kick.time, kick.window);
+    }
+  });
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const BodyKick& kick = *all[k].kick;
+    windows.enter(kick.number, bound_of(kick), kick.time, kick.window, entries[k]);
+  }
+  windows.tidy();
 }
 
 void Islands::leave() {

@@ -1,9 +1,13 @@
 // Reports: asking for states, refusing bad ones, and noticing broken promises.
+#include <atomic>
+#include <map>
+#include <mutex>
 #include <string>
 
 #include "bound/broken_promise.hpp"
 #include "world/island.hpp"
 #include "world/validation.hpp"
+#include "world/while_true.hpp"
 
 namespace kinesphere {
 namespace {
@@ -11,18 +15,6 @@ namespace {
 constexpr double not_said = std::numeric_limits<double>::quiet_NaN();
 /// A probe that forgets to answer is told so.
 constexpr State unanswered{{not_said, not_said, not_said}, {not_said, not_said, not_said}};
-
-/// Resets the flag even if the probe throws.
-class WhileTrue {
- public:
-  explicit WhileTrue(bool& flag) : flag_(flag) { flag_ = true; }
-  WhileTrue(const WhileTrue&) = delete;
-  WhileTrue& operator=(const WhileTrue&) = delete;
-  ~WhileTrue() { flag_ = false; }
-
- private:
-  bool& flag_;
-};
 
 }  // namespace
 
@@ -49,13 +41,39 @@ Result<void> Island::probe(std::span<const std::uint32_t> numbers, Shift& shift)
                 std::span(probe_states_).subspan(from, count));
     });
   }
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    if (auto valid = check_report(probe_states_[k], probe_ids_[k], time_, bodies().definition(), call_);
-        !valid)
-      return valid;
+  if (numbers.size() == 1) {
+    if (auto valid = check(0); !valid) return valid;
+    if (const auto broken = apply_report(numbers[0], probe_states_[0])) tell_broken(0, *broken);
+    return {};
   }
-  for (std::size_t k = 0; k < numbers.size(); ++k) apply_report(numbers[k], probe_states_[k]);
+  constexpr std::size_t reports_at_once = 512;
+  std::atomic<std::size_t> first_bad = numbers.size();
+  shift.for_each(numbers.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+    for (std::size_t k = from; k < to && k < first_bad; ++k) {
+      if (check(k)) continue;
+      for (std::size_t first = first_bad; k < first && !first_bad.compare_exchange_weak(first, k);) continue;
+    }
+  });
+  if (first_bad < numbers.size()) return check(first_bad);
+  // What was changed since the last report is in a table of all bodies.
+  Shift alone;
+  std::mutex mutex;
+  std::map<std::size_t, BrokenPromise> broken_ones;
+  (bodies().has_changes() ? alone : shift)
+      .for_each(numbers.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+        for (std::size_t k = from; k < to; ++k) {
+          const auto broken = apply_report(numbers[k], probe_states_[k]);
+          if (!broken) continue;
+          const std::lock_guard lock(mutex);
+          broken_ones.emplace(k, *broken);
+        }
+      });
+  for (const auto& [k, broken] : broken_ones) tell_broken(k, broken);
   return {};
+}
+
+Result<void> Island::check(std::size_t k) const {
+  return check_report(probe_states_[k], probe_ids_[k], time_, bodies().definition(), call_);
 }
 
 /// Probes the body whose report is older; the second one, if they are of the same age. One of them at least
@@ -67,7 +85,8 @@ Result<void> Island::probe_staler(std::uint32_t a, std::uint32_t b) {
   return probe(std::span(&staler, 1));
 }
 
-void Island::apply_report(std::uint32_t number, const State& answer) {
+/// Returns what the report says about promises of the body that did not hold.
+std::optional<BrokenPromise> Island::apply_report(std::uint32_t number, const State& answer) {
   Body& body = bodies()[number];
   State state = answer;
   if (bodies().space().repeats())
@@ -86,10 +105,14 @@ void Island::apply_report(std::uint32_t number, const State& answer) {
   const auto broken =
       broken_promise(before, body.bound, body.radius, kicked_to, bodies().definition().contact_tolerance);
   if (body.is_resting()) body.stand_still();
-  if (!broken) return;
+  return broken;
+}
+
+void Island::tell_broken(std::size_t k, const BrokenPromise& broken) {
+  const std::uint32_t number = probe_ids_[k].index;
   Sphere reported = sphere(number);
-  reported.state = {bodies().space().wrapped(state.position).position, state.velocity};
-  instant_.announce(violation_event(time_, reported, *broken));
+  reported.state.velocity = probe_states_[k].velocity;
+  instant_.announce(violation_event(time_, reported, broken));
   void_facts(number);
 }
 

@@ -34,7 +34,7 @@ Window Island::window_for(std::uint32_t number) const {
   return suits && time_ < now->end ? *now : window;
 }
 
-/// The window that suits a body which moves.
+/// The window, from now on, that suits the pace of a body.
 Window Island::window_to_start(std::uint32_t number) const {
   Window window = Windows::window_at(time_, tables_->tempo.tier_for(bodies().pace_of(number, time_)));
   if (!bodies().space().repeats()) return window;
@@ -101,7 +101,8 @@ void Island::settle(std::span<const std::uint32_t> numbers) {
 void Island::search(std::span<const std::uint32_t> numbers) {
   counters_.restarts += numbers.size();
   if (!beside_) tables_->windows.tidy();
-  found_.hot.clear();
+  // An island that stopped to claim a body may have left something.
+  found_.forget();
   for (const std::uint32_t number : numbers) {
     const auto others = near(number);
     if (beside_ && !beside_->claims.empty()) return;

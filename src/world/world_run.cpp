@@ -8,6 +8,7 @@
 #include "world/check.hpp"
 #include "world/engine.hpp"
 #include "world/validation.hpp"
+#include "world/while_true.hpp"
 
 namespace kinesphere {
 namespace {
@@ -24,18 +25,6 @@ Result<void> check_given(bool given, std::string_view argument) {
   return Error{ErrorCode::null_callback, std::string(argument), no_body,
                "run: " + std::string(argument) + " must be a function, but is empty"};
 }
-
-/// Resets the flag, also when an exception passes.
-class InProgress {
- public:
-  explicit InProgress(bool& flag) : flag_(flag) { flag_ = true; }
-  InProgress(const InProgress&) = delete;
-  InProgress& operator=(const InProgress&) = delete;
-  ~InProgress() { flag_ = false; }
-
- private:
-  bool& flag_;
-};
 
 }  // namespace
 
@@ -91,7 +80,7 @@ Result<void> World::Run::go() {
                  "run: workers must not be at work in another run, but are"};
   }
   if (!world_.backlog_) world_.backlog_ = std::make_unique<Backlog>();
-  const InProgress guard(world_.running_);
+  const WhileTrue running(world_.running_);
   tell();
   for (;;) {
     const auto done = work();

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "kinesphere/random.hpp"
 #include "number/infinity.hpp"
 
@@ -34,6 +36,13 @@ bool overlap(const Box& a, const Box& b, const Vec3& shift) {
   return true;
 }
 
+/// Each box by itself.
+std::vector<std::uint32_t> owners_of(const std::vector<Box>& boxes) {
+  std::vector<std::uint32_t> owners(boxes.size());
+  std::iota(owners.begin(), owners.end(), 0u);
+  return owners;
+}
+
 TEST(BoxPairs, AreAllThatOverlap) {
   for (const double size : {0.1, 1.0, 30.0}) {
     const std::vector<Box> boxes = random_boxes(3, 16.0);
@@ -41,7 +50,7 @@ TEST(BoxPairs, AreAllThatOverlap) {
     for (std::uint32_t a = 0; a < boxes.size(); ++a)
       for (std::uint32_t b = a + 1; b < boxes.size(); ++b)
         if (overlap(boxes[a], boxes[b], {})) expected.emplace_back(a, b);
-    EXPECT_EQ(overlapping_pairs(boxes, Space(WorldDefinition{}), size), expected) << size;
+    EXPECT_EQ(overlapping_pairs(boxes, owners_of(boxes), Space(WorldDefinition{}), size), expected) << size;
     EXPECT_GT(expected.size(), 300u);
   }
 }
@@ -59,7 +68,19 @@ TEST(BoxPairs, AreFoundInAllImages) {
           for (const double y : {-16.0, 0.0, 16.0}) found = found || overlap(boxes[a], boxes[b], {x, y, 0.0});
         if (found) expected.emplace_back(a, b);
       }
-    EXPECT_EQ(overlapping_pairs(boxes, Space(definition), size), expected) << size;
+    EXPECT_EQ(overlapping_pairs(boxes, owners_of(boxes), Space(definition), size), expected) << size;
+  }
+}
+
+TEST(BoxPairs, AreOfDifferentOwners) {
+  const std::vector<Box> boxes = random_boxes(7, 16.0);
+  for (const std::uint32_t count : {1u, 2u, 20u}) {
+    std::vector<std::uint32_t> owners(boxes.size());
+    for (std::uint32_t k = 0; k < owners.size(); ++k) owners[k] = k % count;
+    Pairs expected = overlapping_pairs(boxes, owners_of(boxes), Space(WorldDefinition{}), 1.0);
+    std::erase_if(expected, [&](const auto& pair) { return owners[pair.first] == owners[pair.second]; });
+    EXPECT_EQ(overlapping_pairs(boxes, owners, Space(WorldDefinition{}), 1.0), expected) << count;
+    EXPECT_EQ(expected.empty(), count == 1);
   }
 }
 
@@ -67,8 +88,8 @@ TEST(BoxPairs, MayBeEverywhereAndFarAway) {
   std::vector<Box> boxes{around({0, 0, 0}, 1.0), around({1e300, 0, 0}, 1.0), around({1e300, 0, 0}, 2.0)};
   boxes.push_back({{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}});
   const Pairs expected{{0, 3}, {1, 2}, {1, 3}, {2, 3}};
-  EXPECT_EQ(overlapping_pairs(boxes, Space(WorldDefinition{}), 1.0), expected);
-  EXPECT_TRUE(overlapping_pairs({}, Space(WorldDefinition{}), 1.0).empty());
+  EXPECT_EQ(overlapping_pairs(boxes, owners_of(boxes), Space(WorldDefinition{}), 1.0), expected);
+  EXPECT_TRUE(overlapping_pairs({}, {}, Space(WorldDefinition{}), 1.0).empty());
 }
 
 }  // namespace

@@ -142,7 +142,9 @@ class Mirrored {
     Entry& entry = bodies_.at(number);
     const Capsule before = layer.capsule_at(entry.place);
     const Capsule after = capsule(bound);
-    if (layer.replace(entry.place, after, layer.frame().time(now))) {
+    const float from = layer.frame().time(now);
+    if (const auto overhang = layer.overhang_at(entry.place, after, from)) {
+      layer.replace(entry.place, after, from, *overhang);
       EXPECT_EQ(layer.capsule_at(entry.place), after);
       entry.bound = bound;
     } else {
@@ -429,10 +431,10 @@ TEST(Layer, RefusesACapsuleThatWouldMakeSearchesSlow) {
        {Capsule{{100.0f, 0.0f, 0.0f}, {}, 0.1f}, Capsule{before.centre, {}, 100.0f},
         Capsule{before.centre, {0.0f, 100.0f, 0.0f}, 0.1f}, Capsule{{NAN, 0.0f, 0.0f}, {}, 0.1f},
         Capsule{{}, {}, std::numeric_limits<float>::infinity()}}) {
-    EXPECT_FALSE(layer.replace(5, capsule, 0.0f));
+    EXPECT_FALSE(layer.overhang_at(5, capsule, 0.0f));
     EXPECT_EQ(layer.capsule_at(5), before);
   }
-  EXPECT_TRUE(layer.replace(5, {before.centre, before.velocity, 0.25f * before.radius}, 0.0f));
+  EXPECT_TRUE(layer.overhang_at(5, {before.centre, before.velocity, 0.25f * before.radius}, 0.0f));
 }
 
 TEST(Layer, IsEmptyAfterClear) {
