@@ -370,7 +370,13 @@ float Layer::arrange(const Unsorted& all, Shift& shift) {
   // their parts first, and of their begins when the last one has been taken from there.
   for (std::size_t cell = 1; cell < starts_.size(); ++cell) starts_[cell] += starts_[cell - 1];
   for (std::uint32_t k = count; k-- > 0;) cells[k] = --starts_[cells[k]];
-  for (std::vector<float>& column : columns_) column.resize(count + capsule_padding);
+  most_behind_ = least_behind + static_cast<std::uint32_t>(4.0 * std::sqrt(static_cast<double>(count)));
+  // With room for those that come behind, or one of them would make vectors twice as large.
+  for (std::vector<float>& column : columns_) {
+    column.reserve(count + most_behind_ + capsule_padding + 2);
+    column.resize(count + capsule_padding);
+  }
+  numbers_.reserve(count + most_behind_ + 2);
   numbers_.resize(count);
   shift.for_each(count, many, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t k = begin; k < end; ++k) {
@@ -379,7 +385,6 @@ float Layer::arrange(const Unsorted& all, Shift& shift) {
     }
   });
   sorted_ = count;
-  most_behind_ = least_behind + static_cast<std::uint32_t>(4.0 * std::sqrt(static_cast<double>(count)));
   holes_ = 0;
   return spread.largest;
 }

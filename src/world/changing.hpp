@@ -1,8 +1,8 @@
 // The way of every change from the public calls into the engine: past the recorder.
 #pragma once
 
+#include "engine/engine.hpp"
 #include "recording/recorder.hpp"
-#include "world/engine.hpp"
 
 namespace kinesphere {
 

@@ -2,10 +2,10 @@
 
 #include <string>
 
+#include "engine/fixed.hpp"
+#include "engine/validation.hpp"
 #include "input/input_check.hpp"
-#include "world/fixed.hpp"
 #include "world/run.hpp"
-#include "world/validation.hpp"
 
 namespace kinesphere {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string_view>
 
+#include "engine/engine.hpp"
 #include "kinesphere/world.hpp"
-#include "world/engine.hpp"
 
 namespace kinesphere {
 

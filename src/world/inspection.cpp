@@ -6,9 +6,9 @@
 
 #include "archive/fields.hpp"
 #include "archive/heap_counter.hpp"
+#include "engine/engine.hpp"
 #include "recording/recorder.hpp"
 #include "world/check.hpp"
-#include "world/engine.hpp"
 
 namespace kinesphere {
 namespace {

@@ -6,10 +6,10 @@
 #include <string>
 #include <utility>
 
+#include "engine/engine.hpp"
 #include "input/input_check.hpp"
 #include "recording/step.hpp"
 #include "world/check.hpp"
-#include "world/engine.hpp"
 
 namespace kinesphere {
 namespace {

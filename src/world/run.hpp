@@ -5,9 +5,9 @@
 #include <optional>
 #include <string_view>
 
+#include "engine/engine.hpp"
 #include "kinesphere/world.hpp"
 #include "parallel/crew.hpp"
-#include "world/engine.hpp"
 
 namespace kinesphere {
 

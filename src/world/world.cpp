@@ -7,13 +7,13 @@
 #include <set>
 #include <utility>
 
+#include "engine/engine.hpp"
+#include "engine/validation.hpp"
 #include "input/input_check.hpp"
 #include "recording/recorder.hpp"
 #include "world/changing.hpp"
 #include "world/check.hpp"
-#include "world/engine.hpp"
 #include "world/run.hpp"
-#include "world/validation.hpp"
 
 namespace kinesphere {
 World::World(std::unique_ptr<Engine> engine) : engine_(std::move(engine)) {}

@@ -1,11 +1,11 @@
 // World's certified answers: checks of the calls, and probes where the caller lends one.
 #include <limits>
 
+#include "engine/validation.hpp"
 #include "input/input_check.hpp"
-#include "world/answers.hpp"
+#include "query/answers.hpp"
 #include "world/check.hpp"
 #include "world/refresher.hpp"
-#include "world/validation.hpp"
 
 namespace kinesphere {
 namespace {

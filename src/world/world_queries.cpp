@@ -3,12 +3,12 @@
 #include <cmath>
 #include <type_traits>
 
+#include "engine/validation.hpp"
 #include "input/input_check.hpp"
 #include "kinesphere/limits.hpp"
+#include "query/queries.hpp"
 #include "world/check.hpp"
-#include "world/queries.hpp"
 #include "world/refresher.hpp"
-#include "world/validation.hpp"
 
 namespace kinesphere {
 namespace {

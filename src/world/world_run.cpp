@@ -4,11 +4,11 @@
 #include <string>
 #include <utility>
 
+#include "engine/engine.hpp"
+#include "engine/validation.hpp"
+#include "engine/while_true.hpp"
 #include "world/changing.hpp"
 #include "world/check.hpp"
-#include "world/engine.hpp"
-#include "world/validation.hpp"
-#include "world/while_true.hpp"
 
 namespace kinesphere {
 namespace {

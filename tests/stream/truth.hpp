@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "contact/contact_event.hpp"
+#include "engine/extent.hpp"
 #include "kinesphere/event.hpp"
 #include "kinesphere/motion/trajectory.hpp"
 #include "kinesphere/shape.hpp"
 #include "kinesphere/world_definition.hpp"
 #include "lab/truth/gap_course.hpp"
 #include "stream/operation.hpp"
-#include "world/extent.hpp"
 
 namespace kinesphere::stream {
 

@@ -1,5 +1,5 @@
 // The gaps that audits compare with: they hold the exact ones, and closely.
-#include "world/plain_gap.hpp"
+#include "query/plain_gap.hpp"
 
 #include <gtest/gtest.h>
 

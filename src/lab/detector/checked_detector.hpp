@@ -3,8 +3,8 @@
 
 #include <memory>
 
+#include "engine/validation.hpp"
 #include "lab/detector/detector.hpp"
-#include "world/validation.hpp"
 
 namespace kinesphere {
 

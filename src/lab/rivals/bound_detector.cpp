@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "bound/broken_promise.hpp"
-#include "world/validation.hpp"
+#include "engine/validation.hpp"
 
 namespace kinesphere {
 

@@ -4,13 +4,13 @@
 
 #include "contact/instant.hpp"
 #include "contact/outlook.hpp"
+#include "engine/validation.hpp"
 #include "input/input_check.hpp"
 #include "lab/detector/checked_detector.hpp"
 #include "lab/detector/detector.hpp"
 #include "lab/index/hash_grid.hpp"
 #include "lab/rivals/rivals.hpp"
 #include "number/infinity.hpp"
-#include "world/validation.hpp"
 
 namespace kinesphere {
 namespace {

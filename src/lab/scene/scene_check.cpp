@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "engine/validation.hpp"
 #include "input/input_check.hpp"
-#include "world/validation.hpp"
 
 namespace kinesphere {
 

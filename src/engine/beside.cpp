@@ -1,0 +1,100 @@
+#include "engine/beside.hpp"
+
+#include <cassert>
+
+#include "engine/island.hpp"
+#include "number/infinity.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// Never told: all is answered one by one then.
+Error too_many_kicks() { return {ErrorCode::out_of_range, "bodies", no_body, "too many for an island"}; }
+
+}  // namespace
+
+void Island::begin(Sea& sea, std::uint32_t own, double now, std::span<const HotPair> due) {
+  time_ = now;
+  phase_end_ = sea.phase_end;
+  agenda_.clear();
+  for (const HotPair& pair : due) agenda_.add(pair);
+  instant_ = {};
+  dirty_.clear();
+  gathering_ = true;
+  counters_ = {};
+  kicks_ = {};
+  if (!beside_) beside_.emplace();
+  beside_->sea = &sea;
+  beside_->own = own;
+  beside_->kicks.clear();
+  beside_->claims.clear();
+  beside_->counted_on.clear();
+  beside_->turned.clear();
+}
+
+/// As World::Engine::advance(), but that no windows start.
+Result<void> Island::go_on(Answerer* answerer, std::vector<Told>& told) {
+  std::uint32_t round = 0;
+  for (;;) {
+    if (gathering_) {
+      if (auto gathered = gather(); !gathered) return gathered;
+    }
+    while (const std::optional<Event> event = deliver()) {
+      told.push_back({round, *event});
+      if (answerer != nullptr) {
+        if (auto answered = answer(*event, *answerer); !answered) return answered;
+      }
+      if (!beside_->claims.empty()) return {};
+    }
+    if (auto settled = settle(); !settled) return settled;
+    if (!beside_->claims.empty()) return {};
+    if (beside_->kicks.size() > Beside::most_kicks) return too_many_kicks();
+    ++round;
+    if (!instant_.pending().empty()) continue;
+    const double next = next_time();
+    if (!beside_->sea->comes(next)) return {};
+    if (next > time_) round = 0;
+    come_to(next);
+  }
+}
+
+Result<void> Island::answer(const Event& event, Answerer& answerer) {
+  const auto answer = answerer.answer(event);
+  if (!answer) return answer.error();
+  const auto note = [&](BodyId body, const std::optional<Vec3>& velocity) {
+    if (velocity) beside_->turned.emplace_back(body, answerer.departure(body));
+  };
+  note(event.first, answer->first_velocity);
+  note(event.second, answer->second_velocity);
+  answerer.turn(event, *answer);
+  if (answer->first_velocity) kick(event.first.index, *answer->first_velocity);
+  if (answer->second_velocity) kick(event.second.index, *answer->second_velocity);
+  return {};
+}
+
+/// Whom the body touches or senses, the island has to have too.
+void Island::claim_linked(std::uint32_t number) {
+  const auto claim = [this](std::uint32_t other) {
+    if (!beside_->is_own(other) && !bodies()[other].is_fixed()) beside_->claims.push_back(other);
+  };
+  for (const std::uint32_t other : book().partners_of(number)) claim(other);
+  for (const Crossing& crossing : book().crossings_of(number)) claim(crossing.partner);
+}
+
+/// For one that the new capsule of `number`, which is its own, touches: whether the two have to be looked at.
+/// One that is not its own is claimed, if they have to in this phase.
+bool Island::may_count_on(std::uint32_t number, std::uint32_t other) {
+  assert(beside_->is_own(number));
+  if (beside_->is_own(other)) return beside_->last_kick(other) == nullptr;
+  if (bodies()[other].is_fixed()) return true;
+  if (!bodies().may_meet(number, other)) return false;
+  // One that is nobody's stays as it is.
+  const bool still = beside_->sea->places[other].island == Sea::nobody && !is_linked(number, other);
+  const double until = still ? unchanged_until(number, other) : time_;
+  if (until == infinity) return false;
+  const bool in_time = !still || beside_->sea->comes(until);
+  (in_time ? beside_->claims : beside_->counted_on).push_back(other);
+  return !in_time;
+}
+
+}  // namespace kinesphere

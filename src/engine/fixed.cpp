@@ -1,0 +1,44 @@
+// What a fixed body is as a body, and as a shape.
+#include "engine/fixed.hpp"
+
+#include <cmath>
+
+#include "engine/validation.hpp"
+#include "kinesphere/limits.hpp"
+#include "space/space.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// A place for events and views to tell; a point of the shape.
+Vec3 place_of(const Ball& ball) { return ball.centre; }
+Vec3 place_of(const HalfSpace& solid) { return solid.normal * solid.offset; }
+Vec3 place_of(const Box& box) { return 0.5 * box.lower + 0.5 * box.upper; }
+Vec3 place_of(const Triangle& t) { return (t.a + t.b + t.c) / 3.0; }
+
+}  // namespace
+
+BodyDefinition body_of(const FixedDefinition& fixed) {
+  const Ball* ball = std::get_if<Ball>(&fixed.shape);
+  return {.radius = ball ? ball->radius : 0.0,
+          .position = std::visit([](const auto& solid) { return place_of(solid); }, fixed.shape),
+          .filter = fixed.filter,
+          .solid = fixed.solid,
+          .sensor_class = fixed.sensor_class,
+          .user_data = fixed.user_data};
+}
+
+Shape as_kept(Shape shape, const WorldDefinition& world) {
+  const Space space(world);
+  if (auto* solid = std::get_if<HalfSpace>(&shape); solid && std::abs(norm(solid->normal) - 1.0) > 0x1p-51)
+    solid->normal = solid->normal / norm(solid->normal);
+  if (auto* ball = std::get_if<Ball>(&shape); ball && space.repeats())
+    ball->centre = space.wrapped(ball->centre).position;
+  if (auto* box = std::get_if<Box>(&shape); box && space.is_flat()) {
+    box->upper.z = coordinate_limit(world);
+    box->lower.z = -box->upper.z;
+  }
+  return shape;
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,277 @@
+// An island: bodies on their way through a window of time in which they meet nobody else.
+//
+// The loop over World::advance() has one island, all bodies; World::run() has many, side by side. An island
+// has a clock, an agenda and the events of its present instant, and looks at the pairs that are due.
+//
+// For every pair of bodies one of these facts holds whenever its time moves on:
+//   - their capsules do not touch before the window of either ends, and each body stays in its capsule until
+//     its own window ends; or
+//   - they cannot change between touching and not touching, nor cross a sensor distance, before the window of
+//     either ends; or
+//   - they cannot do so before the time of a hot pair in the agenda; or
+//   - the filters keep them from touching and sensing each other.
+// A capsule has room for all that its body can sense around it. A fact is about the true bodies, so later
+// probes leave it true. Only a discontinuity (a kick, a broken promise, a change that the caller makes) ends
+// it: the body gets another stamp, which voids its hot pairs, and becomes dirty. A dirty body gets a capsule
+// and its hot pairs anew before time moves on (a disabled one has left the windows instead); so do all bodies
+// whose window has ended.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bound/broken_promise.hpp"
+#include "contact/instant.hpp"
+#include "contact/outlook.hpp"
+#include "engine/answerer.hpp"
+#include "engine/beside.hpp"
+#include "engine/tables.hpp"
+#include "kinesphere/counters.hpp"
+#include "kinesphere/probe.hpp"
+#include "kinesphere/result.hpp"
+#include "number/infinity.hpp"
+#include "parallel/crew.hpp"
+#include "window/agenda.hpp"
+
+namespace kinesphere {
+
+class alignas(128) Island {
+ public:
+  Island(Tables& tables, double time) : tables_(&tables), time_(time) {}
+  /// Its world has another place now.
+  void attach(Tables& tables) { tables_ = &tables; }
+
+  void reserve(std::size_t bodies) { dirty_.reserve(bodies); }
+  double time() const { return time_; }
+  const Counters& counters() const { return counters_; }
+  Counters& counters() { return counters_; }
+  const Instant& instant() const { return instant_; }
+  Instant& instant() { return instant_; }
+  const Agenda& agenda() const { return agenda_; }
+  Agenda& agenda() { return agenda_; }
+  const std::vector<std::uint32_t>& dirty() const { return dirty_; }
+  /// Those of them that have come to where they are since windows started, in ascending order.
+  std::vector<std::uint32_t> arrivals() const;
+
+  /// All facts are as they should be, and nothing is to be delivered.
+  bool is_settled() const {
+    return !gathering_ && dirty_.empty() && instant_.is_quiet() && instant_.changed().empty();
+  }
+
+  // The clock.
+  /// Whom to ask from now on, in the call of this name.
+  void ask(const Probe& probe, std::string_view call) {
+    probe_ = &probe;
+    call_ = call;
+  }
+  bool is_asking() const { return asking_; }
+  /// Collecting what is due at this instant has begun: if a bad answer interrupts it, the next call goes on
+  /// with it.
+  bool is_gathering() const { return gathering_; }
+  /// When the next pair is due; +infinity when nothing is.
+  double next_time() {
+    agenda_.open([this](const HotPair& pair) { return is_void(pair); });
+    return agenda_.next_time();
+  }
+  void move_on_to(double time) {
+    if (time > time_) instant_.start();
+    time_ = time;
+  }
+  /// The same, to an instant at which something is due.
+  void come_to(double time) {
+    move_on_to(std::max(time, time_));
+    gathering_ = true;
+  }
+  /// Looks at all pairs that are due, so that every event of this instant is known before the first is
+  /// delivered.
+  Result<void> gather();
+  /// Pairs that delivered events have changed are to be looked at anew, but for those of dirty bodies, which
+  /// will be found.
+  void settle_changed();
+  /// After it, all facts are as they should be.
+  Result<void> settle();
+  /// The next event of this instant.
+  std::optional<Event> deliver();
+
+  // Discontinuities.
+  /// The body must be settled before time moves on. Facts about it stay.
+  void mark_dirty(std::uint32_t number);
+  /// Nothing that was certified about the body holds any more.
+  void void_facts(std::uint32_t number);
+  /// The body has another velocity from now on.
+  void kick(std::uint32_t number, const Vec3& velocity);
+
+  // Rest (rest.cpp).
+  void rest(std::uint32_t number);
+  void resume(std::uint32_t number);
+  void wake(std::uint32_t number);
+
+  // Facts.
+  /// The body stays in its capsule until then.
+  double end_of(std::uint32_t number) const { return window_of(number).end; }
+  /// Both do.
+  double windows_end(std::uint32_t a, std::uint32_t b) const { return std::min(end_of(a), end_of(b)); }
+  bool is_void(const HotPair& pair) const {
+    return bodies()[pair.first].stamp != pair.first_stamp ||
+           (pair.has_second() && bodies()[pair.second].stamp != pair.second_stamp);
+  }
+  /// Those that hold, or those of them that a body has a part in.
+  std::vector<HotPair> hot_pairs(std::optional<std::uint32_t> number = std::nullopt) const;
+  /// The hot pairs of a body that has got a capsule with `others`, with whom it touches or senses, and with
+  /// walls.
+  struct alignas(128) Found {
+    std::vector<HotPair> hot;
+    Windows::Scratch scratch;
+    std::uint64_t searches = 0;
+    std::uint64_t candidates = 0;
+    std::uint64_t pairs = 0;  ///< that candidates have given
+
+    void forget() {
+      hot.clear();
+      searches = candidates = pairs = 0;
+    }
+  };
+  /// Into the agenda and the counters; nothing is left in it.
+  void take(Found& found);
+  /// Bodies that were settled one by one since this was asked last.
+  Kicks take_kicks() { return std::exchange(kicks_, {}); }
+  void add_kicks(const Kicks& kicks) {
+    kicks_.bodies += kicks.bodies;
+    kicks_.hot += kicks.hot;
+  }
+  void find_hot_pairs(std::uint32_t number, std::span<const std::uint32_t> others, Found& found) const;
+  void find_known_pairs(std::uint32_t number, Found& found) const;
+  void find_walls(std::uint32_t number, Found& found) const;
+  /// Calls visit(threshold) for what comes next between two bodies that may meet: their contact, the next
+  /// sensor distance inward, and the next one outward.
+  template <class Visit>
+  void for_each_threshold(std::uint32_t a, std::uint32_t b, Visit visit) const;
+  /// All that may be in a box now, by number. Cost: a search, and those that were added or changed since time
+  /// moved on.
+  std::vector<std::uint32_t> bodies_in(const Box& box) const;
+
+  // Reports (probing.cpp).
+  Result<void> probe(std::span<const std::uint32_t> numbers);
+  /// The same, where several threads may be asked.
+  Result<void> probe(std::span<const std::uint32_t> numbers, Shift& shift);
+
+  // Events.
+  Sphere sphere(std::uint32_t number) const { return bodies().sphere_at(time_, number); }
+
+  // Beside other islands (beside.cpp).
+  /// From now on the island is one of those of a phase, with these pairs that are due.
+  void begin(Sea& sea, std::uint32_t own, double now, std::span<const HotPair> due);
+  /// Goes on as far as islands go, or to where it claims a body that is not its own.
+  Result<void> go_on(Answerer* answerer, std::vector<Told>& told);
+  Beside& beside() { return *beside_; }
+
+  // Windows (settling.cpp).
+  /// All windows that hold a body now end at this time or later; those that end before it, of bodies that
+  /// were kicked, are renewed one by one.
+  double phase_end() const { return phase_end_; }
+  void begin_phase(double end) { phase_end_ = end; }
+  Window window_to_start(std::uint32_t number) const;
+  bool needs_report(std::uint32_t number) const;
+
+  /// What a snapshot holds of it: the agenda comes apart.
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    archive(self.instant_, self.time_, self.phase_end_, self.dirty_, self.gathering_, self.counters_,
+            self.kicks_);
+  }
+  std::size_t bytes() const;
+
+ private:
+  class StillDue;
+  Bodies& bodies() { return tables_->bodies; }
+  const Bodies& bodies() const { return tables_->bodies; }
+  ContactBook& book() { return tables_->book; }
+  const ContactBook& book() const { return tables_->book; }
+
+  void settle_changed(std::uint32_t a, std::uint32_t b);
+  Result<void> settle_dirty();
+  void settle(std::span<const std::uint32_t> numbers);
+  Result<void> renew(std::uint32_t number);
+  void search(std::span<const std::uint32_t> numbers);
+  void enter(std::uint32_t number, const Window& window);
+  std::span<const std::uint32_t> near(std::uint32_t number);
+  Window window_for(std::uint32_t number) const;
+  std::optional<Window> registered_window(std::uint32_t number) const;
+  Window window_of(std::uint32_t number) const {
+    if (beside_ && !beside_->kicks.empty()) {
+      if (const BodyKick* kick = beside_->last_kick(number)) return kick->window;
+    }
+    return tables_->windows.window_of(number);
+  }
+
+  // beside.cpp
+  void claim_linked(std::uint32_t number);
+  bool may_count_on(std::uint32_t number, std::uint32_t other);
+  Result<void> answer(const Event& event, Answerer& answerer);
+
+  // looking.cpp
+  HotPair hot_pair(double time, std::uint32_t a, std::uint32_t b) const;
+  bool is_linked(std::uint32_t a, std::uint32_t b) const;
+  double unchanged_until(std::uint32_t a, std::uint32_t b) const;
+  double apart_until(std::uint32_t a, std::uint32_t b) const;
+  double unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const;
+  Result<void> look(const HotPair& pair);
+  Result<void> look_at_pair(std::uint32_t a, std::uint32_t b);
+  Result<void> look_at_walls(std::uint32_t number);
+  std::optional<double> judge_pair(std::uint32_t a, std::uint32_t b);
+  std::optional<double> judge_walls(std::uint32_t number);
+  template <class Partner>
+  std::optional<double> judge(const Outlook<Partner>& outlook, const Threshold& threshold, Event current,
+                              const Promise& promise);
+  Result<void> probe_staler(std::uint32_t a, std::uint32_t b);
+  // The k-th of those that have been asked.
+  Result<void> check(std::size_t k) const;
+  std::optional<BrokenPromise> apply_report(std::uint32_t number, const State& answer);
+  void tell_broken(std::size_t k, const BrokenPromise& broken);
+  Event contact(EventKind kind, std::uint32_t a, std::uint32_t b) const;
+  Event wall_contact(EventKind kind, std::uint32_t number, Wall wall) const;
+  Senses senses_in(const Event& event) const;
+
+  // rest.cpp
+  void rouse(std::uint32_t number);
+  void wake_by(const Event& event);
+  std::vector<std::uint32_t> resting_in_touch(std::uint32_t number) const;
+
+  Tables* tables_;
+  double time_;
+  double phase_end_ = infinity;
+  Agenda agenda_;
+  Instant instant_;
+  std::vector<std::uint32_t> dirty_;
+  bool gathering_ = false;
+  Counters counters_;
+  Kicks kicks_;
+  // During a call that may probe.
+  const Probe* probe_ = nullptr;
+  std::string_view call_;  ///< its name, for messages
+  bool asking_ = false;
+  std::optional<Beside> beside_;  ///< unless it has all bodies
+  // Kept for their memory only.
+  std::vector<BodyId> probe_ids_;
+  std::vector<State> probe_states_;
+  std::vector<std::uint32_t> round_;
+  Found found_;
+};
+
+template <class Visit>
+void Island::for_each_threshold(std::uint32_t a, std::uint32_t b, Visit visit) const {
+  if (bodies()[a].solid && bodies()[b].solid) visit(Threshold{.within = book().touch(a, b)});
+  if (!bodies().sensors().any()) return;
+  const Crossings::List crossed = book().crossings_of(a, b);
+  if (const auto next =
+          bodies().sensors().next_inward(bodies().sensing_of(a), bodies().sensing_of(b), crossed))
+    visit(Threshold{false, *next, true});
+  if (!crossed.empty()) visit(Threshold{true, crossed.back().distance, true});
+}
+
+}  // namespace kinesphere

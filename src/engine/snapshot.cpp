@@ -1,0 +1,158 @@
+// Snapshots: the whole state of a world as bytes, and back.
+//
+// Everything is kept as it stands, the places of capsules in their layers included: what a search meets first
+// decides who is probed first, so only the same order goes on the same way. Of the agenda only hot pairs that
+// hold are kept: it gives them in the order of their times and numbers, however it has divided time. Memory
+// that is merely kept for later is not part of it.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "archive/archive.hpp"
+#include "archive/envelope.hpp"
+#include "archive/fields.hpp"
+#include "engine/engine.hpp"
+#include "engine/fixed.hpp"
+#include "engine/validation.hpp"
+#include "input/input_check.hpp"
+#include "number/infinity.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// Raise the version when the fields change, or when the engine would go on from the same fields in another
+/// way.
+constexpr Envelope envelope{{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'},
+                            12,
+                            "world",
+                            "World::restore",
+                            "snapshot",
+                            ErrorCode::bad_snapshot};
+
+Error refusal(const std::string& what) { return envelope.refusal(what); }
+
+}  // namespace
+
+template <class Self, class Archive>
+void World::Engine::transfer(Self& self, Archive& archive) {
+  // The definition comes first, as an engine is made from it. The tag is left out (BodyId::world).
+  archive(self.tables_.bodies, self.tables_.book, self.tables_.windows, self.tables_.tempo, self.everybody_);
+  // Of the agenda what counts, in an order of its own: not what is void, nor how it has divided time.
+  if constexpr (std::is_const_v<Self>) {
+    std::vector<HotPair> pairs = self.everybody_.hot_pairs();
+    std::sort(pairs.begin(), pairs.end());
+    archive(pairs);
+  } else {
+    archive(self.read_pairs_);
+  }
+}
+
+std::vector<std::byte> World::Engine::save() const {
+  ByteWriter content;
+  content(definition());
+  transfer(*this, content);
+  return envelope.seal(content.bytes());
+}
+
+Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const std::byte> bytes,
+                                                              PairFilter pair_filter) {
+  auto content = envelope.open(bytes);
+  if (!content) return content.error();
+  ByteReader reader(*content);
+  WorldDefinition definition;
+  reader(definition);
+  const bool known_mode =
+      definition.contacts == ContactMode::begin_and_end || definition.contacts == ContactMode::impacts;
+  if (reader.failed() || !known_mode || !check_world(definition))
+    return refusal("must hold a world that can be, but its definition is impossible");
+  auto engine = std::make_unique<Engine>(definition);
+  transfer(*engine, reader);
+  if (reader.failed() || reader.remaining() != 0)
+    return refusal("must hold a world, but its content does not have the form of one");
+  if (const char* where = engine->contradiction())
+    return refusal(std::string("must hold a world that can be, but contradicts itself in its ") + where);
+  engine->everybody_.agenda().add_all(engine->read_pairs_);
+  engine->tables_.bodies.forget_tag();
+  if (pair_filter) engine->tables_.bodies.keep_pair_filter(std::move(pair_filter));
+  return engine;
+}
+
+/// The part of a state that was read, if any, that cannot have come about. What passes may be another world
+/// than the one that was saved, but is one in which every call is safe.
+const char* World::Engine::contradiction() const {
+  if (!std::isfinite(time()) || std::isnan(everybody_.phase_end())) return "time";
+  if (const char* where = bodies().contradiction(time(), everybody_.dirty())) return where;
+  const auto known = [this](BodyId id) { return bodies().was_given_out(id); };
+  if (!book().is_sound(bodies().numbers(), bodies().walls()) ||
+      !everybody_.instant().is_sound(bodies().numbers(), time(), bodies().walls(), known) ||
+      !contacts_of_fixed_are_sound())
+    return "contacts";
+  if (!windows().is_sound(bodies().numbers()) || !tables_.tempo.is_sound()) return "windows";
+  if (!agenda_is_sound() || !renewals_are_sound()) return "agenda";
+  for (std::uint32_t number = 0; number < bodies().numbers(); ++number) {
+    const bool takes_part = bodies()[number].present();
+    const bool registered = windows().contains(number);
+    if (takes_part ? !registered && !bodies()[number].dirty : registered) return "windows";
+    if (registered && bodies()[number].is_fixed() && windows().end_of(number) != infinity) return "windows";
+    if (!takes_part && (!book().partners_of(number).empty() || !book().crossings_of(number).empty() ||
+                        book().walls_of(number) != 0))
+      return "contacts";
+  }
+  return nullptr;
+}
+
+/// Hot pairs, which wait to be put into the agenda, are those of bodies which are registered.
+bool World::Engine::agenda_is_sound() const {
+  const auto takes_part = [this](std::uint32_t number) {
+    return number < bodies().numbers() && bodies()[number].present() && windows().contains(number);
+  };
+  const auto is_sound = [&](const HotPair& pair) {
+    if (!(pair.time < infinity) || !takes_part(pair.first)) return false;
+    if (pair.second == HotPair::renewal) return !bodies()[pair.first].is_fixed() && !everybody_.is_void(pair);
+    if (pair.second == HotPair::walls)
+      return bodies().walls() && !bodies()[pair.first].is_fixed() && !everybody_.is_void(pair);
+    return pair.first < pair.second && takes_part(pair.second) && !everybody_.is_void(pair) &&
+           !(bodies()[pair.first].is_fixed() && bodies()[pair.second].is_fixed());
+  };
+  return std::all_of(read_pairs_.begin(), read_pairs_.end(), is_sound);
+}
+
+/// A body whose window ends within the phase has a renewal by then.
+bool World::Engine::renewals_are_sound() const {
+  std::vector<bool> is_renewed(bodies().numbers(), false);
+  for (const HotPair& pair : read_pairs_)
+    if (pair.second == HotPair::renewal && pair.time <= windows().end_of(pair.first))
+      is_renewed[pair.first] = true;
+  for (std::uint32_t number = 0; number < bodies().numbers(); ++number)
+    if (windows().contains(number) && !bodies()[number].dirty && !is_renewed[number] &&
+        windows().end_of(number) < everybody_.phase_end())
+      return false;
+  return true;
+}
+
+/// Fixed bodies touch neither each other nor walls, and are not about to.
+bool World::Engine::contacts_of_fixed_are_sound() const {
+  const auto fixed = [this](std::uint32_t number) { return bodies()[number].is_fixed(); };
+  const auto lives_fixed = [&](BodyId id) { return id == bodies().id_of(id.index) && fixed(id.index); };
+  for (std::uint32_t number = 0; number < bodies().numbers(); ++number) {
+    if (!fixed(number)) continue;
+    const auto partners = book().partners_of(number);
+    const auto crossings = book().crossings_of(number);
+    if (book().walls_of(number) != 0 || std::any_of(partners.begin(), partners.end(), fixed) ||
+        std::any_of(crossings.begin(), crossings.end(), [&](const Crossing& c) { return fixed(c.partner); }))
+      return false;
+  }
+  // One may have got the index of a body that has gone; then it is dirty, and the pair is not looked at.
+  const auto settled_fixed = [&](std::uint32_t number) {
+    return fixed(number) && bodies()[number].present() && !bodies()[number].dirty;
+  };
+  return std::none_of(
+             everybody_.instant().changed().begin(), everybody_.instant().changed().end(),
+             [&](const auto& pair) { return settled_fixed(pair.first) && settled_fixed(pair.second); }) &&
+         everybody_.instant().pending().none_of([&](const Event& event) {
+           return lives_fixed(event.first) && (event.second == no_body || lives_fixed(event.second));
+         });
+}
+
+}  // namespace kinesphere

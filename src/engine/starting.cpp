@@ -1,0 +1,200 @@
+// Windows end, and new ones start.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "engine/engine.hpp"
+#include "number/infinity.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// So many are worth the while of a thread.
+constexpr std::size_t bodies_at_once = 256;
+
+/// About the distance between so many points along a line or in a layer, if their box is thinner than that,
+/// or in a cube around it. The same on all machines, without std::cbrt().
+double spacing_within(const Vec3& size, int count) {
+  std::array<double, 3> sides{size.x, size.y, size.z};
+  std::sort(sides.begin(), sides.end(), std::greater<>());
+  const double on_line = sides[0] / count;
+  if (!(sides[1] > on_line)) return on_line;
+  const double in_layer = std::sqrt(sides[1] * on_line);
+  if (!(sides[2] > in_layer)) return in_layer;
+  return std::ldexp(sides[0], -std::ilogb(count) / 3);
+}
+
+}  // namespace
+
+/// The first main window lets most new bodies go about a quarter of the distance between them.
+void World::Engine::choose_tempo(std::span<const std::uint32_t> round) {
+  // One that was chosen for few bodies may be far too slow for many.
+  if (round.empty() || (tables_.tempo.is_chosen() && 2 * round.size() < windows().moving())) return;
+  Vec3 lower{infinity, infinity, infinity};
+  Vec3 upper = -lower;
+  std::vector<double> speeds;
+  double acceleration = 0.0;
+  for (const std::uint32_t number : round) {
+    const Vec3 centre = bodies()[number].bound.centre_at(time());
+    for (int axis = 0; axis < 3; ++axis) {
+      lower[axis] = std::min(lower[axis], centre[axis]);
+      upper[axis] = std::max(upper[axis], centre[axis]);
+    }
+    const Pace pace = bodies().pace_of(number, time());
+    speeds.push_back(pace.speed);
+    acceleration += pace.acceleration / static_cast<double>(round.size());
+  }
+  const auto middle = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() / 2);
+  std::nth_element(speeds.begin(), middle, speeds.end());
+  const double spacing = spacing_within(upper - lower, static_cast<int>(round.size()));
+  const double way = std::max(0.25 * spacing, 0x1p8 * definition().contact_tolerance);
+  tables_.tempo.choose(way, {*middle, acceleration});
+}
+
+/// Where many have arrived since windows started, all start anew with them: those that have arrived one by
+/// one would cost more.
+Result<void> World::Engine::start_with_arrivals(Shift& shift) {
+  constexpr std::size_t many = 8;
+  std::vector<std::uint32_t> joining = everybody_.arrivals();
+  const bool anew = joining.size() > many && many * joining.size() > windows().size();
+  if (anew) {
+    std::erase_if(joining, [this](std::uint32_t number) {
+      return bodies()[number].is_fixed() || bodies()[number].stands_still();
+    });
+  }
+  if (anew || !tables_.tempo.is_chosen()) choose_tempo(joining);
+  if (!anew || joining.empty()) return {};
+  std::vector<std::uint32_t> stale;
+  for (const std::uint32_t number : joining)
+    if (!bodies()[number].fresh(time())) stale.push_back(number);
+  if (!stale.empty()) {
+    if (auto probed = everybody_.probe(stale); !probed) return probed;
+  }
+  if (auto started = start_windows(shift, true, joining); !started) return started;
+  // For some there was no window.
+  for (const std::uint32_t number : joining)
+    if (windows().contains(number)) tables_.bodies[number].settled_now();
+  return {};
+}
+
+/// Probes those for whom a larger capsule would cost more.
+Result<void> World::Engine::refresh(std::span<const std::uint32_t> ending, Shift& shift) {
+  std::vector<std::uint8_t> is_asked(ending.size());
+  shift.for_each(ending.size(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+    for (std::size_t k = from; k < to; ++k)
+      is_asked[k] = !bodies()[ending[k]].dirty && everybody_.needs_report(ending[k]) ? 1 : 0;
+  });
+  std::vector<std::uint32_t> asked;
+  for (std::size_t k = 0; k < ending.size(); ++k)
+    if (is_asked[k] != 0) asked.push_back(ending[k]);
+  if (asked.empty()) return {};
+  return everybody_.probe(asked, shift);
+}
+
+/// The windows that suit the bodies of a round, which are in none. A layer in which others are already would
+/// have to be sorted anew: rather a shorter window. Those for whom there is none are left out.
+std::vector<Windows::Starter> World::Engine::choose_windows(std::span<const std::uint32_t> numbers, bool most,
+                                                            Tempo::Round& round, Shift& shift) {
+  const double now = time();
+  std::vector<Windows::Starter> starters(numbers.size());
+  const std::size_t parts = (numbers.size() + bodies_at_once - 1) / bodies_at_once;
+  std::vector<Tempo::Round> rounds(parts, Tempo::Round(tables_.tempo, most));
+  shift.for_each(parts, 1, [&](std::size_t from, std::size_t to, std::size_t) {
+    for (std::size_t part = from; part < to; ++part) {
+      const std::size_t end = std::min((part + 1) * bodies_at_once, numbers.size());
+      for (std::size_t k = part * bodies_at_once; k < end; ++k) {
+        const std::uint32_t number = numbers[k];
+        Window window = everybody_.window_to_start(number);
+        while (!windows().is_free(window)) {
+          const int tier = window.tier;
+          window = Windows::window_at(now, tier - Tempo::powers_between_tiers);
+          if (window.tier == tier) window.end = now;
+        }
+        starters[k] = {number, 0, window};
+        if (window.end == now) continue;
+        if (bodies().space().repeats()) tables_.bodies.bring_home(number, now, window.end - now);
+        const RoomyBound bound = bodies().roomy_bound(number, now);
+        starters[k].level = Windows::level_of(bound, window);
+        rounds[part].note(bodies().pace_of(number, now), 2.0 * (bound.moved.radius + bound.room),
+                          window.tier);
+      }
+    }
+  });
+  for (const Tempo::Round& one : rounds) round += one;
+  return starters;
+}
+
+/// New windows for those whose windows have ended, or for all, and for some that join them.
+Result<void> World::Engine::start_windows(Shift& shift, bool all, std::span<const std::uint32_t> joining) {
+  Windows& windows = tables_.windows;
+  Tempo& tempo = tables_.tempo;
+  const double now = time();
+  std::vector<std::uint32_t> numbers = windows.ended(now, all);
+  const bool most = 2 * (numbers.size() + joining.size()) > windows.moving();
+  if (auto probed = refresh(numbers, shift); !probed) return probed;
+  if (most) tempo.start_main(now, everybody_.take_kicks());
+  windows.end_windows(now, all);
+  // Those with a broken promise, too, are settled by themselves.
+  std::erase_if(numbers, [this](std::uint32_t number) { return bodies()[number].dirty; });
+  ++everybody_.counters().window_ends;
+  everybody_.counters().starts += numbers.size();
+  everybody_.counters().restarts += joining.size();
+  const auto ended = static_cast<std::ptrdiff_t>(numbers.size());
+  numbers.insert(numbers.end(), joining.begin(), joining.end());
+  std::inplace_merge(numbers.begin(), numbers.begin() + ended, numbers.end());
+  for (const std::uint32_t number : joining)
+    if (windows.contains(number)) windows.leave(number);
+  Tempo::Round round(tempo, most);
+  std::vector<Windows::Starter> starters = choose_windows(numbers, most, round, shift);
+  std::erase_if(starters, [&](const Windows::Starter& starter) {
+    if (starter.window.end > now) return false;
+    // There is no window for the body: it is settled by itself.
+    everybody_.mark_dirty(starter.number);
+    return true;
+  });
+  windows.start(
+      starters, now, [this, now](std::uint32_t number) { return bodies().roomy_bound(number, now); }, shift);
+  tempo.finish_start(round, find_pairs_of_started(shift), windows.size());
+  find_others_of(starters, shift);
+  for (Island::Found& found : found_) everybody_.take(found);
+  everybody_.begin_phase(windows.next_end());
+  return {};
+}
+
+/// The hot pairs that searches find of those that have started.
+SearchCost World::Engine::find_pairs_of_started(Shift& shift) {
+  const double now = time();
+  const Windows& windows = tables_.windows;
+  found_.resize(shift.count());
+  shift.for_each(
+      windows.started(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
+        Island::Found& found = found_[worker];
+        for (std::size_t k = from; k < to; ++k) {
+          const auto others = windows.near_started(
+              k, now, [this, now](std::uint32_t number) { return bodies().roomy_bound(number, now); },
+              found.scratch);
+          everybody_.find_hot_pairs(windows.started_number(k), others, found);
+        }
+      });
+  SearchCost cost;
+  for (Island::Found& found : found_) {
+    cost += std::exchange(found.scratch.cost, {});
+    cost.hot += found.pairs;
+  }
+  return cost;
+}
+
+/// Pairs that touch or sense each other, and walls, of those that have started.
+void World::Engine::find_others_of(std::span<const Windows::Starter> starters, Shift& shift) {
+  for (const Windows::Starter& starter : starters) tables_.bodies[starter.number].settled = true;
+  shift.for_each(starters.size(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
+    for (std::size_t k = from; k < to; ++k) {
+      everybody_.find_known_pairs(starters[k].number, found_[worker]);
+      everybody_.find_walls(starters[k].number, found_[worker]);
+    }
+  });
+  for (const Windows::Starter& starter : starters) tables_.bodies[starter.number].settled = false;
+}
+
+}  // namespace kinesphere

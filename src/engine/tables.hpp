@@ -1,0 +1,24 @@
+// What a world keeps, whoever moves it on.
+#pragma once
+
+#include "contact/contact_book.hpp"
+#include "engine/bodies.hpp"
+#include "window/tempo.hpp"
+#include "window/windows.hpp"
+
+namespace kinesphere {
+
+struct Tables {
+  explicit Tables(const WorldDefinition& definition)
+      : bodies(definition),
+        book(definition),
+        windows(bodies.space()),
+        tempo(bodies.longest_way(), definition.dimensions) {}
+
+  Bodies bodies;
+  ContactBook book;
+  Windows windows;
+  Tempo tempo;
+};
+
+}  // namespace kinesphere

@@ -1,0 +1,281 @@
+#include "engine/validation.hpp"
+
+#include <cmath>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "bound/triangle.hpp"
+#include "contact/contact_rule.hpp"
+#include "kinesphere/limits.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// Nearly all input is fine, and words cost time: what fits needs no check that could speak.
+bool fits(const Vec3& v, double limit) {
+  return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
+}
+
+void require_size(InputCheck& check, const Subject& subject, double value, double limit) {
+  check.not_negative(subject, value)
+      .require(value <= limit, ErrorCode::out_of_range, subject, "must be at most", limit, value);
+}
+
+void require_radius(InputCheck& check, double radius, BodyId body, const WorldDefinition& world) {
+  require_size(check, {"radius", body}, radius, coordinate_limit(world));
+}
+
+/// A pair can be looked at in one image only: space/space.hpp has the limit and the proof.
+void require_room(InputCheck& check, std::string_view argument, const BodyDefinition& definition, BodyId body,
+                  const WorldDefinition& world) {
+  if (!world.box) return;
+  const double needed = 6.0 * definition.position_error + ContactRule(world).release_gap();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!world.periodic[axis]) continue;
+    const double room = 0.375 * (world.box->upper[axis] - world.box->lower[axis]);
+    check.require(
+        2.0 * definition.radius + needed <= room, ErrorCode::out_of_range, {argument, body},
+        "must leave 2 radius + 6 position_error + separation_distance + contact_tolerance at most 3/8 of "
+        "the periodic box, which is",
+        room, 2.0 * definition.radius + needed);
+  }
+}
+
+void require_promise(InputCheck& check, const MotionLimits& promise, BodyId body,
+                     const WorldDefinition& world) {
+  require_size(check, {"acceleration_limit", body}, promise.acceleration_limit, limits::largest_acceleration);
+  require_size(check, {"position_error", body}, promise.position_error, coordinate_limit(world));
+  require_size(check, {"velocity_error", body}, promise.velocity_error, limits::largest_speed);
+  check.within({"planned_acceleration", body}, promise.planned_acceleration, limits::largest_acceleration);
+  require_plane(check, {"planned_acceleration", body}, promise.planned_acceleration, world);
+}
+
+void require_state(InputCheck& check, const State& state, const BodyDefinition& definition, BodyId body,
+                   const WorldDefinition& world) {
+  check.within({"position", body}, state.position, coordinate_limit(world))
+      .within({"velocity", body}, state.velocity, limits::largest_speed);
+  require_plane(check, {"position", body}, state.position, world);
+  require_plane(check, {"velocity", body}, state.velocity, world);
+  if (!world.box) return;
+  const double reach =
+      world.allow_overlap ? 0.0 : definition.radius + definition.position_error - world.contact_tolerance;
+  for (int axis = 0; axis < world.dimensions; ++axis) {
+    if (world.periodic[axis]) continue;
+    check.require(state.position[axis] - reach >= world.box->lower[axis] &&
+                      state.position[axis] + reach <= world.box->upper[axis],
+                  ErrorCode::outside_domain, {"position", body},
+                  world.allow_overlap ? "must lie in the box" : "must keep the whole sphere in the box",
+                  *world.box, state.position);
+  }
+}
+
+void require_shape(InputCheck& check, const Ball& ball, const WorldDefinition& world) {
+  check.within({"shape", no_body, "centre"}, ball.centre, coordinate_limit(world));
+  require_plane(check, {"shape", no_body, "centre"}, ball.centre, world);
+  require_radius(check, ball.radius, no_body, world);
+}
+
+void require_shape(InputCheck& check, const HalfSpace& solid, const WorldDefinition& world) {
+  const double limit = coordinate_limit(world);
+  check.within({"shape", no_body, "normal"}, solid.normal, 2.0)
+      .require(std::abs(norm(solid.normal) - 1.0) <= 1e-6, ErrorCode::out_of_range,
+               {"shape", no_body, "normal"}, "must have length 1", solid.normal)
+      .finite({"shape", no_body, "offset"}, solid.offset)
+      .require(std::abs(solid.offset) <= limit, ErrorCode::out_of_range, {"shape", no_body, "offset"},
+               "must be at most", limit, solid.offset);
+  require_plane(check, {"shape", no_body, "normal"}, solid.normal, world);
+}
+
+void require_shape(InputCheck& check, const Box& box, const WorldDefinition& world) {
+  check.within({"shape", no_body, "lower"}, box.lower, coordinate_limit(world))
+      .within({"shape", no_body, "upper"}, box.upper, coordinate_limit(world));
+  for (int axis = 0; axis < 3; ++axis)
+    check.require(box.lower[axis] <= box.upper[axis], ErrorCode::out_of_range, {"shape"},
+                  "must have lower <= upper on each axis", box);
+}
+
+void require_shape(InputCheck& check, const Triangle& triangle, const WorldDefinition& world) {
+  check.require(world.dimensions == 3, ErrorCode::unsupported, {"shape"}, "must not be a triangle",
+                std::string_view("one in a plane"));
+  for (const Vec3& corner : {triangle.a, triangle.b, triangle.c})
+    check.within({"shape", no_body, "corner"}, corner, coordinate_limit(world));
+  if (check.error()) return;
+  const double thick = thickness(triangle);
+  check.require(thick >= least_thickness, ErrorCode::out_of_range, {"shape"},
+                "must be a triangle whose least height, relative to its longest side, is at least",
+                least_thickness, thick);
+}
+
+}  // namespace
+
+InputCheck& require_length(InputCheck& check, std::string_view argument, double length,
+                           const WorldDefinition& world) {
+  const double limit = limits::largest_query_length * world.contact_tolerance;
+  return check.not_negative({argument}, length)
+      .require(length <= limit, ErrorCode::out_of_range, {argument}, "must be at most", limit, length);
+}
+
+void require_plane(InputCheck& check, const Subject& subject, const Vec3& value,
+                   const WorldDefinition& world) {
+  check.require(world.dimensions == 3 || value.z == 0.0, ErrorCode::out_of_range, subject,
+                "must have z = 0 in two dimensions", value);
+}
+
+double coordinate_limit(const WorldDefinition& world) {
+  return limits::largest_length * world.contact_tolerance;
+}
+
+Result<void> check_world(const WorldDefinition& definition) {
+  InputCheck check("World::create");
+  check.positive({"contact_tolerance"}, definition.contact_tolerance)
+      .require(definition.contact_tolerance >= limits::least_contact_tolerance, ErrorCode::out_of_range,
+               {"contact_tolerance"}, "must be at least", limits::least_contact_tolerance,
+               definition.contact_tolerance)
+      .require(definition.contact_tolerance <= limits::largest_contact_tolerance, ErrorCode::out_of_range,
+               {"contact_tolerance"}, "must be at most", limits::largest_contact_tolerance,
+               definition.contact_tolerance)
+      .not_negative({"zeno_interval"}, definition.zeno_interval)
+      .finite({"start_time"}, definition.start_time)
+      .require(std::abs(definition.start_time) <= limits::largest_time, ErrorCode::out_of_range,
+               {"start_time"}, "must lie within +-", limits::largest_time, definition.start_time);
+  if (!std::isnan(definition.separation_distance)) {
+    check.finite({"separation_distance"}, definition.separation_distance)
+        .require(definition.separation_distance > definition.contact_tolerance, ErrorCode::out_of_range,
+                 {"separation_distance"}, "must be larger than contact_tolerance",
+                 definition.contact_tolerance, definition.separation_distance)
+        .require(definition.separation_distance <= coordinate_limit(definition), ErrorCode::out_of_range,
+                 {"separation_distance"}, "must be at most", coordinate_limit(definition),
+                 definition.separation_distance);
+  }
+  const int dimensions = definition.dimensions;
+  check.require(dimensions == 2 || dimensions == 3, ErrorCode::out_of_range, {"dimensions"}, "must be 2 or 3",
+                static_cast<double>(dimensions));
+  if (definition.box) {
+    Box box = *definition.box;
+    if (dimensions == 2) std::tie(box.lower.z, box.upper.z) = std::pair(0.0, 1.0);
+    check.box({"box"}, box)
+        .within({"box", no_body, "lower"}, box.lower, coordinate_limit(definition))
+        .within({"box", no_body, "upper"}, box.upper, coordinate_limit(definition));
+  }
+  const std::string_view on = definition.periodic.x   ? "true on x"
+                              : definition.periodic.y ? "true on y"
+                                                      : "true on z";
+  check
+      .require(definition.box || !definition.periodic.any(), ErrorCode::out_of_range, {"periodic"},
+               "must be false on all axes where there is no box", on)
+      .require(dimensions == 3 || !definition.periodic.z, ErrorCode::out_of_range, {"periodic"},
+               "must be false on z in two dimensions", on);
+  // A body without any size would not fit.
+  if (!check.error()) require_room(check, "box", {.radius = 0.0}, no_body, definition);
+  return check.result();
+}
+
+Result<void> check_body(const BodyDefinition& body, const WorldDefinition& world, std::string_view call) {
+  InputCheck check(call);
+  require_radius(check, body.radius, no_body, world);
+  require_promise(check, motion_limits_of(body), no_body, world);
+  require_state(check, {body.position, body.velocity}, body, no_body, world);
+  require_room(check, "radius", body, no_body, world);
+  return check.result();
+}
+
+Result<void> check_shape(const Shape& shape, const WorldDefinition& world, std::string_view call) {
+  InputCheck check(call);
+  std::visit([&](const auto& solid) { require_shape(check, solid, world); }, shape);
+  const bool repeats = world.periodic.x || world.periodic.y || world.periodic.z;
+  if (auto valid = check.result(); !valid || !repeats || std::holds_alternative<Ball>(shape)) return valid;
+  return Error{ErrorCode::unsupported, "shape", no_body,
+               std::string(call) + ": shape must be a ball where space repeats"};
+}
+
+Result<void> check_radius(const BodyDefinition& changed, BodyId body, const WorldDefinition& world,
+                          std::string_view call) {
+  InputCheck check(call);
+  require_radius(check, changed.radius, body, world);
+  require_room(check, "radius", changed, body, world);
+  return check.result();
+}
+
+Result<void> check_promise(const BodyDefinition& changed, BodyId body, const WorldDefinition& world,
+                           std::string_view call) {
+  InputCheck check(call);
+  require_promise(check, motion_limits_of(changed), body, world);
+  require_room(check, "position_error", changed, body, world);
+  return check.result();
+}
+
+Result<void> check_state(const State& state, const BodyDefinition& definition, BodyId body,
+                         const WorldDefinition& world, std::string_view call) {
+  InputCheck check(call);
+  require_state(check, state, definition, body, world);
+  return check.result();
+}
+
+Result<void> check_sensor(const Sensor& sensor, const WorldDefinition& world) {
+  InputCheck check("set_sensor");
+  for (std::size_t number = 0; number < sensor.distances.size(); ++number) {
+    require_size(check, {"sensor", no_body, "distance", number}, sensor.distances[number],
+                 coordinate_limit(world));
+  }
+  return check.result();
+}
+
+Result<void> check_reach(double reach, const BodyDefinition& body, BodyId id, std::string_view argument,
+                         const WorldDefinition& world, std::string_view call) {
+  if (!world.periodic.any()) return {};
+  InputCheck check(call);
+  BodyDefinition grown = body;
+  grown.radius += reach;
+  require_room(check, argument, grown, id, world);
+  return check.result();
+}
+
+Result<void> check_velocity(const Vec3& velocity, BodyId body, const WorldDefinition& world,
+                            std::string_view call) {
+  if (fits(velocity, limits::largest_speed) && (world.dimensions == 3 || velocity.z == 0.0)) return {};
+  InputCheck check(call);
+  check.within({"velocity", body}, velocity, limits::largest_speed);
+  require_plane(check, {"velocity", body}, velocity, world);
+  return check.result();
+}
+
+Result<void> check_report(const State& state, BodyId body, double time, const WorldDefinition& world,
+                          std::string_view call) {
+  const bool in_plane = world.dimensions == 3 || (state.position.z == 0.0 && state.velocity.z == 0.0);
+  if (fits(state.position, coordinate_limit(world)) && fits(state.velocity, limits::largest_speed) &&
+      in_plane)
+    return {};
+  const std::string answer = std::string(call) + ": the probe's answer at time " + text_of(time);
+  InputCheck check(answer);
+  check.within({"position", body}, state.position, coordinate_limit(world))
+      .within({"velocity", body}, state.velocity, limits::largest_speed);
+  require_plane(check, {"position", body}, state.position, world);
+  require_plane(check, {"velocity", body}, state.velocity, world);
+  return check.result();
+}
+
+Result<void> check_time(double until, double now) {
+  if (until >= now && until <= limits::largest_time) return {};
+  return InputCheck("advance")
+      .finite({"until"}, until)
+      .require(until <= limits::largest_time, ErrorCode::out_of_range, {"until"}, "must be at most",
+               limits::largest_time, until)
+      .require(until >= now, ErrorCode::time_backwards, {"until"}, "must not lie before the current time",
+               now, until)
+      .result();
+}
+
+Error overlap_error(std::string_view call, BodyId other, const std::string& name_of_other,
+                    std::string_view argument) {
+  return {ErrorCode::overlapping, std::string(argument), other,
+          std::string(call) + ": " + std::string(argument) +
+              " must not overlap another body, but the body would overlap " + name_of_other};
+}
+
+Error moved_from_error(std::string_view call) {
+  return {ErrorCode::moved_from, "world", no_body,
+          std::string(call) + ": world must be one that has not been moved from"};
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,278 @@
+#include "query/answers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bound/relative_motion.hpp"
+#include "number/infinity.hpp"
+#include "query/present.hpp"
+
+namespace kinesphere {
+World::Engine::Answers::Answers(const Engine& engine) : engine_(engine), now_(engine.time()) {
+  for (const auto& [a, b] : engine.everybody().instant().changed()) open_.insert(std::minmax(a, b));
+  engine.everybody().instant().pending().for_each([this](const Event& event) {
+    const std::uint32_t a = event.first.index;
+    open_.insert(std::minmax(a, event.second == no_body ? a : event.second.index));
+  });
+}
+
+Bound World::Engine::Answers::present(std::uint32_t number) const {
+  return present_bound(body(number), engine_.bodies().change_since_report(number), now_);
+}
+
+/// A begin is told where the gap of fresh reports is at most the tolerance, and each report may be e0 away
+/// from the true body and counts it as larger by e0. Grown by as much, bounds that do not meet tell that
+/// there is no begin.
+Bound World::Engine::Answers::guarded(std::uint32_t number) const {
+  Bound bound = present(number);
+  bound.radius += engine_.definition().contact_tolerance + 2.0 * body(number).position_error;
+  return bound;
+}
+
+bool World::Engine::Answers::settled(std::uint32_t a, std::uint32_t b) const {
+  return !body(a).dirty && !body(b).dirty && !open_.contains(std::minmax(a, b));
+}
+
+/// The engine looks at the pair no sooner than this, so it tells of no begin before.
+double World::Engine::Answers::recorded(std::uint32_t a, std::uint32_t b, const PairTimes& hot) const {
+  if (!settled(a, b)) return now_;
+  return std::max(std::min(hot.of(a, b), engine_.everybody().windows_end(a, b)), now_);
+}
+
+double World::Engine::Answers::recorded_of_walls(std::uint32_t number, const PairTimes& hot) const {
+  if (!settled(number, number)) return now_;
+  return std::max(now_, std::min(hot.of(number, HotPair::walls), engine_.windows().end_of(number)));
+}
+
+void World::Engine::Answers::consider_touching(std::uint32_t number, Onset& first) const {
+  if (first.touching) return;
+  const auto partners = engine_.book().partners_of(number);
+  if (!partners.empty())
+    first = {now_, number, *std::min_element(partners.begin(), partners.end()), Wall::none, true};
+  for (const Wall wall : walls)
+    if (!first.touching && engine_.book().touches_wall(number, wall))
+      first = {now_, number, std::nullopt, wall, true};
+}
+
+void World::Engine::Answers::consider_walls(std::uint32_t number, const PairTimes& hot, Onset& first) const {
+  if (!engine_.bodies().walls() || !body(number).present() || body(number).is_fixed()) return;
+  const double known = recorded_of_walls(number, hot);
+  if (known >= first.time) return;
+  const Bound bound = guarded(number);
+  for (const Wall wall : walls) {
+    if (!stands(*engine_.bodies().walls(), wall)) continue;
+    const HalfSpace inside = half_space(*engine_.bodies().walls(), wall);
+    const double time = std::max(known, earliest_meeting(bound, inside, now_, infinity));
+    if (time < first.time) first = {time, number, std::nullopt, wall, false};
+  }
+}
+
+/// As earliest_meeting, in whichever image.
+double World::Engine::Answers::meeting(const Extent& extent_of_a, const Extent& extent_of_b) const {
+  const Space& space = engine_.bodies().space();
+  if (!space.repeats()) {
+    return visit_extents(extent_of_a, extent_of_b, [this](const Bound& bound, const auto& partner) {
+      return earliest_meeting(bound, partner, now_, infinity);
+    });
+  }
+  const Bound& a = extent_of_a.bound;
+  const Bound& b = extent_of_b.bound;
+  Bound image = b;
+  image.position += space.shift_to_nearest(b.centre_at(now_), a.centre_at(now_));
+  const Vec3 nearest = image.position;
+  const RelativeMotion motion(a, image, now_);
+  // All images that are at most one period from the nearest; the others are at least two away on some axis,
+  // and cannot come before the bounds have gone this way on it.
+  double first = infinity;
+  std::array<int, 3> most{};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!space.repeats(axis)) continue;
+    most[static_cast<std::size_t>(axis)] = 1;
+    const double way =
+        2.0 * space.period()[axis] - std::abs(motion.offset[axis]) - motion.radii - motion.growth;
+    const double speed = std::abs(motion.velocity[axis]) + motion.growth_speed;
+    const double acceleration = std::abs(motion.acceleration[axis]) + motion.growth_acceleration;
+    constexpr double margin = rounding::margin;
+    const double until = rounding::first_crossing(
+        way - margin * (motion.offset_size + 2.0 * space.period()[axis]),
+        -(speed + margin * motion.velocity_size), -(acceleration + margin * motion.acceleration_size));
+    first = std::min(first, rounding::sum_down(now_, until));
+  }
+  for (int x = -most[0]; x <= most[0]; ++x)
+    for (int y = -most[1]; y <= most[1]; ++y)
+      for (int z = -most[2]; z <= most[2]; ++z) {
+        image.position = nearest + space.shift_of({double(x), double(y), double(z)});
+        first = std::min(first, earliest_meeting(a, image, now_, std::max(first, now_)));
+      }
+  return std::max(first, now_);
+}
+
+void World::Engine::Answers::consider(std::uint32_t a, std::uint32_t b, const PairTimes& hot,
+                                      Onset& first) const {
+  if (!body(a).present() || !body(b).present() || !engine_.bodies().may_touch(a, b)) return;
+  const double known = recorded(a, b, hot);
+  if (known >= first.time) return;
+  const Bound bound_of_a = guarded(a);
+  const Bound bound_of_b = guarded(b);
+  const double time = std::max(
+      known, meeting(engine_.bodies().extent(a, bound_of_a), engine_.bodies().extent(b, bound_of_b)));
+  if (time < first.time) first = {time, a, b, Wall::none, false};
+}
+
+Onset World::Engine::Answers::of_pair(std::uint32_t a, std::uint32_t b) const {
+  if (engine_.book().touch(a, b)) return {now_, a, b, Wall::none, true};
+  Onset first;
+  consider(a, b, PairTimes(engine_.everybody().hot_pairs(a)), first);
+  return first;
+}
+
+Onset World::Engine::Answers::of_body(std::uint32_t number) const {
+  Onset first;
+  consider_touching(number, first);
+  if (first.touching) return first;
+  const PairTimes hot(engine_.everybody().hot_pairs(number));
+  consider_walls(number, hot, first);
+  // Those that are near leave little to compute of the others.
+  for (const HotPair& pair : hot.pairs())
+    if (pair.has_second()) consider(number, pair.first == number ? pair.second : pair.first, hot, first);
+  for (std::uint32_t other = 0; other < engine_.bodies().numbers(); ++other)
+    if (other != number && body(other).present()) consider(number, other, hot, first);
+  return first;
+}
+
+Onset World::Engine::Answers::of_world() const {
+  std::vector<std::uint32_t> present;
+  for (std::uint32_t number = 0; number < engine_.bodies().numbers(); ++number)
+    if (body(number).present()) present.push_back(number);
+  Onset first;
+  for (const std::uint32_t number : present) consider_touching(number, first);
+  if (first.touching) return first;
+  // Any pair limits the answer; those at hand limit it well.
+  const PairTimes hot(engine_.everybody().hot_pairs());
+  for (const HotPair& pair : hot.pairs())
+    if (pair.has_second()) consider(pair.first, pair.second, hot, first);
+  for (std::size_t k = 0; k < present.size(); ++k) {
+    consider_walls(present[k], hot, first);
+    if (k > 0) consider(present[k - 1], present[k], hot, first);
+  }
+  consider_all_within(present, hot, first);
+  return first;
+}
+
+/// Until a horizon, in the image in which the middle of its way lies in the primary box.
+RoomyBound World::Engine::Answers::until_horizon(std::uint32_t number, double horizon) const {
+  if (body(number).is_fixed()) return engine_.bodies().roomy_bound(number, now_);
+  Bound bound = guarded(number);
+  const Box box = swept_box(bound, now_, horizon);
+  bound.position -= engine_.bodies().space().shift_of(
+      engine_.bodies().space().wrapped(0.5 * (box.lower + box.upper)).images);
+  return {MovedBound(bound, now_), 0.0};
+}
+
+/// Only bodies whose bounds come to the same place before first.time can make it sooner.
+void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t>& numbers,
+                                                 const PairTimes& hot, Onset& first) const {
+  if (first.time <= now_) return;
+  const double horizon = first.time;
+  Windows windows(engine_.bodies().space());
+  std::vector<Windows::Starter> starters;
+  std::vector<std::uint32_t> anywhere;
+  const auto bound_of = [&](std::uint32_t number) { return until_horizon(number, horizon); };
+  for (const std::uint32_t number : numbers) {
+    const bool fixed = body(number).is_fixed();
+    if (fixed || (horizon < infinity &&
+                  engine_.bodies().space().is_narrow(swept_box(guarded(number), now_, horizon)))) {
+      const Window window = fixed ? Windows::endless() : Window{0, horizon};
+      starters.push_back({number, Windows::level_of(bound_of(number), window), window});
+    } else {
+      anywhere.push_back(number);
+    }
+  }
+  Shift alone;
+  windows.start(starters, now_, bound_of, alone);
+  Windows::Scratch scratch;
+  for (std::size_t k = 0; k < windows.started(); ++k)
+    for (const std::uint32_t other : windows.near_started(k, now_, bound_of, scratch))
+      consider(windows.started_number(k), other, hot, first);
+  for (const std::uint32_t number : anywhere)
+    for (const std::uint32_t other : numbers)
+      if (other != number) consider(number, other, hot, first);
+}
+
+DistanceLimits World::Engine::Answers::distance(std::uint32_t a, std::uint32_t b, double time) const {
+  const Bound first = present(a);
+  Bound second = present(b);
+  second.position += engine_.bodies().space().shift_to_nearest(second.centre_at(time), first.centre_at(time));
+  const Extent extent_of_a = engine_.bodies().extent(a, first);
+  const Extent extent_of_b = engine_.bodies().extent(b, second);
+  if (extent_of_a.shape && extent_of_b.shape) return {-infinity, infinity, false};
+  const GapLimits gap = visit_extents(
+      extent_of_a, extent_of_b,
+      [time](const Bound& bound, const auto& partner) { return gap_limits(bound, partner, time); });
+  // The upper limit of bounds is about the reported bodies: the true ones may be off by what the radii hold
+  // beyond their own.
+  const double excess = (first.radius - body(a).radius) + (second.radius - body(b).radius);
+  const double upper = rounding::sum_up(gap.upper, 2.0 * excess);
+  if (!std::isfinite(gap.lower) || !std::isfinite(upper)) return {-infinity, infinity, false};
+  return {gap.lower, upper, false};
+}
+
+void World::Engine::Answers::consider_approach(std::uint32_t a, std::uint32_t b, double distance,
+                                               Onset& first) const {
+  if (first.touching || !body(a).present() || !body(b).present()) return;
+  Bound bound_of_a = present(a);
+  Bound bound_of_b = present(b);
+  // A shape has no radius that could be larger by the distance, but then the other body has.
+  double& radius = body(a).is_fixed() ? bound_of_b.radius : bound_of_a.radius;
+  radius = rounding::sum_up(radius, distance);
+  const Extent extent_of_a = engine_.bodies().extent(a, bound_of_a);
+  const Extent extent_of_b = engine_.bodies().extent(b, bound_of_b);
+  const bool known = !extent_of_a.shape || !extent_of_b.shape;
+  const double time = known ? meeting(extent_of_a, extent_of_b) : now_;
+  const bool within = time <= now_ && known && this->distance(a, b, now_).upper <= distance;
+  if (time < first.time || within) first = {time, a, b, Wall::none, within};
+}
+
+void World::Engine::Answers::consider_approach_to_walls(std::uint32_t number, double distance,
+                                                        Onset& first) const {
+  if (!engine_.bodies().walls() || !body(number).present() || body(number).is_fixed()) return;
+  const Bound bound = present(number);
+  for (const Wall wall : walls) {
+    if (first.touching || !stands(*engine_.bodies().walls(), wall)) continue;
+    const HalfSpace inside = half_space(*engine_.bodies().walls(), wall);
+    const double time = earliest_meeting(bound, inside, now_, infinity, distance);
+    // The upper limit is about the body as reported, which is up to the errors in its radius away.
+    const double excess = 2.0 * (bound.radius - body(number).radius);
+    const bool within =
+        time <= now_ && rounding::sum_up(gap_limits(bound, inside, now_).upper, excess) <= distance;
+    if (time < first.time || within) first = {time, number, std::nullopt, wall, within};
+  }
+}
+
+Onset World::Engine::Answers::approach_of_pair(std::uint32_t a, std::uint32_t b, double distance) const {
+  Onset first;
+  consider_approach(a, b, distance, first);
+  return first;
+}
+
+Onset World::Engine::Answers::approach_of_body(std::uint32_t number, double distance) const {
+  Onset first;
+  consider_approach_to_walls(number, distance, first);
+  for (std::uint32_t other = 0; other < engine_.bodies().numbers(); ++other) {
+    const bool counts = other != number && body(other).present() &&
+                        !(body(number).is_fixed() && body(other).is_fixed()) &&
+                        engine_.bodies().may_meet(number, other);
+    if (counts) consider_approach(number, other, distance, first);
+  }
+  return first;
+}
+
+std::vector<std::uint32_t> World::Engine::Answers::concerned(const Onset& onset) {
+  std::vector<std::uint32_t> numbers;
+  if (!onset.exists() || onset.touching) return numbers;
+  numbers.push_back(onset.body);
+  if (onset.partner) numbers.push_back(*onset.partner);
+  return numbers;
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,262 @@
+// The audit: everything that should be true now, rebuilt from scratch.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+
+#include "engine/engine.hpp"
+#include "input/input_check.hpp"
+#include "number/infinity.hpp"
+#include "query/plain_gap.hpp"
+
+namespace kinesphere {
+
+namespace {
+
+/// A recorded time may pass the one computed now by this part of the way there: both are lower bounds of the
+/// same truth, and each stops its iteration a little early.
+constexpr double slack = 1e-3;
+
+bool too_late(double recorded, double computed, double now) {
+  return recorded > computed + slack * (computed - now) + 1e-12 * (1.0 + std::abs(computed));
+}
+
+std::string times(double recorded, double computed) {
+  return ": recorded " + std::to_string(recorded) + ", must not be later than " + std::to_string(computed);
+}
+
+}  // namespace
+
+class World::Engine::Audit {
+ public:
+  explicit Audit(const Engine& engine)
+      : engine_(engine), now_(engine.time()), hot_(engine.everybody().hot_pairs()) {}
+
+  std::optional<AuditFinding> run() {
+    const auto count = static_cast<std::uint32_t>(engine_.bodies().numbers());
+    for (std::uint32_t a = 0; a < count && !finding_; ++a) {
+      if (!body(a).present()) {
+        check_absence(a);
+        continue;
+      }
+      check_registration(a);
+      check_walls(a);
+      for (std::uint32_t b = a + 1; b < count && !finding_; ++b)
+        if (body(b).present()) check_pair(a, b);
+    }
+    return finding_;
+  }
+
+ private:
+  const Body& body(std::uint32_t number) const { return engine_.bodies()[number]; }
+  std::string name(std::uint32_t number) const { return text_of(engine_.bodies().id_of(number)); }
+
+  void find(std::string where, std::string what) {
+    if (!finding_) finding_ = AuditFinding{std::move(where), std::move(what)};
+  }
+
+  /// A noisy report may lie outside what an earlier one promised, though the body does not.
+  static bool exact(const Body& body) { return body.position_error == 0.0 && body.bound.growth_speed == 0.0; }
+
+  void check_absence(std::uint32_t number) {
+    if (engine_.windows().contains(number))
+      find("registration", name(number) + " is not here but registered");
+    if (!engine_.book().partners_of(number).empty() || engine_.book().walls_of(number) != 0)
+      find("contact", name(number) + " is not here but touches something");
+    if (!engine_.book().crossings_of(number).empty())
+      find("sensor", name(number) + " is not here but within a sensor distance");
+  }
+
+  void check_registration(std::uint32_t number) {
+    const Body& b = body(number);
+    if (b.dirty) return;
+    if (!engine_.windows().contains(number)) return find("registration", name(number) + " is in no window");
+    if (const auto wrong = engine_.windows().check(number)) find("registration", name(number) + " " + *wrong);
+    const double end = engine_.windows().end_of(number);
+    if (end < now_) find("queue", name(number) + " is in a window that has ended" + times(now_, end));
+    if (end < engine_.everybody().phase_end() && hot_.of(number, HotPair::renewal) > end)
+      find("queue", name(number) + " is in a window that is not renewed when it ends");
+    if (b.is_resting() && !(b.is_at_rest() && b.bound.velocity == Vec3{} && b.largest_acceleration() == 0.0))
+      find("registration", name(number) + " rests, but its bound does not stand still");
+    if (b.is_fixed()) return check_fixed(number, end);
+    if (!engine_.bodies().space().is_narrow(engine_.box(number)))
+      find("registration", name(number) + " has too wide a box");
+    if (!exact(b)) return;
+    const Vec3 room = Vec3{1.0, 1.0, 1.0} * (0.25 * engine_.definition().contact_tolerance);
+    Box box{engine_.box(number).lower - room, engine_.box(number).upper + room};
+    if (engine_.bodies().space().is_flat())
+      std::tie(box.lower.z, box.upper.z) = std::pair(-infinity, infinity);
+    Bound reach = b.bound;
+    reach.radius += engine_.bodies().sensors().reach(b.sensor_class);
+    const double exit = earliest_exit(reach, box, now_, end);
+    if (too_late(end, exit, now_)) find("registration", name(number) + " leaves its box" + times(end, exit));
+  }
+
+  void check_fixed(std::uint32_t number, double end) {
+    const Box box = engine_.box(number);
+    const Box shape = engine_.bodies().box_of_fixed(number);
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(box.lower[axis] <= shape.lower[axis] && shape.upper[axis] <= box.upper[axis]) || end != infinity)
+        return find("registration", name(number) + " is fixed but not registered where its shape is");
+  }
+
+  void check_walls(std::uint32_t number) {
+    const Body& b = body(number);
+    if (!engine_.bodies().walls() || b.is_fixed() || !settled(number, number) ||
+        engine_.book().walls_of(number) != 0 || !exact(b))
+      return;
+    // As for pairs: within the tolerance bouncing bodies follow the contact rule.
+    if (impacts() && until_reports_of_walls(engine_.book().rule(), b.bound, *engine_.bodies().walls(), now_,
+                                            infinity) <= now_)
+      return;
+    const double end = engine_.windows().end_of(number);
+    const double within = impacts() ? engine_.definition().contact_tolerance : 0.0;
+    const Vec3 room = Vec3{1.0, 1.0, 1.0} * within;
+    const Box box{engine_.bodies().walls()->lower - room, engine_.bodies().walls()->upper + room};
+    const double reached = earliest_exit(b.bound, box, now_, end);
+    const double recorded = std::min(hot_.of(number, HotPair::walls), end);
+    if (recorded < end && too_late(recorded, reached, now_) && reached > now_)
+      find("wall", name(number) + " may reach a wall unseen" + times(recorded, reached));
+    if (recorded == end && reached < end && too_late(end, reached, now_) && reached > now_)
+      find("wall", name(number) + " may reach a wall, which is not due" + times(end, reached));
+  }
+
+  void check_pair(std::uint32_t a, std::uint32_t b) {
+    if (engine_.book().touch(a, b) != engine_.book().touch(b, a))
+      return find("contact", pair(a, b) + " touch on one side only");
+    if (engine_.bodies().may_meet(a, b) != engine_.bodies().may_meet(b, a))
+      return find("filter", "the pair filter is not symmetric for " + pair(a, b));
+    if (engine_.book().touch(a, b) && !engine_.bodies().may_touch(a, b))
+      return find("filter", pair(a, b) + " touch though they may not");
+    check_crossings(a, b);
+    check_crossings(b, a);
+    if (!engine_.bodies().may_meet(a, b) || !settled(a, b)) return;
+    engine_.everybody().for_each_threshold(
+        a, b, [&](const Threshold& threshold) { check_threshold(a, b, threshold); });
+  }
+
+  void check_crossings(std::uint32_t a, std::uint32_t b) {
+    for (const Crossing& crossing : engine_.book().crossings_of(a, b)) {
+      const bool senses =
+          engine_.bodies().may_meet(a, b) &&
+          engine_.bodies().sensors().senses(engine_.bodies().sensing_of(a), engine_.bodies().sensing_of(b),
+                                            crossing.distance);
+      if (!engine_.book().is_within(b, a, crossing.distance))
+        find("sensor", pair(a, b) + " sense each other on one side only");
+      if (!senses) find("sensor", pair(a, b) + " are within a distance that neither senses");
+    }
+  }
+
+  void check_threshold(std::uint32_t a, std::uint32_t b, const Threshold& threshold) {
+    // It is to be looked at before time moves on.
+    if (!checkable(a, b, threshold) || hot_.of(a, b) <= now_) return;
+    const Extent first = engine_.bodies().extent(a);
+    const Extent second = engine_.bodies().extent(b);
+    const PlainGap gap(first, second, engine_.bodies().space().period());
+    check_state(a, b, threshold, gap);
+    // Beyond the end of a window the two may meet in another image, and will have been found again.
+    const double recorded = std::min(hot_.of(a, b), engine_.everybody().windows_end(a, b));
+    if (!threshold.within && !boxes_overlap(a, b)) return;
+    if (const auto change = certain_change(a, b, threshold, gap, recorded))
+      find("certificate", pair(a, b) + " may change unseen" + times(recorded, *change));
+  }
+
+  /// What the events have told of the two is what their bounds tell now, wherever in them the bodies are.
+  void check_state(std::uint32_t a, std::uint32_t b, const Threshold& threshold, const PlainGap& gap) {
+    const ContactRule& rule = engine_.book().rule_of(threshold);
+    const PlainGap::Limits limits = gap.of_bodies(now_);
+    const double room = slack_of_gaps() + gap.uncertainty(now_);
+    const std::string distance = threshold.sensed ? " of " + std::to_string(threshold.distance) : "";
+    const std::string where = threshold.sensed ? "sensor" : "contact";
+    if (threshold.within && limits.lower > threshold.distance + rule.release_gap() + room)
+      find(where, pair(a, b) + " are apart, and no end" + distance +
+                      " has been told: their gap is at least " + text_of(limits.lower));
+    if (!threshold.within && limits.upper < threshold.distance - rule.tolerance() - room)
+      find(where, pair(a, b) + " are too near, and no begin" + distance +
+                      " has been told: their gap is at most " + text_of(limits.upper));
+  }
+
+  /// Far below what the contact rule can tell, and four times what a faithful report may be wrong by.
+  double slack_of_gaps() const { return 0.25 * engine_.definition().contact_tolerance; }
+
+  bool boxes_overlap(std::uint32_t a, std::uint32_t b) const {
+    const Vec3 shift = engine_.bodies().space().repeats() ? engine_.bodies().shift_to_meet(a, b) : Vec3{};
+    const Box one = engine_.box(a);
+    const Box other = engine_.box(b);
+    for (int axis = 0; axis < 3; ++axis)
+      if (one.upper[axis] < other.lower[axis] + shift[axis] ||
+          other.upper[axis] + shift[axis] < one.lower[axis])
+        return false;
+    return true;
+  }
+
+  /// A time before the end of a recorded fact at which it certainly does not hold. A certificate that was
+  /// made earlier, or by another way of advancing, may rightly be later than one that is made now: so it is
+  /// only wrong if there is such a time. Steps are as long as the gap surely needs, but some are tried even
+  /// so.
+  std::optional<double> certain_change(std::uint32_t a, std::uint32_t b, const Threshold& threshold,
+                                       const PlainGap& gap, double recorded) const {
+    const ContactRule& rule = engine_.book().rule_of(threshold);
+    const double level = threshold.distance + (threshold.within      ? rule.release_gap()
+                                               : rule.impacts_only() ? -rule.tolerance()
+                                                                     : 0.0);
+    const double computed = earliest_change(a, b, threshold, level);
+    const bool doubtful = recorded > computed;
+    double end = recorded;
+    if (end == infinity && doubtful) end = now_ + 8.0 * (computed - now_);
+    if (end == infinity) end = engine_.everybody().windows_end(a, b);
+    const double least_step = (end - now_) / (doubtful ? 512.0 : 16.0);
+    const double last = end - 0x1p-20 * (end - now_);
+    for (double time = now_; time < end;) {
+      const double room =
+          threshold.within ? level - gap.at_farthest(time).lower : gap.of_bounds(time).upper - level;
+      if (room < -(slack_of_gaps() + gap.uncertainty(time))) return time;
+      if (time >= last) break;
+      const double speed = gap.largest_speed(time, end);
+      const double next = std::min(last, time + std::max(least_step, room > 0.0 ? room / speed : 0.0));
+      // Where times are too coarse for a step nothing more can be told.
+      if (!(next > time)) break;
+      time = next;
+    }
+    return std::nullopt;
+  }
+
+  double earliest_change(std::uint32_t a, std::uint32_t b, const Threshold& threshold, double level) const {
+    return engine_.bodies().visit_pair(a, b, [&](const Bound& bound, const auto& partner) {
+      return threshold.within ? earliest_separation(bound, partner, now_, infinity, level)
+                              : earliest_meeting(bound, partner, now_, infinity, level);
+    });
+  }
+
+  /// Bouncing bodies within the tolerance follow the contact rule, not the bare distance.
+  bool checkable(std::uint32_t a, std::uint32_t b, const Threshold& threshold) const {
+    if (!exact(body(a)) || !exact(body(b))) return false;
+    const ContactRule& rule = engine_.book().rule_of(threshold);
+    return !rule.impacts_only() ||
+           engine_.bodies().gap_at(now_, engine_.bodies().extent(a), engine_.bodies().extent(b)).lower >
+               rule.tolerance();
+  }
+
+  /// True when the engine owes a fact about the pair (a body and itself: its walls) now.
+  bool settled(std::uint32_t a, std::uint32_t b) const {
+    const auto concerns = [=](const Event& event) {
+      return event.first.index == a && (a == b ? event.wall != Wall::none : event.second.index == b);
+    };
+    const auto& changed = engine_.everybody().instant().changed();
+    return !body(a).dirty && !body(b).dirty &&
+           std::find(changed.begin(), changed.end(), std::pair(a, b)) == changed.end() &&
+           engine_.everybody().instant().pending().none_of(concerns);
+  }
+
+  bool impacts() const { return engine_.definition().contacts == ContactMode::impacts; }
+  std::string pair(std::uint32_t a, std::uint32_t b) const { return name(a) + " and " + name(b); }
+
+  const Engine& engine_;
+  double now_;
+  PairTimes hot_;
+  std::optional<AuditFinding> finding_;
+};
+
+std::optional<AuditFinding> World::Engine::audit() const { return Audit(*this).run(); }
+
+}  // namespace kinesphere

@@ -1,0 +1,266 @@
+#include "query/queries.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "engine/validation.hpp"
+#include "number/infinity.hpp"
+#include "query/shape_queries.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// More than what the few roundings of a distance or a way can add up to, relative to what went into it.
+constexpr double part_lost = 0x1p-45;
+
+constexpr int most_pieces = 64;
+
+double distance_to_box(const Vec3& point, const Box& box) {
+  Vec3 away;
+  for (int axis = 0; axis < 3; ++axis)
+    away[axis] = std::max({box.lower[axis] - point[axis], point[axis] - box.upper[axis], 0.0});
+  return norm(away);
+}
+
+Bound resting(const Vec3& centre, double radius) { return {.position = centre, .radius = radius}; }
+
+/// The gap between a sphere or a box and a shape.
+GapLimits limits_of(const Bound& region, const Shape& shape) {
+  return visit_extents({region}, {region, true, &shape},
+                       [](const Bound& bound, const auto& solid) { return gap_limits(bound, solid, 0.0); });
+}
+GapLimits limits_of(const Box& region, const Shape& shape) {
+  const Bound nothing{};
+  return visit_extents({nothing}, {nothing, true, &shape}, [&](const Bound&, const auto& solid) -> GapLimits {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(solid)>, Bound>) {
+      return {-infinity, infinity};  // a ball has no shape here
+    } else {
+      return gap_limits(region, solid);
+    }
+  });
+}
+
+WayLimits touch_of(const Way& way, const Shape& shape) {
+  const Bound sphere{.position = way.origin, .velocity = way.direction, .radius = way.radius};
+  return visit_extents({sphere}, {sphere, true, &shape}, [&](const Bound&, const auto& solid) -> WayLimits {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(solid)>, Bound>) {
+      return {0.0, infinity};
+    } else {
+      return first_touch(sphere, solid, way.length);
+    }
+  });
+}
+
+Box box_around(const Vec3& a, const Vec3& b, double radius) {
+  Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double room = radius + part_lost * (std::abs(a[axis]) + std::abs(b[axis]) + radius);
+    box.lower[axis] = std::min(a[axis], b[axis]) - room;
+    box.upper[axis] = std::max(a[axis], b[axis]) + room;
+  }
+  return box;
+}
+
+/// The part of a way that lies in a ball.
+struct Passage {
+  double enter;
+  double leave;
+};
+
+/// Nothing where the way misses the ball. `wrong` is how much too late or too early the answer may be.
+std::optional<Passage> passage(const Way& way, const Vec3& centre, double radius, double wrong) {
+  if (!(radius >= 0.0)) return std::nullopt;
+  const Vec3 offset = centre - way.origin;
+  const double along = dot(offset, way.direction);
+  const double across = norm(offset - way.direction * along);
+  const double square = (radius - across) * (radius + across);
+  if (!(square >= 0.0)) return std::nullopt;
+  const double half = std::sqrt(square);
+  const Passage found{std::max(0.0, along - half - wrong), along + half + wrong};
+  if (found.leave < 0.0 || found.enter > way.length) return std::nullopt;
+  return found;
+}
+
+/// A body may have been met in several pieces of the way, and in several images.
+void keep_first_of_each_body(std::vector<Hit>& hits) {
+  std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.body < b.body; });
+  std::size_t kept = 0;
+  for (const Hit& hit : hits) {
+    if (kept > 0 && hits[kept - 1].body == hit.body) {
+      hits[kept - 1].lower = std::min(hits[kept - 1].lower, hit.lower);
+      hits[kept - 1].upper = std::min(hits[kept - 1].upper, hit.upper);
+    } else {
+      hits[kept++] = hit;
+    }
+  }
+  hits.resize(kept);
+}
+
+}  // namespace
+
+/// In the image that is nearest to a point.
+Place World::Engine::Queries::place(std::uint32_t number, const Vec3& point) const {
+  Place place = place_of(engine_.bodies()[number], now_);
+  place.centre += engine_.bodies().space().shift_to_nearest(place.centre, point);
+  return place;
+}
+
+template <class Distance, class ShapeGap>
+std::vector<Found> World::Engine::Queries::overlapping(const Box& box, Distance distance_to,
+                                                       ShapeGap gap_to) const {
+  const Vec3 middle = 0.5 * (box.lower + box.upper);
+  std::vector<Found> found;
+  const double size = norm_one(box.lower) + norm_one(box.upper);
+  for (const std::uint32_t number : engine_.everybody().bodies_in(box)) {
+    if (const Shape* shape = engine_.bodies().extent(number).shape) {
+      const GapLimits gap = gap_to(*shape);
+      if (gap.lower > 0.0) continue;
+      found.push_back(
+          {engine_.bodies().id_of(number), gap.upper <= 0.0 ? Certainty::certainly : Certainty::possibly});
+      continue;
+    }
+    const Place at = place(number, middle);
+    const double distance = distance_to(at.centre);
+    const double wrong = part_lost * (size + norm_one(at.centre) + at.outer);
+    if (distance - wrong > at.outer) continue;
+    const bool certain = distance + wrong <= at.inner;
+    found.push_back({engine_.bodies().id_of(number), certain ? Certainty::certainly : Certainty::possibly});
+  }
+  return found;
+}
+
+std::vector<Found> World::Engine::Queries::overlapping(const Vec3& centre, double radius) const {
+  return overlapping(
+      box_around(centre, centre, radius), [&](const Vec3& point) { return norm(point - centre) - radius; },
+      [&](const Shape& shape) { return limits_of(resting(centre, radius), shape); });
+}
+
+std::vector<Found> World::Engine::Queries::overlapping(const Box& region) const {
+  const Box box = engine_.bodies().space().within(region);
+  return overlapping(
+      box, [&](const Vec3& point) { return distance_to_box(point, box); },
+      [&](const Shape& shape) { return limits_of(box, shape); });
+}
+
+std::vector<Near> World::Engine::Queries::distances(const std::vector<std::uint32_t>& numbers,
+                                                    const Vec3& point) const {
+  std::vector<Near> all;
+  for (const std::uint32_t number : numbers) {
+    if (const Shape* shape = engine_.bodies().extent(number).shape) {
+      const GapLimits gap = limits_of(resting(point, 0.0), *shape);
+      all.push_back({engine_.bodies().id_of(number), Certainty::possibly, gap.lower, gap.upper});
+      continue;
+    }
+    const Place at = place(number, point);
+    const double distance = norm(at.centre - point);
+    const double wrong = part_lost * (norm_one(point) + norm_one(at.centre) + at.outer);
+    all.push_back({engine_.bodies().id_of(number), Certainty::possibly, distance - at.outer - wrong,
+                   distance - at.inner + wrong});
+  }
+  return all;
+}
+
+/// At least all bodies that may be among the `count` nearest: `count` of them are certainly within a cube's
+/// half edge, and the others are outside the cube.
+std::vector<std::uint32_t> World::Engine::Queries::around(const Vec3& point, std::size_t count) const {
+  const double farthest = 8.0 * coordinate_limit(engine_.definition());
+  for (double reach = engine_.finest_length(); reach <= farthest; reach *= 2.0) {
+    std::vector<std::uint32_t> numbers = engine_.everybody().bodies_in(box_around(point, point, reach));
+    const std::vector<Near> all = distances(numbers, point);
+    const auto within =
+        std::count_if(all.begin(), all.end(), [=](const Near& n) { return n.upper <= reach; });
+    if (static_cast<std::size_t>(within) >= count || numbers.size() == engine_.bodies().present_count())
+      return numbers;
+  }
+  std::vector<std::uint32_t> everybody;
+  for (std::uint32_t number = 0; number < engine_.bodies().numbers(); ++number)
+    if (engine_.bodies()[number].present()) everybody.push_back(number);
+  return everybody;
+}
+
+std::vector<Near> World::Engine::Queries::nearest(const Vec3& point, std::size_t count) const {
+  count = std::min(count, engine_.bodies().present_count());
+  if (count == 0) return {};
+  std::vector<Near> all = distances(around(point, count), point);
+  std::vector<double> uppers;
+  uppers.reserve(all.size());
+  for (const Near& near : all) uppers.push_back(near.upper);
+  std::nth_element(uppers.begin(), uppers.begin() + static_cast<std::ptrdiff_t>(count - 1), uppers.end());
+  const double enough = uppers[count - 1];
+  std::erase_if(all, [=](const Near& near) { return near.lower > enough; });
+  std::sort(all.begin(), all.end(), [](const Near& a, const Near& b) {
+    return a.lower != b.lower ? a.lower < b.lower : a.body < b.body;
+  });
+  // One is certainly among them when fewer than `count` others may be nearer. The list is sorted by `lower`,
+  // so these are at its front.
+  for (Near& near : all) {
+    const auto not_farther =
+        std::upper_bound(all.begin(), all.end(), near.upper,
+                         [](double limit, const Near& other) { return limit < other.lower; });
+    if (static_cast<std::size_t>(std::distance(all.begin(), not_farther)) <= count)
+      near.certainty = Certainty::certainly;
+  }
+  return all;
+}
+
+/// What becomes of a body on the way, in the first of its images that comes near this piece of it: nothing
+/// where it is missed.
+std::optional<Hit> World::Engine::Queries::hit(const Way& way, const Box& piece, std::uint32_t number) const {
+  if (const Shape* shape = engine_.bodies().extent(number).shape) {
+    const WayLimits touch = touch_of(way, *shape);
+    if (touch.lower == infinity) return std::nullopt;
+    return Hit{engine_.bodies().id_of(number), Certainty::possibly, touch.lower, touch.upper};
+  }
+  const Place at = place_of(engine_.bodies()[number], now_);
+  std::optional<Hit> first;
+  engine_.bodies().space().for_each_shift(
+      box_around(at.centre, at.centre, at.outer), piece, [&](const Vec3& shift) {
+        const Vec3 centre = at.centre + shift;
+        const double wrong = part_lost * (norm_one(way.origin) + norm_one(centre) + at.outer + way.radius);
+        const auto may = passage(way, centre, at.outer + way.radius + wrong, wrong);
+        if (!may) return;
+        const auto must = passage(way, centre, at.inner + way.radius - wrong, -wrong);
+        const Hit image{engine_.bodies().id_of(number), Certainty::possibly, may->enter,
+                        must ? must->enter : infinity};
+        if (!first) first = image;
+        first->lower = std::min(first->lower, image.lower);
+        first->upper = std::min(first->upper, image.upper);
+      });
+  return first;
+}
+
+std::vector<Hit> World::Engine::Queries::cast(const Way& way) const {
+  std::vector<Hit> hits;
+  double sure = infinity;  // something is hit by then
+  const double piece = std::max({way.length / most_pieces, 2.0 * way.radius, engine_.finest_length()});
+  std::vector<std::uint32_t> seen;
+  for (int k = 0; k < most_pieces && k * piece <= std::min(way.length, sure); ++k) {
+    const double end = k + 1 == most_pieces ? way.length : std::min(way.length, (k + 1) * piece);
+    const Box box =
+        box_around(way.origin + way.direction * (k * piece), way.origin + way.direction * end, way.radius);
+    std::vector<std::uint32_t> fresh;
+    const std::vector<std::uint32_t> here = engine_.everybody().bodies_in(box);
+    std::set_difference(here.begin(), here.end(), seen.begin(), seen.end(), std::back_inserter(fresh));
+    for (const std::uint32_t number : fresh) {
+      const std::optional<Hit> found = hit(way, box, number);
+      if (!found) continue;
+      hits.push_back(*found);
+      sure = std::min(sure, found->upper);
+    }
+    // Where space repeats, a body that is missed here may be hit in another image later.
+    if (engine_.bodies().space().repeats()) continue;
+    const auto middle = static_cast<std::ptrdiff_t>(seen.size());
+    seen.insert(seen.end(), fresh.begin(), fresh.end());
+    std::inplace_merge(seen.begin(), seen.begin() + middle, seen.end());
+  }
+  if (engine_.bodies().space().repeats()) keep_first_of_each_body(hits);
+  std::erase_if(hits, [=](const Hit& hit) { return hit.lower > sure; });
+  std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) {
+    return a.lower != b.lower ? a.lower < b.lower : a.body < b.body;
+  });
+  if (hits.size() == 1 && hits[0].upper < infinity) hits[0].certainty = Certainty::certainly;
+  return hits;
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,103 @@
+#include "query/shape_queries.hpp"
+
+#include <array>
+
+#include "bound/reach.hpp"
+#include "bound/rounding.hpp"
+#include "bound/triangle.hpp"
+#include "number/infinity.hpp"
+
+namespace kinesphere {
+namespace {
+
+using rounding::margin;
+
+GapLimits around(double gap, double wrong) { return {gap - wrong, gap + wrong}; }
+
+/// The gap between both, seen along a direction.
+template <class A, class B>
+double gap_along(const A& a, const B& b, const Vec3& direction) {
+  return -std::min(reach(a, direction) + reach(b, -direction), reach(a, -direction) + reach(b, direction));
+}
+
+/// True when the way from one place to the other certainly goes through the triangle: they lie on both sides
+/// of its plane, and both over its inside.
+bool certainly_crosses(const Triangle& triangle, const Vec3& from, const Vec3& to) {
+  const TriangleFrame frame(triangle);
+  const double wrong = margin * (size_of(triangle) + norm_one(from) + norm_one(to));
+  const auto well_inside = [&](const Vec3& place) {
+    return frame.beyond(frame.in_plane(place - frame.origin())) < -wrong;
+  };
+  const double height_from = frame.above_plane(from - frame.origin());
+  const double height_to = frame.above_plane(to - frame.origin());
+  return std::max(height_from, height_to) > wrong && std::min(height_from, height_to) < -wrong &&
+         well_inside(from) && well_inside(to);
+}
+
+template <class Solid>
+bool certainly_meets(const Solid&, const Bound&, double, double) {
+  return false;
+}
+bool certainly_meets(const Triangle& shape, const Bound& sphere, double from, double to) {
+  return certainly_crosses(shape, sphere.centre_at(from), sphere.centre_at(to));
+}
+
+template <class Solid>
+WayLimits touch(const Bound& sphere, const Solid& shape, double length) {
+  const double first = earliest_meeting(sphere, shape, 0.0, length);
+  if (first == infinity) return {infinity, infinity};
+  // It is met soon after, or perhaps not at all: look farther and farther.
+  double step = 0x1p-50 * (norm_one(sphere.position) + sphere.radius + length);
+  for (double at = first;; at += step, step *= 2.0) {
+    const double end = std::min(at, length);
+    if (gap_limits(sphere, shape, end).upper <= 0.0) return {first, end};
+    if (certainly_meets(shape, sphere, std::max(0.0, first - step), end)) return {first, end};
+    if (!(at < length) || !(step > 0.0)) return {first, infinity};
+  }
+}
+
+}  // namespace
+
+GapLimits gap_limits(const Box& region, const HalfSpace& shape) {
+  return around(-reach(region, -shape.normal) - shape.offset,
+                margin * (size_of(region) + std::abs(shape.offset)));
+}
+
+GapLimits gap_limits(const Box& region, const Box& shape) {
+  double gap = -infinity;
+  for (int axis = 0; axis < 3; ++axis)
+    gap = std::max({gap, region.lower[axis] - shape.upper[axis], shape.lower[axis] - region.upper[axis]});
+  return {gap, gap};  // the sign of a difference is exact
+}
+
+/// By separating axes: the normals of both, and what is normal to a side of each.
+GapLimits gap_limits(const Box& region, const Triangle& shape) {
+  const std::array<Vec3, 3> sides{shape.b - shape.a, shape.c - shape.b, shape.a - shape.c};
+  double gap = -infinity;
+  const auto look_along = [&](const Vec3& direction) {
+    const double length = norm(direction);
+    if (length > 0x1p-500) gap = std::max(gap, gap_along(region, shape, direction / length));
+  };
+  look_along(TriangleFrame(shape).normal());
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 unit;
+    unit[axis] = 1.0;
+    look_along(unit);
+    for (const Vec3& side : sides) look_along(cross(unit, side));
+  }
+  const double thick = thickness(shape);
+  const double wrong = margin * (size_of(region) + norm_one(shape.a) + norm_one(shape.b) + norm_one(shape.c));
+  return {gap - wrong, gap + 16.0 * wrong / thick};
+}
+
+WayLimits first_touch(const Bound& sphere, const HalfSpace& shape, double length) {
+  return touch(sphere, shape, length);
+}
+WayLimits first_touch(const Bound& sphere, const Box& shape, double length) {
+  return touch(sphere, shape, length);
+}
+WayLimits first_touch(const Bound& sphere, const Triangle& shape, double length) {
+  return touch(sphere, shape, length);
+}
+
+}  // namespace kinesphere
