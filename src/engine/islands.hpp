@@ -58,7 +58,7 @@ class Islands {
     bool joined() const { return joined_to != own; }
   };
   struct OwnKick {
-    std::uint32_t own;  ///< whose it is
+    std::uint32_t own;  ///< the group whose it is
     const BodyKick* kick;
   };
   /// A body as it was when the part began.

@@ -92,8 +92,19 @@ Result<void> World::Engine::refresh(std::span<const std::uint32_t> ending, Shift
   return everybody_.probe(asked, shift);
 }
 
-/// The windows that suit the bodies of a round, which are in none. A layer in which others are already would
-/// have to be sorted anew: rather a shorter window. Those for whom there is none are left out.
+/// One in which nobody is yet: a layer in which others are already would have to be sorted anew, so rather a
+/// shorter window. Where there is none, it ends now.
+Window World::Engine::free_window(std::uint32_t number) const {
+  Window window = everybody_.window_to_start(number);
+  while (!windows().is_free(window)) {
+    const Window shorter = Windows::window_at(time(), window.tier - Tempo::powers_between_tiers);
+    if (shorter.tier == window.tier) return {window.tier, time()};
+    window = shorter;
+  }
+  return window;
+}
+
+/// The windows that suit the bodies of a round, which are in none.
 std::vector<Windows::Starter> World::Engine::choose_windows(std::span<const std::uint32_t> numbers, bool most,
                                                             Tempo::Round& round, Shift& shift) {
   const double now = time();
@@ -105,12 +116,7 @@ std::vector<Windows::Starter> World::Engine::choose_windows(std::span<const std:
       const std::size_t end = std::min((part + 1) * bodies_at_once, numbers.size());
       for (std::size_t k = part * bodies_at_once; k < end; ++k) {
         const std::uint32_t number = numbers[k];
-        Window window = everybody_.window_to_start(number);
-        while (!windows().is_free(window)) {
-          const int tier = window.tier;
-          window = Windows::window_at(now, tier - Tempo::powers_between_tiers);
-          if (window.tier == tier) window.end = now;
-        }
+        const Window window = free_window(number);
         starters[k] = {number, 0, window};
         if (window.end == now) continue;
         if (bodies().space().repeats()) tables_.bodies.bring_home(number, now, window.end - now);
