@@ -210,11 +210,6 @@ Box Bodies::box_of_fixed(std::uint32_t number) const {
   return space_.within({box.lower - room, box.upper + room});
 }
 
-Pace Bodies::pace_of(std::uint32_t number, double now) const {
-  const MovedBound moved(table_[number].bound, now);
-  return {norm(moved.velocity) + moved.speed, moved.growth + norm(moved.acceleration)};
-}
-
 RoomyBound Bodies::roomy_bound(std::uint32_t number, double now) const {
   const Body& body = table_[number];
   const double room = sensor_reach(number) + definition_.contact_tolerance;

@@ -186,7 +186,12 @@ class Bodies {
   RoomyBound room_for(std::uint32_t number, const MovedBound& bound) const {
     return {bound, sensor_reach(number) + definition_.contact_tolerance};
   }
-  Pace pace_of(std::uint32_t number, double now) const;
+  Pace pace_of(std::uint32_t number, double now) const {
+    return pace_of(MovedBound(table_[number].bound, now));
+  }
+  static Pace pace_of(const MovedBound& moved) {
+    return {norm(moved.velocity) + moved.speed, moved.growth + norm(moved.acceleration)};
+  }
   /// The place of a body that has gone farther since its last report could not be computed well (length).
   double longest_way() const { return 0x1p40 * definition_.contact_tolerance; }
   /// More than what rounding does to positions and ways, which are at most 2^45 contact tolerances; and so

@@ -113,7 +113,6 @@ class World::Engine {
   Result<void> start_windows(Shift& shift, bool all, std::span<const std::uint32_t> joining = {});
   Result<void> start_with_arrivals(Shift& shift);
   Result<void> refresh(std::span<const std::uint32_t> ending, Shift& shift);
-  Window free_window(std::uint32_t number) const;
   std::vector<Windows::Starter> choose_windows(std::span<const std::uint32_t> numbers, bool most,
                                                Tempo::Round& round, Shift& shift);
   SearchCost find_pairs_of_started(Shift& shift);

@@ -113,7 +113,10 @@ class alignas(128) Island {
 
   // Facts.
   /// The body stays in its capsule until then.
-  double end_of(std::uint32_t number) const { return window_of(number).end; }
+  double end_of(std::uint32_t number) const {
+    const BodyKick* kick = beside_ ? beside_->last_kick(number) : nullptr;
+    return kick != nullptr ? kick->window.end : tables_->windows.end_of(number);
+  }
   /// Both do.
   double windows_end(std::uint32_t a, std::uint32_t b) const { return std::min(end_of(a), end_of(b)); }
   bool is_void(const HotPair& pair) const {
@@ -144,7 +147,8 @@ class alignas(128) Island {
     kicks_.bodies += kicks.bodies;
     kicks_.hot += kicks.hot;
   }
-  void find_hot_pairs(std::uint32_t number, std::span<const std::uint32_t> others, Found& found) const;
+  /// The two, whom a search has found to be near each other, if they may meet before a window ends.
+  void find_hot_pair(std::uint32_t a, std::uint32_t b, Found& found) const;
   void find_known_pairs(std::uint32_t number, Found& found) const;
   void find_walls(std::uint32_t number, Found& found) const;
   /// Calls visit(threshold) for what comes next between two bodies that may meet: their contact, the next
@@ -175,7 +179,8 @@ class alignas(128) Island {
   /// were kicked, are renewed one by one.
   double phase_end() const { return phase_end_; }
   void begin_phase(double end) { phase_end_ = end; }
-  Window window_to_start(std::uint32_t number) const;
+  /// Of the window, from now on, that suits the pace of a body.
+  int tier_to_start(std::uint32_t number, const Pace& pace) const;
   bool needs_report(std::uint32_t number) const;
 
   /// What a snapshot holds of it: the agenda comes apart.
@@ -202,11 +207,8 @@ class alignas(128) Island {
   std::span<const std::uint32_t> near(std::uint32_t number);
   Window window_for(std::uint32_t number) const;
   std::optional<Window> registered_window(std::uint32_t number) const;
-  Window window_of(std::uint32_t number) const {
-    if (beside_ && !beside_->kicks.empty()) {
-      if (const BodyKick* kick = beside_->last_kick(number)) return kick->window;
-    }
-    return tables_->windows.window_of(number);
+  Window window_to_start(std::uint32_t number) const {
+    return Windows::window_at(time_, tier_to_start(number, bodies().pace_of(number, time_)));
   }
 
   // beside.cpp

@@ -72,14 +72,12 @@ std::optional<std::pair<std::size_t, std::size_t>> World::Engine::first_overlap(
   windows.start(starters, time(), ball_of, alone);
   std::optional<std::pair<std::size_t, std::size_t>> least;
   Windows::Scratch scratch;
-  for (std::size_t k = 0; k < windows.started(); ++k) {
-    for (const std::uint32_t other : windows.near_started(k, time(), ball_of, scratch)) {
-      const auto [first, second] = std::minmax({windows.started_number(k), other});
-      if (least && std::tie(least->second, least->first) <= std::tie(second, first)) continue;
-      if (certainly_overlap(bodies(), time(), {bound_now(added[first])}, {bound_now(added[second])}) &&
-          bodies().may_touch(bodies().next_id(first), added[first], bodies().next_id(second), added[second]))
-        least = {first, second};
-    }
+  for (const auto& [a, b] : windows.near_started(0, windows.started(), time(), ball_of, scratch)) {
+    const auto [first, second] = std::minmax({a, b});
+    if (least && std::tie(least->second, least->first) <= std::tie(second, first)) continue;
+    if (certainly_overlap(bodies(), time(), {bound_now(added[first])}, {bound_now(added[second])}) &&
+        bodies().may_touch(bodies().next_id(first), added[first], bodies().next_id(second), added[second]))
+      least = {first, second};
   }
   return least;
 }

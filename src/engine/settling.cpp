@@ -16,7 +16,7 @@ constexpr double price_of_report = 500.0;
 }  // namespace
 
 std::optional<Window> Island::registered_window(std::uint32_t number) const {
-  if (beside_ && beside_->last_kick(number) != nullptr) return window_of(number);
+  if (const BodyKick* kick = beside_ ? beside_->last_kick(number) : nullptr) return kick->window;
   if (!tables_->windows.contains(number)) return std::nullopt;
   return tables_->windows.window_of(number);
 }
@@ -34,17 +34,17 @@ Window Island::window_for(std::uint32_t number) const {
   return suits && time_ < now->end ? *now : window;
 }
 
-/// The window, from now on, that suits the pace of a body.
-Window Island::window_to_start(std::uint32_t number) const {
-  Window window = Windows::window_at(time_, tables_->tempo.tier_for(bodies().pace_of(number, time_)));
-  if (!bodies().space().repeats()) return window;
-  const auto length = [&window] { return power_of_two(window.tier); };
-  while (length() > bodies().longest_in_period(number, time_, length(), book().rule().release_gap())) {
-    const Window shorter = Windows::window_at(time_, window.tier - 1);
-    if (shorter.tier == window.tier) break;
-    window = shorter;
+int Island::tier_to_start(std::uint32_t number, const Pace& pace) const {
+  int tier = tables_->tempo.tier_for(pace);
+  if (!bodies().space().repeats()) return tier;
+  tier = Windows::window_at(time_, tier).tier;
+  const double release_gap = book().rule().release_gap();
+  while (power_of_two(tier) > bodies().longest_in_period(number, time_, power_of_two(tier), release_gap)) {
+    const int shorter = Windows::window_at(time_, tier - 1).tier;
+    if (shorter == tier) break;
+    tier = shorter;
   }
-  return window;
+  return tier;
 }
 
 /// Whether, until the next window ends, the bound would grow so much that a report costs less, or the body go
@@ -54,7 +54,8 @@ bool Island::needs_report(std::uint32_t number) const {
   const Body& body = bodies()[number];
   if (body.fresh(time_)) return false;
   const Bound& bound = body.bound;
-  const Window window = window_to_start(number);
+  const Pace pace = bodies().pace_of(number, time_);
+  const Window window = Windows::window_at(time_, tier_to_start(number, pace));
   const double s = window.end - bound.time;
   const auto growth_after = [&bound](double time) {
     return (bound.growth_speed + 0.5 * bound.growth_acceleration * time) * time;
@@ -63,7 +64,7 @@ bool Island::needs_report(std::uint32_t number) const {
   if (tables_->tempo.cost_of_width(2.0 * saved) > price_of_report) return true;
   const double speed = norm(bound.velocity) + bound.growth_speed + body.largest_acceleration() * s;
   if (!bodies().space().repeats()) return speed * s > bodies().longest_way();
-  if (window.tier < tables_->tempo.tier_for(bodies().pace_of(number, time_))) return true;
+  if (window.tier < tables_->tempo.tier_for(pace)) return true;
   const Vec3& period = bodies().space().period();
   double half = infinity;
   for (int axis = 0; axis < 3; ++axis)
@@ -106,7 +107,9 @@ void Island::search(std::span<const std::uint32_t> numbers) {
   for (const std::uint32_t number : numbers) {
     const auto others = near(number);
     if (beside_ && !beside_->claims.empty()) return;
-    find_hot_pairs(number, others, found_);
+    ++found_.searches;
+    for (const std::uint32_t other : others)
+      if (!bodies()[other].settled) find_hot_pair(number, other, found_);
     bodies()[number].settled = true;
   }
   for (const std::uint32_t number : numbers) {
@@ -176,17 +179,12 @@ std::span<const std::uint32_t> Island::near(std::uint32_t number) {
   return numbers;
 }
 
-/// Those of the others that may meet the body before a window ends.
-void Island::find_hot_pairs(std::uint32_t number, std::span<const std::uint32_t> others, Found& found) const {
-  ++found.searches;
-  found.candidates += others.size();
-  for (const std::uint32_t other : others) {
-    if (bodies()[other].settled) continue;
-    const double until = unchanged_until(number, other);
-    if (until == infinity) continue;
-    found.hot.push_back(hot_pair(until, number, other));
-    ++found.pairs;
-  }
+void Island::find_hot_pair(std::uint32_t a, std::uint32_t b, Found& found) const {
+  ++found.candidates;
+  const double until = unchanged_until(a, b);
+  if (until == infinity) return;
+  found.hot.push_back(hot_pair(until, a, b));
+  ++found.pairs;
 }
 
 /// Whom the body touches or senses may be anywhere.

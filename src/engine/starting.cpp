@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "engine/engine.hpp"
 #include "number/infinity.hpp"
@@ -12,6 +13,38 @@ namespace {
 
 /// So many are worth the while of a thread.
 constexpr std::size_t bodies_at_once = 256;
+
+/// The windows in which nobody is yet: a layer in which others are already would have to be sorted anew, so
+/// rather a shorter window.
+class FreeWindows {
+ public:
+  FreeWindows(const Windows& windows, double now) : windows_(windows), now_(now) {}
+
+  /// The longest one that is not longer than 2^tier. Where there is none, it ends now.
+  const Window& of(int tier) {
+    if (found_ && tier == asked_) return *found_;
+    asked_ = tier;
+    found_ = find(tier);
+    return *found_;
+  }
+
+ private:
+  Window find(int tier) const {
+    Window window = Windows::window_at(now_, tier);
+    while (!windows_.is_free(window)) {
+      const Window shorter = Windows::window_at(now_, window.tier - Tempo::powers_between_tiers);
+      if (shorter.tier == window.tier) return {window.tier, now_};
+      window = shorter;
+    }
+    return window;
+  }
+
+  const Windows& windows_;
+  double now_;
+  // Most bodies ask for the same one.
+  int asked_ = 0;
+  std::optional<Window> found_;
+};
 
 /// About the distance between so many points along a line or in a layer, if their box is thinner than that,
 /// or in a cube around it. The same on all machines, without std::cbrt().
@@ -92,18 +125,6 @@ Result<void> World::Engine::refresh(std::span<const std::uint32_t> ending, Shift
   return everybody_.probe(asked, shift);
 }
 
-/// One in which nobody is yet: a layer in which others are already would have to be sorted anew, so rather a
-/// shorter window. Where there is none, it ends now.
-Window World::Engine::free_window(std::uint32_t number) const {
-  Window window = everybody_.window_to_start(number);
-  while (!windows().is_free(window)) {
-    const Window shorter = Windows::window_at(time(), window.tier - Tempo::powers_between_tiers);
-    if (shorter.tier == window.tier) return {window.tier, time()};
-    window = shorter;
-  }
-  return window;
-}
-
 /// The windows that suit the bodies of a round, which are in none.
 std::vector<Windows::Starter> World::Engine::choose_windows(std::span<const std::uint32_t> numbers, bool most,
                                                             Tempo::Round& round, Shift& shift) {
@@ -112,18 +133,19 @@ std::vector<Windows::Starter> World::Engine::choose_windows(std::span<const std:
   const std::size_t parts = (numbers.size() + bodies_at_once - 1) / bodies_at_once;
   std::vector<Tempo::Round> rounds(parts, Tempo::Round(tables_.tempo, most));
   shift.for_each(parts, 1, [&](std::size_t from, std::size_t to, std::size_t) {
+    FreeWindows free(windows(), now);
     for (std::size_t part = from; part < to; ++part) {
       const std::size_t end = std::min((part + 1) * bodies_at_once, numbers.size());
       for (std::size_t k = part * bodies_at_once; k < end; ++k) {
         const std::uint32_t number = numbers[k];
-        const Window window = free_window(number);
+        const RoomyBound bound = bodies().room_for(number, MovedBound(bodies()[number].bound, now));
+        const Pace pace = Bodies::pace_of(bound.moved);
+        const Window& window = free.of(everybody_.tier_to_start(number, pace));
         starters[k] = {number, 0, window};
         if (window.end == now) continue;
         if (bodies().space().repeats()) tables_.bodies.bring_home(number, now, window.end - now);
-        const RoomyBound bound = bodies().roomy_bound(number, now);
         starters[k].level = Windows::level_of(bound, window);
-        rounds[part].note(bodies().pace_of(number, now), 2.0 * (bound.moved.radius + bound.room),
-                          window.tier);
+        rounds[part].note(pace, 2.0 * (bound.moved.radius + bound.room), window.tier);
       }
     }
   });
@@ -176,12 +198,12 @@ SearchCost World::Engine::find_pairs_of_started(Shift& shift) {
   shift.for_each(
       windows.started(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
         Island::Found& found = found_[worker];
-        for (std::size_t k = from; k < to; ++k) {
-          const auto others = windows.near_started(
-              k, now, [this, now](std::uint32_t number) { return bodies().roomy_bound(number, now); },
-              found.scratch);
-          everybody_.find_hot_pairs(windows.started_number(k), others, found);
-        }
+        const auto bound_of = [this, now](std::uint32_t number) {
+          return bodies().roomy_bound(number, now);
+        };
+        found.searches += to - from;
+        for (const auto& [a, b] : windows.near_started(from, to, now, bound_of, found.scratch))
+          everybody_.find_hot_pair(a, b, found);
       });
   SearchCost cost;
   for (Island::Found& found : found_) {

@@ -191,9 +191,8 @@ void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t
   Shift alone;
   windows.start(starters, now_, bound_of, alone);
   Windows::Scratch scratch;
-  for (std::size_t k = 0; k < windows.started(); ++k)
-    for (const std::uint32_t other : windows.near_started(k, now_, bound_of, scratch))
-      consider(windows.started_number(k), other, hot, first);
+  for (const auto& [a, b] : windows.near_started(0, windows.started(), now_, bound_of, scratch))
+    consider(a, b, hot, first);
   for (const std::uint32_t number : anywhere)
     for (const std::uint32_t other : numbers)
       if (other != number) consider(number, other, hot, first);

@@ -2,7 +2,6 @@
 #include "window/capsule_search.hpp"
 
 #include <array>
-#include <bit>
 
 // Without it, Highway 1.0 cannot be compiled for a processor that has these vectors and no better ones.
 #ifndef HWY_WANT_AVX3_DL
@@ -29,19 +28,22 @@ namespace kinesphere::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// No fused operations: every processor has to round alike.
-std::size_t near_capsules(const float* const* table, const Run* runs, std::size_t run_count,
-                          const CapsuleQuery& query, std::uint32_t* found) {
+// No fused operations: every processor has to round alike. No branches but those of the loops: the processor
+// goes on with the next run before it knows what has been found in this one.
+void near_capsules(const float* const* table, const CapsuleQuery* queries, const Run* runs,
+                   std::size_t run_count, std::uint32_t* found, std::uint32_t* ends) {
   const hn::CappedTag<float, capsule_padding> d;
+  const hn::RebindToUnsigned<decltype(d)> places;
   const std::size_t lanes = hn::Lanes(d);
-  const auto& [centre, velocity, radius] = query.capsule;
-  const auto x = hn::Set(d, centre[0]), y = hn::Set(d, centre[1]), z = hn::Set(d, centre[2]);
-  const auto u = hn::Set(d, velocity[0]), v = hn::Set(d, velocity[1]), w = hn::Set(d, velocity[2]);
-  const auto r = hn::Set(d, radius);
-  const auto from = hn::Set(d, query.from), to = hn::Set(d, query.to);
   const auto least = hn::Set(d, capsule_search::least_square);
   std::uint32_t* next = found;
   for (std::size_t run = 0; run < run_count; ++run) {
+    const auto& [capsule, first_time, last_time] = queries[runs[run].query];
+    const auto& [centre, velocity, radius] = capsule;
+    const auto x = hn::Set(d, centre[0]), y = hn::Set(d, centre[1]), z = hn::Set(d, centre[2]);
+    const auto u = hn::Set(d, velocity[0]), v = hn::Set(d, velocity[1]), w = hn::Set(d, velocity[2]);
+    const auto r = hn::Set(d, radius);
+    const auto from = hn::Set(d, first_time), to = hn::Set(d, last_time);
     const std::uint32_t end = runs[run].end;
     for (std::uint32_t k = runs[run].begin; k < end; k += static_cast<std::uint32_t>(lanes)) {
       const auto dx = hn::Sub(hn::LoadU(d, table[0] + k), x);
@@ -58,15 +60,13 @@ std::size_t near_capsules(const float* const* table, const Run* runs, std::size_
       const auto py = hn::Add(dy, hn::Mul(dv, s));
       const auto pz = hn::Add(dz, hn::Mul(dw, s));
       const auto square = hn::Add(hn::Add(hn::Mul(px, px), hn::Mul(py, py)), hn::Mul(pz, pz));
-      auto near = hn::Not(hn::Gt(square, hn::Add(hn::Mul(radii, radii), least)));
-      if (end - k < lanes) near = hn::And(near, hn::FirstN(d, end - k));
-      std::array<std::uint8_t, 8> bytes{};
-      hn::StoreMaskBits(d, near, bytes.data());
-      for (unsigned bits = bytes[0] | unsigned{bytes[1]} << 8; bits != 0; bits &= bits - 1)
-        *next++ = k + static_cast<std::uint32_t>(std::countr_zero(bits));
+      const auto apart = hn::Gt(square, hn::Add(hn::Mul(radii, radii), least));
+      const auto near = hn::RebindMask(places, hn::AndNot(apart, hn::FirstN(d, end - k)));
+      hn::StoreU(hn::Compress(hn::Iota(places, k), near), places, next);
+      next += hn::CountTrue(places, near);
     }
+    ends[run] = static_cast<std::uint32_t>(next - found);
   }
-  return static_cast<std::size_t>(next - found);
 }
 
 }  // namespace kinesphere::HWY_NAMESPACE
@@ -77,16 +77,17 @@ namespace kinesphere {
 
 HWY_EXPORT(near_capsules);
 
-std::size_t near_capsules(const CapsuleColumns& table, std::span<const Run> runs, const CapsuleQuery& query,
-                          std::uint32_t* found) {
-  return HWY_DYNAMIC_DISPATCH(near_capsules)(table.data(), runs.data(), runs.size(), query, found);
+void near_capsules(const CapsuleColumns& table, std::span<const CapsuleQuery> queries,
+                   std::span<const Run> runs, std::uint32_t* found, std::uint32_t* ends) {
+  HWY_DYNAMIC_DISPATCH(near_capsules)(table.data(), queries.data(), runs.data(), runs.size(), found, ends);
 }
 
-std::size_t near_capsules_plain(const CapsuleColumns& table, std::span<const Run> runs,
-                                const CapsuleQuery& query, std::uint32_t* found) {
-  const auto& [centre, velocity, radius] = query.capsule;
+void near_capsules_plain(const CapsuleColumns& table, std::span<const CapsuleQuery> queries,
+                         std::span<const Run> runs, std::uint32_t* found, std::uint32_t* ends) {
   std::uint32_t* next = found;
   for (const Run& run : runs) {
+    const auto& [capsule, from, to] = queries[run.query];
+    const auto& [centre, velocity, radius] = capsule;
     for (std::uint32_t k = run.begin; k < run.end; ++k) {
       const float dx = table[0][k] - centre[0], dy = table[1][k] - centre[1], dz = table[2][k] - centre[2];
       const float du = table[3][k] - velocity[0], dv = table[4][k] - velocity[1],
@@ -95,14 +96,14 @@ std::size_t near_capsules_plain(const CapsuleColumns& table, std::span<const Run
       const float xv = dx * du + dy * dv + dz * dw;
       const float vv = du * du + dv * dv + dw * dw;
       const float nearest = -xv / (vv + capsule_search::least_square);
-      const float late = nearest > query.from ? nearest : query.from;
-      const float s = late < query.to ? late : query.to;
+      const float late = nearest > from ? nearest : from;
+      const float s = late < to ? late : to;
       const float px = dx + du * s, py = dy + dv * s, pz = dz + dw * s;
       const float square = px * px + py * py + pz * pz;
       if (!(square > radii * radii + capsule_search::least_square)) *next++ = k;
     }
+    *ends++ = static_cast<std::uint32_t>(next - found);
   }
-  return static_cast<std::size_t>(next - found);
 }
 
 }  // namespace kinesphere

@@ -10,10 +10,11 @@
 
 namespace kinesphere {
 
-/// A piece of a table: places begin <= k < end.
+/// A piece of a table, places begin <= k < end, and which query it is searched for.
 struct Run {
   std::uint32_t begin;
   std::uint32_t end;
+  std::uint32_t query = 0;
 };
 
 /// Seven columns of one length: the centres, velocities and radii of capsules of one frame. Behind the last
@@ -28,13 +29,14 @@ struct CapsuleQuery {
   float to;
 };
 
-/// Writes the places, in the order of the runs, of all capsules that may touch the query's during the span;
-/// `found` has room for all places of all runs. Returns how many there are. Every capsule that does touch it
-/// is among them, if speeds are as capsule_of() lets them be. The same on all processors, to the bit: the
-/// best vectors of this one are used (Google Highway), and near_capsules_plain() is the same without.
-std::size_t near_capsules(const CapsuleColumns& table, std::span<const Run> runs, const CapsuleQuery& query,
-                          std::uint32_t* found);
-std::size_t near_capsules_plain(const CapsuleColumns& table, std::span<const Run> runs,
-                                const CapsuleQuery& query, std::uint32_t* found);
+/// Writes to `found`, run by run, the places of all capsules that may touch the capsule of the run's query
+/// during its span, and to `ends` how many there are up to the end of each run. `found` has room for all
+/// places of all runs, and `capsule_padding` more. Every capsule that does touch it is among them, if speeds
+/// are as capsule_of() lets them be. The same on all processors, to the bit: the best vectors of this one are
+/// used (Google Highway), and near_capsules_plain() is the same without.
+void near_capsules(const CapsuleColumns& table, std::span<const CapsuleQuery> queries,
+                   std::span<const Run> runs, std::uint32_t* found, std::uint32_t* ends);
+void near_capsules_plain(const CapsuleColumns& table, std::span<const CapsuleQuery> queries,
+                         std::span<const Run> runs, std::uint32_t* found, std::uint32_t* ends);
 
 }  // namespace kinesphere

@@ -23,12 +23,16 @@ constexpr std::size_t too_many_in_a_cell = 24;
 /// Whole numbers of cells stay below this, so that sums of some do not overflow.
 constexpr float most_cells = 0x1p29f;
 
+/// A search looks at so many capsules at a time, on processors that can.
+constexpr std::uint32_t most_lanes = capsule_padding;
+
 }  // namespace
 
 void Layer::clear(const CapsuleFrame& frame) {
   frame_ = frame;
   for (std::vector<float>& column : columns_) column.clear();
   numbers_.clear();
+  cells_.clear();
   starts_.clear();
   sorted_ = 0;
   holes_ = 0;
@@ -71,10 +75,8 @@ std::optional<float> Layer::overhang_at(std::uint32_t place, const Capsule& caps
   assert(numbers_[place] != nobody);
   // Those that were added later have no cell.
   if (place >= sorted_) return 0.0f;
-  const auto after = std::upper_bound(starts_.begin(), starts_.end(), place);
-  const auto cell = static_cast<std::uint32_t>(after - starts_.begin() - 1);
   const Corners corners = corners_of(capsule, from, 1.0f);
-  const float out = overhang(nearest_image(cell, grid_.cell_around(corners)), corners);
+  const float out = overhang(nearest_image(cells_[place], grid_.cell_around(corners)), corners);
   return out <= grid_.edge[1] ? std::optional(out) : std::nullopt;
 }
 
@@ -164,10 +166,14 @@ bool Layer::Grid::is_sound() const {
   return true;
 }
 
-/// The one of the cells that share capsules with this one which is nearest to another.
+/// This cell or, of those that share capsules with it, the one that is nearest to another.
 Layer::Cell Layer::nearest_image(std::uint32_t cell, const Cell& of) const {
   Cell image = grid_.cell_at(cell);
   for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!grid_.folded[axis]) {
+      image[axis] += grid_.first[axis];
+      continue;
+    }
     const std::int32_t count = grid_.count[axis];
     std::int32_t way = image[axis] - grid_.wrapped(of[axis], axis);
     if (2 * way > count) way -= count;
@@ -204,12 +210,16 @@ struct Layer::Spread {
   float widest = 0.0f;
   float extent = 0.0f;   ///< of the box around the middles, but no less than the widest
   float largest = 0.0f;  ///< the widest without that limit
+  bool outside = false;  ///< the middle of one of those that are too large may be
 
   void add(const Corners& corners) {
     largest = std::max(largest, width_of(corners));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const float middle = 0.5f * (corners.lower[axis] + corners.upper[axis]);
-      if (!(std::abs(middle) < most_cells)) continue;
+      if (!(std::abs(middle) < most_cells)) {
+        outside = true;
+        continue;
+      }
       lower[axis] = std::min(lower[axis], middle);
       upper[axis] = std::max(upper[axis], middle);
       const float width = corners.upper[axis] - corners.lower[axis];
@@ -223,6 +233,7 @@ struct Layer::Spread {
     }
     widest = std::max(widest, more.widest);
     largest = std::max(largest, more.largest);
+    outside = outside || more.outside;
   }
 };
 
@@ -248,23 +259,28 @@ void Layer::choose_grid(const Spread& spread, std::size_t size) {
   const float edge = std::max(size > few ? coarseness_ * spread.widest : 4.0f * spread.extent, 0x1p-20f);
   grid_.edge = {edge / Grid::slices, edge, edge};
   for (std::size_t axis = 0; axis < 3; ++axis) grid_.per_edge[axis] = 1.0f / grid_.edge[axis];
+  grid_.folded = {spread.outside, spread.outside, spread.outside};
   if (size <= few) {
     grid_.first = {};
     grid_.count = {1, 1, 1};
+    grid_.folded = {true, true, true};
     return;
   }
   std::size_t cells = 1;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     grid_.first[axis] = grid_.cell_of(lower[axis], axis);
     const std::int32_t last = grid_.cell_of(std::max(lower[axis], spread.upper[axis]), axis);
-    grid_.count[axis] = std::min(last - grid_.first[axis] + 1, 1 << 20);
+    const std::int32_t all = last - grid_.first[axis] + 1;
+    grid_.count[axis] = std::min(all, 1 << 20);
+    if (grid_.count[axis] < all) grid_.folded[axis] = true;
     cells *= static_cast<std::size_t>(grid_.count[axis]);
   }
   while (cells > 8 * size) {
-    std::int32_t& most = *std::max_element(grid_.count.begin(), grid_.count.end());
-    cells /= static_cast<std::size_t>(most);
-    most = (most + 1) / 2;
-    cells *= static_cast<std::size_t>(most);
+    const auto most = std::max_element(grid_.count.begin(), grid_.count.end());
+    cells /= static_cast<std::size_t>(*most);
+    *most = (*most + 1) / 2;
+    cells *= static_cast<std::size_t>(*most);
+    grid_.folded[static_cast<std::size_t>(most - grid_.count.begin())] = true;
   }
 }
 
@@ -369,7 +385,8 @@ float Layer::arrange(const Unsorted& all, Shift& shift) {
   // Each to its place among those of its cell, in the order in which they stand: cells tell of the ends of
   // their parts first, and of their begins when the last one has been taken from there.
   for (std::size_t cell = 1; cell < starts_.size(); ++cell) starts_[cell] += starts_[cell - 1];
-  for (std::uint32_t k = count; k-- > 0;) cells[k] = --starts_[cells[k]];
+  std::vector<std::uint32_t> places(count);
+  for (std::uint32_t k = count; k-- > 0;) places[k] = --starts_[cells[k]];
   most_behind_ = least_behind + static_cast<std::uint32_t>(4.0 * std::sqrt(static_cast<double>(count)));
   // With room for those that come behind, or one of them would make vectors twice as large.
   for (std::vector<float>& column : columns_) {
@@ -378,10 +395,12 @@ float Layer::arrange(const Unsorted& all, Shift& shift) {
   }
   numbers_.reserve(count + most_behind_ + 2);
   numbers_.resize(count);
+  cells_.resize(count);
   shift.for_each(count, many, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t k = begin; k < end; ++k) {
-      store(cells[k], all.capsules[k]);
-      numbers_[cells[k]] = all.numbers[k];
+      store(places[k], all.capsules[k]);
+      numbers_[places[k]] = all.numbers[k];
+      cells_[places[k]] = cells[k];
     }
   });
   sorted_ = count;
@@ -389,65 +408,84 @@ float Layer::arrange(const Unsorted& all, Shift& shift) {
   return spread.largest;
 }
 
-/// The rows of cells that may hold a capsule which meets the corners.
-void Layer::runs_near(const Corners& corners, std::vector<Run>& runs) const {
+/// A query, and the rows of cells that may hold a capsule which meets its own, but for those before this cell
+/// and this place in it.
+void Layer::add_runs(const CapsuleQuery& query, std::uint32_t first_cell, std::uint32_t first_place,
+                     Searches& searches) const {
+  const auto number = static_cast<std::uint32_t>(searches.queries.size());
+  std::vector<Run>& runs = searches.runs;
+  searches.queries.push_back(query);
+  const Corners corners = corners_of(query.capsule, query.from, query.to);
   Cell begin, count;
   for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::int32_t all = grid_.count[axis];
     const std::int32_t first = grid_.cell_of(corners.lower[axis] - reach_, axis);
     const std::int32_t last = grid_.cell_of(corners.upper[axis] + reach_, axis);
     // Also where a corner is infinite or not a number.
-    const bool all =
-        !(corners.upper[axis] - corners.lower[axis] < most_cells) || last - first + 1 >= grid_.count[axis];
-    begin[axis] = all ? 0 : grid_.wrapped(first, axis);
-    count[axis] = all ? grid_.count[axis] : last - first + 1;
-  }
-  const auto add = [&runs](std::uint32_t from, std::uint32_t to) {
-    if (from >= to) return;
-    if (!runs.empty() && runs.back().end == from) {
-      runs.back().end = to;
+    if (!(corners.upper[axis] - corners.lower[axis] < most_cells)) {
+      begin[axis] = 0;
+      count[axis] = all;
+    } else if (grid_.folded[axis]) {
+      count[axis] = std::min(last - first + 1, all);
+      begin[axis] = count[axis] == all ? 0 : grid_.wrapped(first, axis);
     } else {
-      runs.push_back({from, to});
+      begin[axis] = std::max(first - grid_.first[axis], 0);
+      count[axis] = std::min(last - grid_.first[axis] + 1, all) - begin[axis];
+      if (count[axis] <= 0) return;
     }
+  }
+  // Two that take as many vectors as what is between them are read as one.
+  const auto vectors = [](const Run& run) { return (run.end - run.begin + most_lanes - 1) / most_lanes; };
+  const auto add = [&](std::uint32_t from, std::uint32_t to) {
+    const Run run{std::max(from, first_place), to, number};
+    if (run.begin >= run.end) return;
+    if (!runs.empty() && runs.back().query == number && runs.back().end <= run.begin) {
+      const Run both{runs.back().begin, run.end, number};
+      if (vectors(both) <= vectors(runs.back()) + vectors(run)) {
+        runs.back() = both;
+        return;
+      }
+    }
+    runs.push_back(run);
   };
   const auto along = [this](std::size_t axis) { return static_cast<std::uint32_t>(grid_.count[axis]); };
-  const auto width = static_cast<std::uint32_t>(count[0]);
-  const auto first = static_cast<std::uint32_t>(begin[0]);
-  for (std::int32_t k = 0; k < count[2]; ++k) {
-    const std::uint32_t z = (static_cast<std::uint32_t>(begin[2] + k)) % along(2);
-    for (std::int32_t j = 0; j < count[1]; ++j) {
-      const std::uint32_t y = (static_cast<std::uint32_t>(begin[1] + j)) % along(1);
+  const auto from = [&begin](std::size_t axis) { return static_cast<std::uint32_t>(begin[axis]); };
+  const auto wide = [&count](std::size_t axis) { return static_cast<std::uint32_t>(count[axis]); };
+  const std::uint32_t within = std::min(wide(0), along(0) - from(0));
+  for (std::uint32_t k = from(2); k < from(2) + wide(2); ++k) {
+    const std::uint32_t z = k < along(2) ? k : k - along(2);
+    for (std::uint32_t j = from(1); j < from(1) + wide(1); ++j) {
+      const std::uint32_t y = j < along(1) ? j : j - along(1);
       const std::uint32_t row = (z * along(1) + y) * along(0);
-      const std::uint32_t within = std::min(width, along(0) - first);
-      add(starts_[row + first], starts_[row + first + within]);
-      if (within < width) add(starts_[row], starts_[row + width - within]);
+      if (row + along(0) <= first_cell) continue;
+      add(starts_[row + from(0)], starts_[row + from(0) + within]);
+      if (within < wide(0)) add(starts_[row], starts_[row + wide(0) - within]);
     }
   }
 }
 
-std::span<const std::uint32_t> Layer::near(const CapsuleQuery& query, Scratch& scratch) const {
-  std::size_t most = 0;
-  for (const Run& run : scratch.runs) most += run.end - run.begin;
-  if (scratch.places.size() < most) scratch.places.resize(most);
-  const std::size_t found = near_capsules(columns(), scratch.runs, query, scratch.places.data());
-  return std::span(scratch.places).first(found);
-}
-
-std::span<const std::uint32_t> Layer::search(const CapsuleQuery& query, Scratch& scratch) const {
-  scratch.runs.clear();
-  if (sorted_ > 0) runs_near(corners_of(query.capsule, query.from, query.to), scratch.runs);
+void Layer::add_search(const CapsuleQuery& query, Searches& searches) const {
+  if (sorted_ > 0) {
+    add_runs(query, 0, 0, searches);
+  } else {
+    searches.queries.push_back(query);
+  }
   if (numbers_.size() > sorted_)
-    scratch.runs.push_back({sorted_, static_cast<std::uint32_t>(numbers_.size())});
-  return near(query, scratch);
+    searches.runs.push_back({sorted_, static_cast<std::uint32_t>(numbers_.size()),
+                             static_cast<std::uint32_t>(searches.queries.size() - 1)});
 }
 
-std::span<const std::uint32_t> Layer::search_behind(std::uint32_t place, Scratch& scratch) const {
+void Layer::add_search_behind(std::uint32_t place, Searches& searches) const {
   assert(sorted_ == numbers_.size());
-  const CapsuleQuery query{capsule_at(place), 0.0f, 1.0f};
-  scratch.runs.clear();
-  runs_near(corners_of(query.capsule, 0.0f, 1.0f), scratch.runs);
-  std::erase_if(scratch.runs, [place](const Run& run) { return run.end <= place + 1; });
-  for (Run& run : scratch.runs) run.begin = std::max(run.begin, place + 1);
-  return near(query, scratch);
+  add_runs({capsule_at(place), 0.0f, 1.0f}, cells_[place], place + 1, searches);
+}
+
+void Layer::make(Searches& searches) const {
+  std::size_t most = capsule_padding;
+  for (const Run& run : searches.runs) most += run.end - run.begin;
+  if (searches.places.size() < most) searches.places.resize(most);
+  if (searches.ends.size() < searches.runs.size()) searches.ends.resize(searches.runs.size());
+  near_capsules(columns(), searches.queries, searches.runs, searches.places.data(), searches.ends.data());
 }
 
 bool Layer::is_sound() const {
@@ -468,13 +506,19 @@ bool Layer::is_sound() const {
     cells *= static_cast<std::size_t>(count);
     if (cells >= starts_.size()) return false;
   }
-  return starts_.size() == cells + 1 && starts_.front() == 0 && starts_.back() == sorted_ &&
+  if (starts_.size() != cells + 1) return false;
+  if (cells_.size() < sorted_) return false;
+  for (std::uint32_t place = 0; place < sorted_; ++place)
+    if (cells_[place] >= cells || place < starts_[cells_[place]] || place >= starts_[cells_[place] + 1])
+      return false;
+  return starts_.front() == 0 && starts_.back() == sorted_ &&
          std::is_sorted(starts_.begin(), starts_.end()) && grid_.is_sound() && reach_ >= 0.0f &&
          widest_ >= 0.0f && coarseness_ >= 1.0f && coarseness_ <= coarsest;
 }
 
 std::size_t Layer::bytes() const {
-  std::size_t all = numbers_.capacity() * sizeof(std::uint32_t) + starts_.capacity() * sizeof(std::uint32_t);
+  std::size_t all =
+      (numbers_.capacity() + cells_.capacity() + starts_.capacity()) * sizeof(std::uint32_t);
   for (const std::vector<float>& column : columns_) all += column.capacity() * sizeof(float);
   return all;
 }

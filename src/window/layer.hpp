@@ -43,7 +43,7 @@ struct Grain {
 
 /// Each capsule has a place, which stays the same until the layer is sorted anew or cleared, and belongs to a
 /// body. Those that were added since the layer was sorted are behind the others, and every search looks at
-/// them. The grid has no borders: cells count modulo its size, so it holds bodies anywhere.
+/// them. Where a grid over all of them would have too many cells, it is folded: cells count modulo its size.
 class Layer {
  public:
   /// In place of the number of a body: nobody's.
@@ -52,10 +52,26 @@ class Layer {
   /// Many times the widest capsule, which may be far less wide than a unit.
   static constexpr float coarsest = 0x1p100f;
 
-  /// Where a search finds what it found, and what it needs on the way.
-  struct Scratch {
+  /// Searches of one layer that are made at once: a processor works on several at the same time.
+  struct Searches {
+    std::vector<CapsuleQuery> queries;
     std::vector<Run> runs;
+    // What they have found: all places, and where those of each run end.
     std::vector<std::uint32_t> places;
+    std::vector<std::uint32_t> ends;
+
+    void clear() {
+      queries.clear();
+      runs.clear();
+    }
+    std::size_t found() const { return runs.empty() ? 0 : ends[runs.size() - 1]; }
+    /// Calls visit(query, place).
+    template <class Visit>
+    void for_each_found(Visit visit) const {
+      std::uint32_t k = 0;
+      for (std::size_t run = 0; run < runs.size(); ++run)
+        for (; k < ends[run]; ++k) visit(runs[run].query, places[k]);
+    }
   };
 
   Layer() = default;
@@ -117,12 +133,13 @@ class Layer {
     for (std::uint32_t place = 0; place < numbers_.size(); ++place) moved(numbers_[place], place);
   }
 
-  /// The places of all that a capsule may touch during the query's span; of holes perhaps too. Good until the
-  /// next search with this scratch.
-  std::span<const std::uint32_t> search(const CapsuleQuery& query, Scratch& scratch) const;
+  /// Adds a search for all that a capsule may touch during the query's span; it may find holes too.
+  void add_search(const CapsuleQuery& query, Searches& searches) const;
   /// The same among those behind the place of a capsule of this layer, which has to be sorted, from time 0 to
   /// 1: going through all places finds each pair once.
-  std::span<const std::uint32_t> search_behind(std::uint32_t place, Scratch& scratch) const;
+  void add_search_behind(std::uint32_t place, Searches& searches) const;
+  /// Makes them.
+  void make(Searches& searches) const;
 
   /// Calls visit(lower corner, upper corner, number of capsules), in units of the frame, for each cell in
   /// which the middle of a capsule lies.
@@ -152,9 +169,9 @@ class Layer {
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [frame, columns, numbers, starts, sorted, holes, grid, reach, widest, most_behind, filled,
+    auto& [frame, columns, numbers, cells, starts, sorted, holes, grid, reach, widest, most_behind, filled,
            coarseness] = self;
-    archive(frame, columns, numbers, starts, sorted, holes, grid, reach, widest, most_behind, filled,
+    archive(frame, columns, numbers, cells, starts, sorted, holes, grid, reach, widest, most_behind, filled,
             coarseness);
   }
 
@@ -168,15 +185,17 @@ class Layer {
     Point upper;
   };
   using Cell = std::array<std::int32_t, 3>;
-  /// Those with coordinates in [i, i + 1) times the edge are cell i of an axis, and share their capsules with
-  /// all cells i + k count. Cells are cubes cut into slices along x: rows of cells are read as a whole, so
-  /// that thin slices cost nothing, and less is read of rows that are not needed as a whole.
+  /// Those with coordinates in [i, i + 1) times the edge are cell i of an axis. Where the axis is folded, it
+  /// shares its capsules with all cells i + k count; else all are in `count` cells from the first on. Cells
+  /// are cubes cut into slices along x: rows of cells are read as a whole, so that thin slices cost nothing,
+  /// and less is read of rows that are not needed as a whole.
   struct Grid {
     static constexpr int slices = 4;
     Point edge{1.0f, 1.0f, 1.0f};
     Point per_edge{1.0f, 1.0f, 1.0f};
     Cell first{};
     Cell count{1, 1, 1};
+    std::array<bool, 3> folded{};
 
     std::int32_t cell_of(float coordinate, std::size_t axis) const;
     std::int32_t wrapped(std::int32_t cell, std::size_t axis) const;
@@ -186,8 +205,8 @@ class Layer {
     bool is_sound() const;
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
-      auto& [edge, per_edge, first, count] = self;
-      archive(edge, per_edge, first, count);
+      auto& [edge, per_edge, first, count, folded] = self;
+      archive(edge, per_edge, first, count, folded);
     }
   };
 
@@ -208,12 +227,13 @@ class Layer {
   float arrange(const Unsorted& all, Shift& shift);
   float overhang(const Cell& cell, const Corners& corners) const;
   Cell nearest_image(std::uint32_t cell, const Cell& of) const;
-  void runs_near(const Corners& corners, std::vector<Run>& runs) const;
-  std::span<const std::uint32_t> near(const CapsuleQuery& query, Scratch& scratch) const;
+  void add_runs(const CapsuleQuery& query, std::uint32_t first_cell, std::uint32_t first_place,
+                Searches& searches) const;
 
   CapsuleFrame frame_;
   std::array<std::vector<float>, 7> columns_;  ///< with room behind the last one for a search to read
   std::vector<std::uint32_t> numbers_;
+  std::vector<std::uint32_t> cells_;   ///< of the sorted ones
   std::vector<std::uint32_t> starts_;  ///< by cell, and the end of the last one
   std::uint32_t sorted_ = 0;
   std::uint32_t holes_ = 0;

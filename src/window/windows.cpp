@@ -27,23 +27,24 @@ double end_of_window(int tier, double now) {
 
 double largest_part(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// What the last search of a layer that has just been sorted has cost.
-void note_cost(Windows::Scratch& scratch, std::size_t found) {
-  scratch.cost.found += found;
-  for (const Run& run : scratch.layer.runs) scratch.cost.capsules += run.end - run.begin;
-  scratch.cost.rows += scratch.layer.runs.size();
+/// What searches of a layer that has just been sorted have cost.
+SearchCost cost_of(const Layer::Searches& searches) {
+  SearchCost cost{.rows = searches.runs.size(), .found = searches.found()};
+  for (const Run& run : searches.runs) cost.capsules += run.end - run.begin;
+  return cost;
 }
 
-/// What a search of a layer that has been changed costs, about.
-void note_estimate(Windows::Scratch& scratch, const Grain& grain, std::size_t bodies,
-                   const CapsuleQuery& query, std::size_t found) {
-  const auto& [capsule, from, to] = query;
-  std::array<double, 3> widths;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    widths[axis] = 2.0 * double{capsule.radius} + std::abs(double{capsule.velocity[axis]}) * (to - from);
-  scratch.cost.found += found;
-  scratch.cost.capsules += static_cast<std::uint64_t>(grain.capsules(widths, static_cast<double>(bodies)));
-  scratch.cost.rows += static_cast<std::uint64_t>(grain.rows(widths));
+/// What those of a layer that has been changed cost, about.
+SearchCost estimated_cost_of(const Layer::Searches& searches, const Grain& grain, std::size_t bodies) {
+  SearchCost cost{.found = searches.found()};
+  for (const auto& [capsule, from, to] : searches.queries) {
+    std::array<double, 3> widths;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      widths[axis] = 2.0 * double{capsule.radius} + std::abs(double{capsule.velocity[axis]}) * (to - from);
+    cost.capsules += static_cast<std::uint64_t>(grain.capsules(widths, static_cast<double>(bodies)));
+    cost.rows += static_cast<std::uint64_t>(grain.rows(widths));
+  }
+  return cost;
 }
 
 /// What stands still is as large as it is, for however long.
@@ -273,42 +274,47 @@ CapsuleQuery Windows::query_for(const Member& member, const RoomyBound& bound, d
   return {capsule_of(bound.moved, now, duration_until(end, now), bound.room, frame), from, to};
 }
 
-/// Calls finds(place, shifted) for what may be near in one layer, in all images, from now on until `end` or
-/// until the window of the layer ends; `shifted` in another one. Calls notes(query, found) for each image.
-template <class Finds, class Notes>
-void Windows::search(const Member& member, const RoomyBound& bound, double now, double end, Finds finds,
-                     Notes notes, Scratch& scratch) const {
-  const auto search_shifted = [&](const Vec3& shift) {
+/// Adds searches of one layer, in all images, for the k-th of some bodies, from now on until `end` or until
+/// the window of the layer ends. False where that would not do: all that are there may be near.
+bool Windows::add_searches(const Member& member, std::uint32_t k, const RoomyBound& bound, double now,
+                           double end, Scratch& scratch) const {
+  const auto add = [&](const Vec3& shift) {
     RoomyBound image = bound;
     image.moved.centre += shift;
-    const CapsuleQuery query = query_for(member, image, now, end);
-    const auto found = member.layer.search(query, scratch.layer);
-    notes(query, found.size());
-    for (const std::uint32_t place : found) finds(place, shift != Vec3{});
+    member.layer.add_search(query_for(member, image, now, end), scratch.layer);
+    scratch.images.push_back({k, shift != Vec3{}});
   };
-  if (!space_.repeats()) return search_shifted({});
-  const Box box = bound.box_of_way(duration_until(end, now));
-  if (!is_within_a_period(box, space_)) {
-    // It may overlap several images of all: a search of one would not do.
-    for (std::uint32_t place = 0; place < member.layer.places(); ++place) finds(place, true);
-    return;
+  if (!space_.repeats()) {
+    add({});
+    return true;
   }
+  const Box box = bound.box_of_way(duration_until(end, now));
+  // It may overlap several images of all: a search of one would not do.
+  if (!is_within_a_period(box, space_)) return false;
   space_.for_each_image(box, member.layer.widest() / member.layer.frame().per_length,
-                        [&](const Box&, const Vec3& shift) { search_shifted(shift); });
+                        [&](const Box&, const Vec3& shift) { add(shift); });
+  return true;
 }
 
 std::span<const std::uint32_t> Windows::near(std::uint32_t number, const RoomyBound& bound, double now,
                                              double end, Scratch& scratch) const {
   scratch.numbers.clear();
   for (const Member& member : layers_) {
-    if (member.layer.size() == 0) continue;
-    const auto note = [&](std::uint32_t place, bool) {
-      const std::uint32_t other = member.layer.number_at(place);
+    const Layer& layer = member.layer;
+    if (layer.size() == 0) continue;
+    const auto note = [&](std::uint32_t place) {
+      const std::uint32_t other = layer.number_at(place);
       if (other != number && other != Layer::nobody) scratch.numbers.push_back(other);
     };
-    search(
-        member, bound, now, end, note, [](const CapsuleQuery&, std::size_t) {}, scratch);
+    scratch.layer.clear();
+    if (add_searches(member, 0, bound, now, end, scratch)) {
+      layer.make(scratch.layer);
+      scratch.layer.for_each_found([&](std::uint32_t, std::uint32_t place) { note(place); });
+    } else {
+      for (std::uint32_t place = 0; place < layer.places(); ++place) note(place);
+    }
   }
+  scratch.images.clear();
   return scratch.numbers;
 }
 
@@ -317,16 +323,19 @@ std::span<const std::uint32_t> Windows::in_box(const Box& box, double now, Scrat
   for (const Member& member : layers_) {
     if (member.layer.size() == 0) continue;
     const double end = member.end < infinity ? now : infinity;
-    const auto search_near = [&](const Box& image, const Vec3&) {
+    const auto add_search = [&](const Box& image, const Vec3&) {
       Bound ball{.time = now, .position = 0.5 * (image.lower + image.upper)};
       ball.radius = 0.5 * norm(image.upper - image.lower);
-      const CapsuleQuery query = query_for(member, {MovedBound(ball, now), 0.0}, now, end);
-      for (const std::uint32_t place : member.layer.search(query, scratch.layer)) {
-        const std::uint32_t number = member.layer.number_at(place);
-        if (number != Layer::nobody) scratch.numbers.push_back(number);
-      }
+      const RoomyBound bound{MovedBound(ball, now), 0.0};
+      member.layer.add_search(query_for(member, bound, now, end), scratch.layer);
     };
-    space_.for_each_image(box, member.layer.widest() / member.layer.frame().per_length, search_near);
+    scratch.layer.clear();
+    space_.for_each_image(box, member.layer.widest() / member.layer.frame().per_length, add_search);
+    member.layer.make(scratch.layer);
+    scratch.layer.for_each_found([&](std::uint32_t, std::uint32_t place) {
+      const std::uint32_t number = member.layer.number_at(place);
+      if (number != Layer::nobody) scratch.numbers.push_back(number);
+    });
   }
   return scratch.numbers;
 }
@@ -467,47 +476,56 @@ std::size_t Windows::started() const {
   return all;
 }
 
-Windows::Started Windows::started_at(std::size_t k) const {
+/// From the k-th on, no more than so many.
+Windows::Started Windows::started_at(std::size_t k, std::size_t most) const {
   for (std::uint32_t layer = 0; layer < layers_.size(); ++layer) {
     if (!layers_[layer].fresh) continue;
     const std::size_t places = layers_[layer].layer.places();
-    if (k < places) return {layer, static_cast<std::uint32_t>(k)};
+    if (k < places)
+      return {layer, static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(std::min(places - k, most))};
     k -= places;
   }
   assert(false);
-  return {none, 0};
+  return {none, 0, 0};
 }
 
-std::uint32_t Windows::started_number(std::size_t k) const {
-  const Started at = started_at(k);
-  return layers_[at.layer].layer.number_at(at.place);
+/// Those behind them in their own layer.
+void Windows::search_behind(const Started& some, Scratch& scratch) const {
+  const Layer& layer = layers_[some.layer].layer;
+  scratch.layer.clear();
+  for (std::uint32_t k = 0; k < some.count; ++k) layer.add_search_behind(some.place + k, scratch.layer);
+  layer.make(scratch.layer);
+  scratch.cost += cost_of(scratch.layer);
+  scratch.layer.for_each_found([&](std::uint32_t k, std::uint32_t place) {
+    scratch.pairs.push_back({layer.number_at(some.place + k), layer.number_at(place)});
+  });
 }
 
-void Windows::near_behind(const Started& at, Scratch& scratch) const {
-  const Layer& layer = layers_[at.layer].layer;
-  const auto found = layer.search_behind(at.place, scratch.layer);
-  note_cost(scratch, found.size());
-  for (const std::uint32_t place : found) scratch.numbers.push_back(layer.number_at(place));
-}
-
-void Windows::near_behind(const Started& at, const RoomyBound& bound, double now, Scratch& scratch) const {
-  near_behind(at, scratch);
-  const Member& own = layers_[at.layer];
-  for (std::uint32_t k = 0; k < layers_.size(); ++k) {
-    const Member& member = layers_[k];
+/// Those in other layers and, of their own, other images.
+void Windows::search_other_layers(const Started& some, double now, Scratch& scratch) const {
+  const Member& own = layers_[some.layer];
+  for (std::uint32_t other = 0; other < layers_.size(); ++other) {
+    const Member& member = layers_[other];
     if (member.layer.size() == 0 || (member.fresh && member.is_before(own)) ||
-        (k == at.layer && !space_.repeats()))
+        (other == some.layer && !space_.repeats()))
       continue;
-    const auto note = [&](std::uint32_t place, bool shifted) {
-      if (k == at.layer && (!shifted || place <= at.place)) return;
-      const std::uint32_t other = member.layer.number_at(place);
-      if (other != Layer::nobody) scratch.numbers.push_back(other);
+    const auto note = [&](const ImageSearch& image, std::uint32_t place) {
+      if (other == some.layer && (!image.shifted || place <= some.place + image.k)) return;
+      const std::uint32_t number = member.layer.number_at(place);
+      if (number != Layer::nobody)
+        scratch.pairs.push_back({own.layer.number_at(some.place + image.k), number});
     };
-    const auto note_search = [&](const CapsuleQuery& query, std::size_t found) {
-      if (member.fresh) return note_cost(scratch, found);
-      note_estimate(scratch, member.grain, member.layer.size(), query, found);
-    };
-    search(member, bound, now, own.end, note, note_search, scratch);
+    scratch.layer.clear();
+    scratch.images.clear();
+    for (std::uint32_t k = 0; k < some.count; ++k) {
+      if (add_searches(member, k, scratch.bounds[k], now, own.end, scratch)) continue;
+      for (std::uint32_t place = 0; place < member.layer.places(); ++place) note({k, true}, place);
+    }
+    member.layer.make(scratch.layer);
+    scratch.cost += member.fresh ? cost_of(scratch.layer)
+                                 : estimated_cost_of(scratch.layer, member.grain, member.layer.size());
+    scratch.layer.for_each_found(
+        [&](std::uint32_t query, std::uint32_t place) { note(scratch.images[query], place); });
   }
 }
 

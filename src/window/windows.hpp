@@ -40,12 +40,25 @@ struct Window {
 
 class Windows {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  /// A search for the k-th of some bodies, where it is or in another image.
+  struct ImageSearch {
+    std::uint32_t k;
+    bool shifted;
+  };
 
  public:
+  /// Two bodies.
+  struct Pair {
+    std::uint32_t first;
+    std::uint32_t second;
+  };
   /// What searches need on the way: one for each thread.
   struct Scratch {
-    Layer::Scratch layer;
+    Layer::Searches layer;
     std::vector<std::uint32_t> numbers;
+    std::vector<Pair> pairs;
+    std::vector<RoomyBound> bounds;
+    std::vector<ImageSearch> images;
     SearchCost cost;  ///< of all searches of bodies that start, with it
   };
 
@@ -138,22 +151,28 @@ class Windows {
   }
   /// Makes searches fast again, if many have entered or left one by one.
   void tidy();
-  /// How many have started since windows ended; the k-th of them.
+  /// How many have started since windows ended.
   std::size_t started() const;
-  std::uint32_t started_number(std::size_t k) const;
-  /// As near(), for the k-th of those that have started: going through all of them finds each pair of two of
-  /// them once. bound_of(number) is asked where there are several layers, or space repeats.
+  /// Pairs of one that has started, from the k-th of those to before the last, and one that near() finds for
+  /// it: going through all of them finds each pair of two of them once. bound_of(number) is asked where there
+  /// are several layers, or space repeats. Good until the next search with this scratch.
   template <class BoundOf>
-  std::span<const std::uint32_t> near_started(std::size_t k, double now, BoundOf bound_of,
-                                              Scratch& scratch) const {
-    const Started at = started_at(k);
-    scratch.numbers.clear();
-    if (!needs_bounds_) {
-      near_behind(at, scratch);
-    } else {
-      near_behind(at, bound_of(started_number(k)), now, scratch);
+  std::span<const Pair> near_started(std::size_t k, std::size_t last, double now, BoundOf bound_of,
+                                     Scratch& scratch) const {
+    constexpr std::size_t bodies_at_once = 16;
+    scratch.pairs.clear();
+    while (k < last) {
+      const Started some = started_at(k, std::min(last - k, bodies_at_once));
+      search_behind(some, scratch);
+      if (needs_bounds_) {
+        scratch.bounds.clear();
+        for (std::uint32_t place = some.place; place < some.place + some.count; ++place)
+          scratch.bounds.push_back(bound_of(layers_[some.layer].layer.number_at(place)));
+        search_other_layers(some, now, scratch);
+      }
+      k += some.count;
     }
-    return scratch.numbers;
+    return scratch.pairs;
   }
 
   /// The bodies whose capsules may reach into a box now, and perhaps some near it; where space repeats
@@ -248,9 +267,11 @@ class Windows {
       archive(from, to);
     }
   };
+  /// Some that have started, at successive places.
   struct Started {
     std::uint32_t layer;
     std::uint32_t place;
+    std::uint32_t count;
   };
   /// How many bodies are of each level.
   using Sizes = std::map<int, std::size_t>;
@@ -274,13 +295,12 @@ class Windows {
   void take_out(std::uint32_t number);
   void add(std::uint32_t number, std::uint32_t layer, const RoomyBound& bound, double now);
   void sort(std::uint32_t layer);
-  Started started_at(std::size_t k) const;
-  void near_behind(const Started& at, Scratch& scratch) const;
-  void near_behind(const Started& at, const RoomyBound& bound, double now, Scratch& scratch) const;
+  Started started_at(std::size_t k, std::size_t most) const;
+  void search_behind(const Started& some, Scratch& scratch) const;
+  void search_other_layers(const Started& some, double now, Scratch& scratch) const;
   static CapsuleQuery query_for(const Member& member, const RoomyBound& bound, double now, double end);
-  template <class Finds, class Notes>
-  void search(const Member& member, const RoomyBound& bound, double now, double end, Finds finds, Notes notes,
-              Scratch& scratch) const;
+  bool add_searches(const Member& member, std::uint32_t k, const RoomyBound& bound, double now, double end,
+                    Scratch& scratch) const;
 
   Space space_;
   std::vector<Registration> registrations_;

@@ -84,10 +84,12 @@ Capsule draw(Random& random, Numbers numbers) {
   return capsule;
 }
 
+/// The first query is that of all runs, unless they say otherwise.
 struct Question {
   Table table{0};
   std::vector<Run> runs;
   CapsuleQuery query{};
+  CapsuleQuery second_query{};
 };
 
 Question draw_question(std::uint64_t k) {
@@ -102,14 +104,16 @@ Question draw_question(std::uint64_t k) {
   for (std::uint64_t left = random.bits() % 6; left > 0; --left) {
     const std::uint64_t length = random.bits() % (std::min<std::uint64_t>(places, 100) + 1);
     const auto begin = static_cast<std::uint32_t>(random.bits() % (places - length + 1));
-    question.runs.push_back({begin, begin + static_cast<std::uint32_t>(length)});
+    question.runs.push_back({begin, begin + static_cast<std::uint32_t>(length), left % 2 == 0 ? 1u : 0u});
   }
-  question.query.capsule = draw(random, numbers);
-  const auto first = static_cast<float>(random.uniform()), second = static_cast<float>(random.uniform());
-  question.query.from = chance(random, 0.3) ? 0.0f : std::min(first, second);
-  question.query.to = chance(random, 0.3) ? 1.0f : std::max(first, second);
-  if (chance(random, 0.05)) question.query.from = -infinite;
-  if (chance(random, 0.05)) question.query.to = infinite;
+  for (CapsuleQuery* query : {&question.query, &question.second_query}) {
+    query->capsule = draw(random, numbers);
+    const auto first = static_cast<float>(random.uniform()), second = static_cast<float>(random.uniform());
+    query->from = chance(random, 0.3) ? 0.0f : std::min(first, second);
+    query->to = chance(random, 0.3) ? 1.0f : std::max(first, second);
+    if (chance(random, 0.05)) query->from = -infinite;
+    if (chance(random, 0.05)) query->to = infinite;
+  }
   return question;
 }
 
@@ -119,13 +123,27 @@ std::size_t places_in(const std::vector<Run>& runs) {
   return all;
 }
 
+/// The places that are found and, behind them, where those of each run end.
 std::vector<std::uint32_t> found(decltype(near_capsules)& search, const Question& question) {
-  const std::size_t room = places_in(question.runs);
+  const std::size_t room = places_in(question.runs) + capsule_padding;
   std::vector<std::uint32_t> places(room + 1, 0xabcdu);
-  const std::size_t count = search(question.table.columns(), question.runs, question.query, places.data());
-  EXPECT_LE(count, room);
+  std::vector<std::uint32_t> ends(question.runs.size() + 1, 0xabcdu);
+  search(question.table.columns(), std::array{question.query, question.second_query}, question.runs,
+         places.data(), ends.data());
   EXPECT_EQ(places.back(), 0xabcdu) << "written beyond the room for all places";
+  EXPECT_EQ(ends.back(), 0xabcdu) << "written beyond the runs";
+  ends.pop_back();
+  EXPECT_TRUE(std::is_sorted(ends.begin(), ends.end()));
+  const std::size_t count = ends.empty() ? 0 : ends.back();
+  EXPECT_LE(count, places_in(question.runs));
   places.resize(std::min(count, room));
+  places.insert(places.end(), ends.begin(), ends.end());
+  return places;
+}
+/// The places alone.
+std::vector<std::uint32_t> near(const Question& question) {
+  std::vector<std::uint32_t> places = found(near_capsules, question);
+  places.resize(places.size() - question.runs.size());
   return places;
 }
 
@@ -146,7 +164,7 @@ TEST(CapsuleSearch, IsThatOfItsPlainTwinOnEveryTarget) {
     questions.push_back(draw_question(k));
     expected.push_back(found(near_capsules_plain, questions.back()));
     all += places_in(questions.back().runs);
-    near += expected.back().size();
+    near += expected.back().size() - questions.back().runs.size();
   }
   EXPECT_GT(near, all / 20);
   EXPECT_LT(near, all - all / 20);
@@ -173,7 +191,7 @@ TEST(CapsuleSearch, EveryLengthOfARunIsReadToItsEndAndNoFurther) {
         question.query = {{}, 0.0f, 1.0f};
         std::vector<std::uint32_t> expected;
         for (std::uint32_t place = begin; place < begin + length; ++place) expected.push_back(place);
-        ASSERT_EQ(found(near_capsules, question), expected)
+        ASSERT_EQ(near(question), expected)
             << hwy::TargetName(target) << ", from " << begin << ", " << length << " places";
       }
     }
@@ -207,11 +225,11 @@ void expect_truth(std::uint64_t stream, double spread, double fastest, double ra
     const Bound bound = draw_bound();
     question.runs = {{0, places}};
     question.query = {capsule(bound), frame.time(now), 1.0f};
-    const std::vector<std::uint32_t> near = found(near_capsules, question);
+    const std::vector<std::uint32_t> places_near = near(question);
     const double size = spread + fastest + radius;
     for (std::uint32_t place = 0; place < places; ++place) {
       const Extended gap = least_true_gap(bound, bounds[place], now, 9.0);
-      const bool is_near = std::binary_search(near.begin(), near.end(), place);
+      const bool is_near = std::binary_search(places_near.begin(), places_near.end(), place);
       if (gap <= 0) {
         ASSERT_TRUE(is_near) << "seed " << seed << ", case " << k << "/" << stream << "\n"
                              << bound << "\n"
@@ -249,7 +267,7 @@ TEST(CapsuleSearch, FindsThoseThatAFastOneMeets) {
     question.table.set(0, capsule_of(MovedBound(slow, 0.0), 0.0, 1.0, 0.0, {}));
     question.runs = {{0, 1}};
     question.query = {capsule_of(MovedBound(fast, 0.0), 0.0, end, 0.0, {}), 0.0f, CapsuleFrame{}.time(end)};
-    EXPECT_EQ(found(near_capsules, question).size(), 1u) << "2^" << power;
+    EXPECT_EQ(near(question).size(), 1u) << "2^" << power;
   }
 }
 

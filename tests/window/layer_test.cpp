@@ -188,7 +188,7 @@ class Mirrored {
     bound.position += layer.frame().base;
     bound.time = now;
     const CapsuleQuery query{capsule(bound), layer.frame().time(now), layer.frame().time(until)};
-    const auto found = layer.search(query, scratch_);
+    const std::vector<std::uint32_t> found = search(query);
     looked_at += looked_at_last();
     const std::set<std::uint32_t> places(found.begin(), found.end());
     if (places.size() != found.size()) return testing::AssertionFailure() << "found twice";
@@ -206,13 +206,19 @@ class Mirrored {
   /// Of a sorted layer: going through all places finds each pair once.
   testing::AssertionResult same_pairs() {
     std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    searches_.clear();
+    for (std::uint32_t place = 0; place < layer.places(); ++place) layer.add_search_behind(place, searches_);
+    layer.make(searches_);
+    bool found_before = false, found_twice = false;
+    searches_.for_each_found([&](std::uint32_t place, std::uint32_t other) {
+      found_before = found_before || other <= place;
+      found_twice = !pairs.insert({place, other}).second || found_twice;
+    });
+    if (found_before) return testing::AssertionFailure() << "found one before it";
+    if (found_twice) return testing::AssertionFailure() << "found twice";
     for (std::uint32_t place = 0; place < layer.places(); ++place) {
-      for (const std::uint32_t other : layer.search_behind(place, scratch_)) {
-        if (other <= place) return testing::AssertionFailure() << "found one before it";
-        if (!pairs.insert({place, other}).second) return testing::AssertionFailure() << "found twice";
-      }
       const auto plain = plain_search({layer.capsule_at(place), 0.0f, 1.0f});
-      for (auto at = pairs.lower_bound({place, 0}); at != pairs.end(); ++at)
+      for (auto at = pairs.lower_bound({place, 0}); at != pairs.end() && at->first == place; ++at)
         if (!plain.contains(at->second)) return testing::AssertionFailure() << "found what is apart";
     }
     for (auto a = bodies_.begin(); a != bodies_.end(); ++a)
@@ -277,14 +283,23 @@ class Mirrored {
     CapsuleColumns pointers{};
     for (std::size_t k = 0; k < pointers.size(); ++k) pointers[k] = columns[k].data();
     std::vector<std::uint32_t> found(places);
-    const std::array runs{kinesphere::Run{0, places}};
-    found.resize(near_capsules_plain(pointers, runs, query, found.data()));
-    return {found.begin(), found.end()};
+    std::uint32_t end = 0;
+    near_capsules_plain(pointers, std::array{query}, std::array{kinesphere::Run{0, places}}, found.data(),
+                        &end);
+    return {found.begin(), found.begin() + end};
+  }
+  std::vector<std::uint32_t> search(const CapsuleQuery& query) {
+    searches_.clear();
+    layer.add_search(query, searches_);
+    layer.make(searches_);
+    std::vector<std::uint32_t> found;
+    searches_.for_each_found([&](std::uint32_t, std::uint32_t place) { found.push_back(place); });
+    return found;
   }
 
   std::map<std::uint32_t, Entry> bodies_;
   std::uint32_t next_number_ = 0;
-  Layer::Scratch scratch_;
+  Layer::Searches searches_;
 };
 
 CapsuleFrame draw_frame(Random& random) {
@@ -399,12 +414,11 @@ TEST(Layer, LooksAtFewOfMany) {
     mirrored.add(outlier);
     for (int k = 1; k < bodies; ++k) mirrored.add(crowds[crowd].draw(random));
     mirrored.sort();
-    Layer::Scratch scratch;
+    Layer::Searches searches;
+    for (std::uint32_t place = 0; place < mirrored.layer.places(); ++place)
+      mirrored.layer.add_search({mirrored.layer.capsule_at(place), 0.0f, 1.0f}, searches);
     std::size_t all = 0;
-    for (std::uint32_t place = 0; place < mirrored.layer.places(); ++place) {
-      mirrored.layer.search({mirrored.layer.capsule_at(place), 0.0f, 1.0f}, scratch);
-      for (const auto& [begin, end] : scratch.runs) all += end - begin;
-    }
+    for (const Run& run : searches.runs) all += run.end - run.begin;
     return static_cast<double>(all) / (double{bodies} * bodies);
   };
   EXPECT_LT(looked_at(0, ball({}, 0.4)), 0.05);
@@ -446,11 +460,14 @@ TEST(Layer, IsEmptyAfterClear) {
   EXPECT_EQ(layer.widest(), 0.0f);
   EXPECT_EQ(layer.frame().per_length, 4.0);
   EXPECT_TRUE(layer.is_sound());
-  Layer::Scratch scratch;
-  EXPECT_TRUE(layer.search({{}, 0.0f, 1.0f}, scratch).empty());
+  Layer::Searches searches;
+  layer.add_search({{}, 0.0f, 1.0f}, searches);
+  EXPECT_TRUE(searches.runs.empty());
   layer.sort([](std::uint32_t, std::uint32_t) { FAIL(); });
   EXPECT_TRUE(layer.is_sound());
-  EXPECT_TRUE(layer.search({{}, 0.0f, 1.0f}, scratch).empty());
+  layer.add_search({{}, 0.0f, 1.0f}, searches);
+  layer.make(searches);
+  EXPECT_EQ(searches.found(), 0u);
 }
 
 TEST(Layer, GetsUntidyWhereManyHaveEnteredOrLeft) {

@@ -281,18 +281,18 @@ class Playground {
     expect_pairs_of(started);
   }
   void expect_pairs_of(const std::set<std::uint32_t>& started) {
+    ASSERT_EQ(windows_.started(), started.size());
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> pairs;
-    std::set<std::uint32_t> numbers;
-    for (std::size_t k = 0; k < windows_.started(); ++k) {
-      const std::uint32_t number = windows_.started_number(k);
-      EXPECT_TRUE(numbers.insert(number).second);
-      const auto bound_of = [this](std::uint32_t body) { return roomy(body); };
-      for (const std::uint32_t other : windows_.near_started(k, now_, bound_of, scratch_)) {
+    const auto bound_of = [this](std::uint32_t body) { return roomy(body); };
+    // In two parts, as two threads do.
+    const std::size_t part = started.size() / 3;
+    for (const auto& [from, to] : {std::pair(std::size_t{0}, part), std::pair(part, started.size())}) {
+      for (const auto& [number, other] : windows_.near_started(from, to, now_, bound_of, scratch_)) {
+        ASSERT_TRUE(started.contains(number));
         ASSERT_TRUE(other < kind_.bodies && registered_[other]);
         ++pairs[std::minmax(number, other)];
       }
     }
-    ASSERT_EQ(numbers, started);
     for (const auto& [pair, times] : pairs) {
       EXPECT_NE(pair.first, pair.second);
       EXPECT_TRUE(space_.repeats() || times == 1) << "found twice";
@@ -457,7 +457,7 @@ TEST(Windows, SearchesLookAtFewOfMany) {
     Shift alone;
     windows.start(starters, 0.0, bound_of, alone);
     Windows::Scratch scratch;
-    for (std::size_t k = 0; k < windows.started(); ++k) windows.near_started(k, 0.0, bound_of, scratch);
+    windows.near_started(0, windows.started(), 0.0, bound_of, scratch);
     EXPECT_LT(scratch.cost.capsules, std::uint64_t{many} * many / 20) << mixed;
     EXPECT_LT(scratch.cost.found, std::uint64_t{many} * 20) << mixed;
     EXPECT_GT(scratch.cost.found, 100u) << mixed;
@@ -521,11 +521,9 @@ class KickedBodies {
     windows_.start(starters, time, bound_now, alone);
     Searches searches;
     scratch_.cost = {};
-    for (std::size_t k = 0; k < windows_.started(); ++k) {
-      const auto bound_of = [&](std::uint32_t number) { return roomy(number, time); };
-      const auto found = windows_.near_started(k, time, bound_of, scratch_);
-      searches.found[windows_.started_number(k)] = {found.begin(), found.end()};
-    }
+    for (const auto& [number, other] :
+         windows_.near_started(0, windows_.started(), time, bound_now, scratch_))
+      searches.found[number].insert(other);
     searches.cost = scratch_.cost;
     return searches;
   }
