@@ -36,6 +36,7 @@ void near_capsules(const float* const* table, const CapsuleQuery* queries, const
   const hn::RebindToUnsigned<decltype(d)> places;
   const std::size_t lanes = hn::Lanes(d);
   const auto least = hn::Set(d, capsule_search::least_square);
+  const auto counted = hn::Iota(places, 0);
   std::uint32_t* next = found;
   for (std::size_t run = 0; run < run_count; ++run) {
     const auto& [capsule, first_time, last_time] = queries[runs[run].query];
@@ -62,7 +63,7 @@ void near_capsules(const float* const* table, const CapsuleQuery* queries, const
       const auto square = hn::Add(hn::Add(hn::Mul(px, px), hn::Mul(py, py)), hn::Mul(pz, pz));
       const auto apart = hn::Gt(square, hn::Add(hn::Mul(radii, radii), least));
       const auto near = hn::RebindMask(places, hn::AndNot(apart, hn::FirstN(d, end - k)));
-      hn::StoreU(hn::Compress(hn::Iota(places, k), near), places, next);
+      hn::StoreU(hn::Compress(hn::Add(counted, hn::Set(places, k)), near), places, next);
       next += hn::CountTrue(places, near);
     }
     ends[run] = static_cast<std::uint32_t>(next - found);
