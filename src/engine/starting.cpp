@@ -198,9 +198,7 @@ SearchCost World::Engine::find_pairs_of_started(Shift& shift) {
   shift.for_each(
       windows.started(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
         Island::Found& found = found_[worker];
-        const auto bound_of = [this, now](std::uint32_t number) {
-          return bodies().roomy_bound(number, now);
-        };
+        const auto bound_of = [this, now](std::uint32_t number) { return bodies().roomy_bound(number, now); };
         found.searches += to - from;
         for (const auto& [a, b] : windows.near_started(from, to, now, bound_of, found.scratch))
           everybody_.find_hot_pair(a, b, found);

@@ -434,12 +434,18 @@ void Layer::add_runs(const CapsuleQuery& query, std::uint32_t first_cell, std::u
       if (count[axis] <= 0) return;
     }
   }
-  // Two that take as many vectors as what is between them are read as one.
+  const auto along = [this](std::size_t axis) { return static_cast<std::uint32_t>(grid_.count[axis]); };
+  const auto from = [&begin](std::size_t axis) { return static_cast<std::uint32_t>(begin[axis]); };
+  const auto wide = [&count](std::size_t axis) { return static_cast<std::uint32_t>(count[axis]); };
+  const auto wraps = [&](std::size_t axis) { return from(axis) + wide(axis) > along(axis); };
+  // Two that take no fewer vectors than both with all between them are read as one; unless what is between
+  // them may have been read already.
+  const bool in_order = !wraps(0) && !wraps(1) && !wraps(2);
   const auto vectors = [](const Run& run) { return (run.end - run.begin + most_lanes - 1) / most_lanes; };
-  const auto add = [&](std::uint32_t from, std::uint32_t to) {
-    const Run run{std::max(from, first_place), to, number};
+  const auto add = [&](std::uint32_t first, std::uint32_t last) {
+    const Run run{std::max(first, first_place), last, number};
     if (run.begin >= run.end) return;
-    if (!runs.empty() && runs.back().query == number && runs.back().end <= run.begin) {
+    if (in_order && !runs.empty() && runs.back().query == number) {
       const Run both{runs.back().begin, run.end, number};
       if (vectors(both) <= vectors(runs.back()) + vectors(run)) {
         runs.back() = both;
@@ -448,9 +454,6 @@ void Layer::add_runs(const CapsuleQuery& query, std::uint32_t first_cell, std::u
     }
     runs.push_back(run);
   };
-  const auto along = [this](std::size_t axis) { return static_cast<std::uint32_t>(grid_.count[axis]); };
-  const auto from = [&begin](std::size_t axis) { return static_cast<std::uint32_t>(begin[axis]); };
-  const auto wide = [&count](std::size_t axis) { return static_cast<std::uint32_t>(count[axis]); };
   const std::uint32_t within = std::min(wide(0), along(0) - from(0));
   for (std::uint32_t k = from(2); k < from(2) + wide(2); ++k) {
     const std::uint32_t z = k < along(2) ? k : k - along(2);
@@ -517,8 +520,7 @@ bool Layer::is_sound() const {
 }
 
 std::size_t Layer::bytes() const {
-  std::size_t all =
-      (numbers_.capacity() + cells_.capacity() + starts_.capacity()) * sizeof(std::uint32_t);
+  std::size_t all = (numbers_.capacity() + cells_.capacity() + starts_.capacity()) * sizeof(std::uint32_t);
   for (const std::vector<float>& column : columns_) all += column.capacity() * sizeof(float);
   return all;
 }

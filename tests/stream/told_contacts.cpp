@@ -196,9 +196,11 @@ void ToldContacts::hear(const Event& event) {
     case EventKind::zeno_guard:
       if (!impacts(contact)) fail("a Zeno guard, though contacts last", contact, event.gap);
       if (event.gap > rule_.tolerance()) fail("a Zeno guard outside the tolerance", contact, event.gap);
-      if (truth_.may_be_told(contact))
+      if (truth_.may_be_told(contact)) {
         told(contact).floor =
             std::min(told(contact).floor, event.gap - 0.125 * rule_.tolerance() + rule_.tolerance());
+        told(contact).guarded = truth_.time();
+      }
       return;
     default:
       fail("an event that nothing explains", contact, event.gap);
@@ -281,7 +283,7 @@ void ToldContacts::begin(const Event& event, const Contact& contact) {
   const bool impact = impacts(contact);
   if (impact && event.approach_speed <= 0.0) fail("an impact that does not approach", contact, gap);
   if (state.touching && !(impact && state.opened)) fail("a begin told twice", contact, gap);
-  state = {.touching = true};
+  state = {.touching = true, .guarded = state.guarded};
 }
 
 void ToldContacts::end(const Event& event, const Contact& contact) {
@@ -409,7 +411,8 @@ void ToldContacts::check_impacts(const Contact& contact, Told& state, double unt
     from = *parted;
   }
   const double gap = truth_.gap(contact);
-  if (state.due && gap < -rule_.tolerance() - slack_ && truth_.approach_speed(contact) > 1e-9)
+  const bool may_wait = state.guarded == truth_.time();
+  if (state.due && !may_wait && gap < -rule_.tolerance() - slack_ && truth_.approach_speed(contact) > 1e-9)
     fail("their approach is not told", contact, gap);
   state.due = false;
   if (state.floor < 0.0) {

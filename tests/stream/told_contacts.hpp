@@ -4,6 +4,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "contact/contact_rule.hpp"
@@ -57,6 +58,9 @@ class ToldContacts {
     bool opened = false;  ///< since the begin the gap may have opened for a while
     bool due = false;     ///< an approach now has to be told before time moves on
     double floor = 0.0;   ///< no lower gap may come unreported; 0 stands for minus the tolerance
+    /// When a Zeno guard was told last. It is not told twice at an instant, so an approach that has to wait
+    /// since the two have touched too often is not told either.
+    double guarded = -std::numeric_limits<double>::infinity();
 
     friend bool operator==(const Told&, const Told&) = default;
   };

@@ -255,7 +255,7 @@ class Mirrored {
 
   std::size_t looked_at_last() const {
     std::size_t all = 0;
-    for (const auto& [begin, end] : scratch_.runs) all += end - begin;
+    for (const kinesphere::Run& run : searches_.runs) all += run.end - run.begin;
     return all;
   }
   static bool includes(const std::set<std::uint32_t>& all, const std::set<std::uint32_t>& some) {
@@ -418,7 +418,7 @@ TEST(Layer, LooksAtFewOfMany) {
     for (std::uint32_t place = 0; place < mirrored.layer.places(); ++place)
       mirrored.layer.add_search({mirrored.layer.capsule_at(place), 0.0f, 1.0f}, searches);
     std::size_t all = 0;
-    for (const Run& run : searches.runs) all += run.end - run.begin;
+    for (const kinesphere::Run& run : searches.runs) all += run.end - run.begin;
     return static_cast<double>(all) / (double{bodies} * bodies);
   };
   EXPECT_LT(looked_at(0, ball({}, 0.4)), 0.05);
