@@ -6,12 +6,6 @@
 #include "number/infinity.hpp"
 
 namespace kinesphere {
-namespace {
-
-/// Never told: all is answered one by one then.
-Error too_many_kicks() { return {ErrorCode::out_of_range, "bodies", no_body, "too many for an island"}; }
-
-}  // namespace
 
 void Island::begin(Sea& sea, std::uint32_t own, double now, std::span<const HotPair> due) {
   time_ = now;
@@ -24,12 +18,7 @@ void Island::begin(Sea& sea, std::uint32_t own, double now, std::span<const HotP
   counters_ = {};
   kicks_ = {};
   if (!beside_) beside_.emplace();
-  beside_->sea = &sea;
-  beside_->own = own;
-  beside_->kicks.clear();
-  beside_->claims.clear();
-  beside_->counted_on.clear();
-  beside_->turned.clear();
+  beside_->begin(sea, own);
 }
 
 /// As World::Engine::advance(), but that no windows start.
@@ -47,8 +36,7 @@ Result<void> Island::go_on(Answerer* answerer, std::vector<Told>& told) {
       if (!beside_->claims.empty()) return {};
     }
     if (auto settled = settle(); !settled) return settled;
-    if (!beside_->claims.empty()) return {};
-    if (beside_->kicks.size() > Beside::most_kicks) return too_many_kicks();
+    if (!beside_->claims.empty() || beside_->is_full()) return {};
     ++round;
     if (!instant_.pending().empty()) continue;
     const double next = next_time();
@@ -89,8 +77,9 @@ bool Island::may_count_on(std::uint32_t number, std::uint32_t other) {
   if (bodies()[other].is_fixed()) return true;
   if (!bodies().may_meet(number, other)) return false;
   // One that is nobody's stays as it is.
-  const bool still = beside_->sea->places[other].island == Sea::nobody && !is_linked(number, other);
-  const double until = still ? unchanged_until(number, other) : time_;
+  const Facts facts = this->facts();
+  const bool still = beside_->sea->places[other].island == Sea::nobody && !facts.are_linked(number, other);
+  const double until = still ? facts.apart_until(number, other) : time_;
   if (until == infinity) return false;
   const bool in_time = !still || beside_->sea->comes(until);
   (in_time ? beside_->claims : beside_->counted_on).push_back(other);

@@ -58,6 +58,16 @@ struct Beside {
   std::vector<std::uint32_t> counted_on;
   std::vector<std::pair<BodyId, Departure>> turned;  ///< from where they had set out before
 
+  void begin(Sea& all, std::uint32_t place) {
+    sea = &all;
+    own = place;
+    kicks.clear();
+    claims.clear();
+    counted_on.clear();
+    turned.clear();
+  }
+  /// All has to be answered one by one then.
+  bool is_full() const { return kicks.size() > most_kicks; }
   bool is_own(std::uint32_t number) const { return sea->places[number].island == own; }
   void add(const BodyKick& kick) {
     sea->places[kick.number].kick = static_cast<std::uint32_t>(kicks.size());

@@ -15,7 +15,7 @@ World::Engine::Engine(const Engine& other) : tables_(other.tables_), everybody_(
 }
 
 Result<std::optional<Event>> World::Engine::advance(double until, const Probe& probe) {
-  everybody_.ask(probe, "advance");
+  everybody_.reports().ask(probe, "advance");
   Shift alone;
   for (;;) {
     if (everybody_.is_gathering()) {
@@ -37,7 +37,7 @@ Result<std::optional<Event>> World::Engine::advance(double until, const Probe& p
 
 Result<bool> World::Engine::run_phase(double until, const Probe& probe, Shift& shift, Islands& islands,
                                       std::deque<Event>& events) {
-  everybody_.ask(probe, "advance");
+  everybody_.reports().ask(probe, "advance");
   if (everybody_.is_gathering() || !everybody_.instant().is_quiet()) return false;
   if (everybody_.phase_end() <= time()) {
     if (auto started = start_windows(shift, false); !started) return started.error();
@@ -66,7 +66,7 @@ Result<void> World::Engine::settle(Shift& shift) {
 }
 
 Activity World::Engine::activity() const {
-  if (everybody_.is_asking()) return Activity::probing;
+  if (everybody_.reports().is_asking()) return Activity::probing;
   return bodies().is_filtering() ? Activity::filtering : Activity::idle;
 }
 
@@ -83,7 +83,7 @@ Result<bool> World::Engine::probe_stale(std::span<const std::uint32_t> numbers, 
   for (const std::uint32_t number : numbers)
     if (bodies()[number].enabled && !bodies()[number].fresh(time())) stale.push_back(number);
   if (stale.empty()) return false;
-  everybody_.ask(ask, call);
+  everybody_.reports().ask(ask, call);
   if (auto probed = everybody_.probe(stale); !probed) return probed.error();
   return true;
 }

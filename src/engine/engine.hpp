@@ -17,6 +17,7 @@
 #include "engine/activity.hpp"
 #include "engine/island.hpp"
 #include "engine/islands.hpp"
+#include "engine/pacing.hpp"
 #include "engine/tables.hpp"
 #include "kinesphere/shape.hpp"
 #include "kinesphere/world.hpp"
@@ -138,8 +139,8 @@ class World::Engine {
 
   Tables tables_;
   Island everybody_;
-  std::vector<Island::Found> found_;  ///< by worker; kept for its memory only
-  std::vector<HotPair> read_pairs_;   ///< from a snapshot, until they are in the agenda
+  std::vector<FoundPairs> found_;         ///< by worker; kept for its memory only
+  std::vector<HotPair> read_pairs_;  ///< from a snapshot, until they are in the agenda
 };
 
 }  // namespace kinesphere

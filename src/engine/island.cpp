@@ -15,7 +15,7 @@ Result<void> Island::gather() {
     if (next_time() > time_) break;
     const HotPair pair = agenda_.first();
     agenda_.drop_first();
-    if (is_void(pair)) continue;
+    if (facts().is_void(pair)) continue;
     if (auto looked = look(pair); !looked) return looked;
   }
   gathering_ = false;
@@ -53,6 +53,25 @@ std::optional<Event> Island::deliver() {
   if (bodies().any_rests()) wake_by(*event);
   if (event->repeated) ++counters_.repeated_contacts;
   return event;
+}
+
+Result<void> Island::probe(std::span<const std::uint32_t> numbers) {
+  Shift alone;
+  return probe(numbers, alone);
+}
+
+Result<void> Island::probe(std::span<const std::uint32_t> numbers, Shift& shift) {
+  // Counted first: a probe that throws leaves the same world as one that does not answer.
+  counters_.probes += numbers.size();
+  const auto broken = reports_.take(bodies(), time_, numbers, shift);
+  if (!broken) return broken.error();
+  for (const auto& [k, velocity, promise] : *broken) {
+    Sphere reported = sphere(numbers[k]);
+    reported.state.velocity = velocity;
+    instant_.announce(violation_event(time_, reported, promise));
+    void_facts(numbers[k]);
+  }
+  return {};
 }
 
 void Island::mark_dirty(std::uint32_t number) {
@@ -126,11 +145,11 @@ Result<void> Island::settle() {
 /// Body and body, or a body and (itself) its walls: what was certified concerns the contact as it was.
 void Island::settle_changed(std::uint32_t a, std::uint32_t b) {
   if (!bodies()[a].present() || !bodies()[b].present() || bodies()[a].dirty || bodies()[b].dirty) return;
-  agenda_.add(hot_pair(time_, a, a == b ? HotPair::walls : b));
+  agenda_.add(facts().hot_pair(time_, a, a == b ? HotPair::walls : b));
 }
 
 std::size_t Island::bytes() const {
-  return agenda_.bytes() + heap_bytes(instant_, dirty_, probe_ids_, probe_states_, round_, found_.hot);
+  return agenda_.bytes() + reports_.bytes() + heap_bytes(instant_, dirty_, round_, found_.hot);
 }
 
 }  // namespace kinesphere

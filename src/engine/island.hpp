@@ -21,18 +21,18 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "bound/broken_promise.hpp"
 #include "contact/instant.hpp"
 #include "contact/outlook.hpp"
 #include "engine/answerer.hpp"
 #include "engine/beside.hpp"
+#include "engine/facts.hpp"
+#include "engine/pacing.hpp"
+#include "engine/reports.hpp"
 #include "engine/tables.hpp"
 #include "kinesphere/counters.hpp"
-#include "kinesphere/probe.hpp"
 #include "kinesphere/result.hpp"
 #include "number/infinity.hpp"
 #include "parallel/crew.hpp"
@@ -64,18 +64,12 @@ class alignas(128) Island {
   }
 
   // The clock.
-  /// Whom to ask from now on, in the call of this name.
-  void ask(const Probe& probe, std::string_view call) {
-    probe_ = &probe;
-    call_ = call;
-  }
-  bool is_asking() const { return asking_; }
   /// Collecting what is due at this instant has begun: if a bad answer interrupts it, the next call goes on
   /// with it.
   bool is_gathering() const { return gathering_; }
   /// When the next pair is due; +infinity when nothing is.
   double next_time() {
-    agenda_.open([this](const HotPair& pair) { return is_void(pair); });
+    agenda_.open([facts = facts()](const HotPair& pair) { return facts.is_void(pair); });
     return agenda_.next_time();
   }
   void move_on_to(double time) {
@@ -112,54 +106,25 @@ class alignas(128) Island {
   void wake(std::uint32_t number);
 
   // Facts.
-  /// The body stays in its capsule until then.
-  double end_of(std::uint32_t number) const {
-    const BodyKick* kick = beside_ ? beside_->last_kick(number) : nullptr;
-    return kick != nullptr ? kick->window.end : tables_->windows.end_of(number);
-  }
-  /// Both do.
-  double windows_end(std::uint32_t a, std::uint32_t b) const { return std::min(end_of(a), end_of(b)); }
-  bool is_void(const HotPair& pair) const {
-    return bodies()[pair.first].stamp != pair.first_stamp ||
-           (pair.has_second() && bodies()[pair.second].stamp != pair.second_stamp);
-  }
+  /// At this time.
+  Facts facts() const { return {*tables_, time_, beside_ ? &*beside_ : nullptr}; }
   /// Those that hold, or those of them that a body has a part in.
   std::vector<HotPair> hot_pairs(std::optional<std::uint32_t> number = std::nullopt) const;
-  /// The hot pairs of a body that has got a capsule with `others`, with whom it touches or senses, and with
-  /// walls.
-  struct alignas(128) Found {
-    std::vector<HotPair> hot;
-    Windows::Scratch scratch;
-    std::uint64_t searches = 0;
-    std::uint64_t candidates = 0;
-    std::uint64_t pairs = 0;  ///< that candidates have given
-
-    void forget() {
-      hot.clear();
-      searches = candidates = pairs = 0;
-    }
-  };
   /// Into the agenda and the counters; nothing is left in it.
-  void take(Found& found);
+  void take(FoundPairs& found);
   /// Bodies that were settled one by one since this was asked last.
   Kicks take_kicks() { return std::exchange(kicks_, {}); }
   void add_kicks(const Kicks& kicks) {
     kicks_.bodies += kicks.bodies;
     kicks_.hot += kicks.hot;
   }
-  /// The two, whom a search has found to be near each other, if they may meet before a window ends.
-  void find_hot_pair(std::uint32_t a, std::uint32_t b, Found& found) const;
-  void find_known_pairs(std::uint32_t number, Found& found) const;
-  void find_walls(std::uint32_t number, Found& found) const;
-  /// Calls visit(threshold) for what comes next between two bodies that may meet: their contact, the next
-  /// sensor distance inward, and the next one outward.
-  template <class Visit>
-  void for_each_threshold(std::uint32_t a, std::uint32_t b, Visit visit) const;
   /// All that may be in a box now, by number. Cost: a search, and those that were added or changed since time
   /// moved on.
   std::vector<std::uint32_t> bodies_in(const Box& box) const;
 
-  // Reports (probing.cpp).
+  // Reports.
+  Reports& reports() { return reports_; }
+  const Reports& reports() const { return reports_; }
   Result<void> probe(std::span<const std::uint32_t> numbers);
   /// The same, where several threads may be asked.
   Result<void> probe(std::span<const std::uint32_t> numbers, Shift& shift);
@@ -179,9 +144,6 @@ class alignas(128) Island {
   /// were kicked, are renewed one by one.
   double phase_end() const { return phase_end_; }
   void begin_phase(double end) { phase_end_ = end; }
-  /// Of the window, from now on, that suits the pace of a body.
-  int tier_to_start(std::uint32_t number, const Pace& pace) const;
-  bool needs_report(std::uint32_t number) const;
 
   /// What a snapshot holds of it: the agenda comes apart.
   template <class Self, class Archive>
@@ -193,6 +155,7 @@ class alignas(128) Island {
 
  private:
   class StillDue;
+  Pacing pacing() const { return {*tables_, time_}; }
   Bodies& bodies() { return tables_->bodies; }
   const Bodies& bodies() const { return tables_->bodies; }
   ContactBook& book() { return tables_->book; }
@@ -205,11 +168,6 @@ class alignas(128) Island {
   void search(std::span<const std::uint32_t> numbers);
   void enter(std::uint32_t number, const Window& window);
   std::span<const std::uint32_t> near(std::uint32_t number);
-  Window window_for(std::uint32_t number) const;
-  std::optional<Window> registered_window(std::uint32_t number) const;
-  Window window_to_start(std::uint32_t number) const {
-    return Windows::window_at(time_, tier_to_start(number, bodies().pace_of(number, time_)));
-  }
 
   // beside.cpp
   void claim_linked(std::uint32_t number);
@@ -217,11 +175,6 @@ class alignas(128) Island {
   Result<void> answer(const Event& event, Answerer& answerer);
 
   // looking.cpp
-  HotPair hot_pair(double time, std::uint32_t a, std::uint32_t b) const;
-  bool is_linked(std::uint32_t a, std::uint32_t b) const;
-  double unchanged_until(std::uint32_t a, std::uint32_t b) const;
-  double apart_until(std::uint32_t a, std::uint32_t b) const;
-  double unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const;
   Result<void> look(const HotPair& pair);
   Result<void> look_at_pair(std::uint32_t a, std::uint32_t b);
   Result<void> look_at_walls(std::uint32_t number);
@@ -231,10 +184,6 @@ class alignas(128) Island {
   std::optional<double> judge(const Outlook<Partner>& outlook, const Threshold& threshold, Event current,
                               const Promise& promise);
   Result<void> probe_staler(std::uint32_t a, std::uint32_t b);
-  // The k-th of those that have been asked.
-  Result<void> check(std::size_t k) const;
-  std::optional<BrokenPromise> apply_report(std::uint32_t number, const State& answer);
-  void tell_broken(std::size_t k, const BrokenPromise& broken);
   Event contact(EventKind kind, std::uint32_t a, std::uint32_t b) const;
   Event wall_contact(EventKind kind, std::uint32_t number, Wall wall) const;
   Senses senses_in(const Event& event) const;
@@ -253,27 +202,11 @@ class alignas(128) Island {
   bool gathering_ = false;
   Counters counters_;
   Kicks kicks_;
-  // During a call that may probe.
-  const Probe* probe_ = nullptr;
-  std::string_view call_;  ///< its name, for messages
-  bool asking_ = false;
+  Reports reports_;
   std::optional<Beside> beside_;  ///< unless it has all bodies
   // Kept for their memory only.
-  std::vector<BodyId> probe_ids_;
-  std::vector<State> probe_states_;
   std::vector<std::uint32_t> round_;
-  Found found_;
+  FoundPairs found_;
 };
-
-template <class Visit>
-void Island::for_each_threshold(std::uint32_t a, std::uint32_t b, Visit visit) const {
-  if (bodies()[a].solid && bodies()[b].solid) visit(Threshold{.within = book().touch(a, b)});
-  if (!bodies().sensors().any()) return;
-  const Crossings::List crossed = book().crossings_of(a, b);
-  if (const auto next =
-          bodies().sensors().next_inward(bodies().sensing_of(a), bodies().sensing_of(b), crossed))
-    visit(Threshold{false, *next, true});
-  if (!crossed.empty()) visit(Threshold{true, crossed.back().distance, true});
-}
 
 }  // namespace kinesphere

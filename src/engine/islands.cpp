@@ -20,7 +20,7 @@ Islands::Islands(Tables& tables, Island& everybody, Shift& shift, const Probe& p
     : tables_(tables), everybody_(everybody), shift_(shift), answerer_(answerer) {
   for (std::size_t worker = 0; worker < shift.count(); ++worker) {
     crew_.emplace_back(tables, everybody.time());
-    crew_.back().ask(probe, "run");
+    crew_.back().reports().ask(probe, "run");
   }
 }
 
@@ -33,14 +33,10 @@ bool Islands::run(double until, std::deque<Event>& events) {
   sea_.phase_end = everybody_.phase_end();
   sea_.until = until;
   if (most_due_ == 0) most_due_ = std::max(least_due, bodies.size() / 16);
-  return run_part(events);
-}
-
-bool Islands::run_part(std::deque<Event>& events) {
   std::vector<HotPair> due;
-  sea_.stop =
-      everybody_.agenda().take_until(sea_.until, sea_.phase_end, most_due_, due,
-                                     [this](const HotPair& pair) { return everybody_.is_void(pair); });
+  sea_.stop = everybody_.agenda().take_until(
+      until, sea_.phase_end, most_due_, due,
+      [facts = everybody_.facts()](const HotPair& pair) { return facts.is_void(pair); });
   form(due);
   const bool done = are_worth_it() && attempt_all();
   if (done) {
@@ -183,7 +179,7 @@ void Islands::attempt(std::uint32_t own, Island& island) {
   group.told.clear();
   group.failed = true;
   try {
-    group.failed = !island.go_on(answerer_, group.told);
+    group.failed = !island.go_on(answerer_, group.told) || beside.is_full();
   } catch (...) {
     std::swap(beside.turned, group.turned);
     throw;

@@ -69,7 +69,6 @@ class Islands {
     ContactBook::Kept contacts{};
   };
 
-  bool run_part(std::deque<Event>& events);
   void form(std::span<const HotPair> due);
   Group& new_group();
   bool are_worth_it() const;

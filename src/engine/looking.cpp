@@ -1,5 +1,5 @@
-// Looking at pairs: from bounds as they are, how long they cannot change; and when they are due, from fresh
-// reports, whether they have.
+// Looking at pairs that are due: from bounds as they are, whether they can have changed; and if so, from
+// fresh reports, whether they have.
 #include <algorithm>
 #include <cmath>
 
@@ -8,68 +8,14 @@
 
 namespace kinesphere {
 
-HotPair Island::hot_pair(double time, std::uint32_t a, std::uint32_t b) const {
-  if (b >= HotPair::renewal) return {time, a, b, bodies()[a].stamp, 0};
-  const auto [first, second] = std::minmax(a, b);
-  return {time, first, second, bodies()[first].stamp, bodies()[second].stamp};
-}
-
 std::vector<HotPair> Island::hot_pairs(std::optional<std::uint32_t> number) const {
   std::vector<HotPair> pairs;
+  const Facts facts = this->facts();
   agenda_.for_each([&](const HotPair& pair) {
     const bool asked = !number || pair.first == *number || pair.second == *number;
-    if (asked && !is_void(pair)) pairs.push_back(pair);
+    if (asked && !facts.is_void(pair)) pairs.push_back(pair);
   });
   return pairs;
-}
-
-/// Whether the two touch or sense each other.
-bool Island::is_linked(std::uint32_t a, std::uint32_t b) const {
-  return book().touch(a, b) || !book().crossings_of(a, b).empty();
-}
-
-/// For a pair that a search has found: as apart_until(). Of pairs that touch or sense each other, others take
-/// care.
-double Island::unchanged_until(std::uint32_t a, std::uint32_t b) const {
-  const double until = apart_until(a, b);
-  return until < infinity && is_linked(a, b) ? infinity : until;
-}
-
-/// Two that neither touch nor sense each other do not before this time, or not before a window ends
-/// (+infinity); now, if that takes fresh reports.
-double Island::apart_until(std::uint32_t a, std::uint32_t b) const {
-  const Body& one = bodies()[a];
-  const Body& other = bodies()[b];
-  if (!bodies().may_meet(a, b)) return infinity;
-  const double end = windows_end(a, b);
-  if (one.is_fixed() || other.is_fixed() || end == infinity) {
-    const double until = unchanged_until_by_thresholds(a, b);
-    return until < end ? until : infinity;
-  }
-  const double sensed = bodies().reach_of_pair(a, b);
-  MovedBound moved(other.bound, time_);
-  if (bodies().space().repeats()) moved.centre += bodies().shift_to_meet(a, b);
-  const Encounter pair(MovedBound(one.bound, time_), moved);
-  const double near = sensed + bodies().definition().contact_tolerance;
-  if (pair.stay_apart(end - time_, near)) return infinity;
-  if (pair.is_near(near)) return time_;
-  const double until =
-      rounding::sum_down(time_, pair.meeting(end - time_, sensed + bodies().rounding_room()));
-  return until < end ? std::max(until, time_) : infinity;
-}
-
-/// The same by the rules of contacts, for any pair; +infinity for ever.
-double Island::unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const {
-  const double end = windows_end(a, b);
-  double first = infinity;
-  if (!bodies().may_meet(a, b)) return first;
-  bodies().visit_pair(a, b, [&](const Bound& bound, const auto& other) {
-    for_each_threshold(a, b, [&](const Threshold& threshold) {
-      const Outlook outlook(book().rule_of(threshold), threshold, bound, other, time_, {end, end});
-      first = std::min(first, outlook.until_reports());
-    });
-  });
-  return first;
 }
 
 /// A pair that was taken out of the agenda is put back unless it has been looked at.
@@ -100,19 +46,21 @@ Result<void> Island::look(const HotPair& pair) {
 
 Result<void> Island::look_at_pair(std::uint32_t a, std::uint32_t b) {
   ++counters_.pair_checks;
-  const double end = windows_end(a, b);
+  const Facts facts = this->facts();
+  const double end = facts.windows_end(a, b);
   // A broken promise makes a body dirty, and then it gets all its pairs anew.
   while (!bodies()[a].dirty && !bodies()[b].dirty) {
     const bool fresh = bodies()[a].fresh(time_) && bodies()[b].fresh(time_);
     if (fresh) {
       const auto next = judge_pair(a, b);
-      if (next && *next < end) agenda_.add(hot_pair(*next, a, b));
+      if (next && *next < end) agenda_.add(facts.hot_pair(*next, a, b));
       return {};
     }
     ++counters_.certificates;
-    const double until = is_linked(a, b) ? unchanged_until_by_thresholds(a, b) : apart_until(a, b);
+    const double until =
+        facts.are_linked(a, b) ? facts.unchanged_until_by_thresholds(a, b) : facts.apart_until(a, b);
     if (until > time_) {
-      if (until < end) agenda_.add(hot_pair(until, a, b));
+      if (until < end) agenda_.add(facts.hot_pair(until, a, b));
       return {};
     }
     if (auto probed = probe_staler(a, b); !probed) return probed;
@@ -120,16 +68,26 @@ Result<void> Island::look_at_pair(std::uint32_t a, std::uint32_t b) {
   return {};
 }
 
+/// Probes the body whose report is older; the second one, if they are of the same age. One of them at least
+/// is not fresh.
+Result<void> Island::probe_staler(std::uint32_t a, std::uint32_t b) {
+  const bool a_is_staler = bodies()[a].bound.time < bodies()[b].bound.time;
+  const bool a_is_asked = !bodies()[a].fresh(time_) && (a_is_staler || bodies()[b].fresh(time_));
+  const std::uint32_t staler = a_is_asked ? a : b;
+  return probe(std::span(&staler, 1));
+}
+
 /// What the fresh reports of two bodies say: when to look again, unless there is news to be told first.
 std::optional<double> Island::judge_pair(std::uint32_t a, std::uint32_t b) {
-  const double end = windows_end(a, b);
+  const Facts facts = this->facts();
+  const double end = facts.windows_end(a, b);
   const Body& one = bodies()[a];
   const Body& other = bodies()[b];
   const Promise sum{one.bound.growth_speed + other.bound.growth_speed,
                     one.largest_acceleration() + other.largest_acceleration()};
   std::optional<double> next = infinity;
   bodies().visit_pair(a, b, [&](const Bound& bound, const auto& partner) {
-    for_each_threshold(a, b, [&](const Threshold& threshold) {
+    facts.for_each_threshold(a, b, [&](const Threshold& threshold) {
       ++counters_.certificates;
       const Outlook outlook(book().rule_of(threshold), threshold, bound, partner, time_, {end, end});
       const auto known = judge(outlook, threshold, contact(EventKind::zeno_guard, a, b), sum);
@@ -162,19 +120,20 @@ std::optional<double> Island::judge(const Outlook<Partner>& outlook, const Thres
 /// The walls of a body are due.
 Result<void> Island::look_at_walls(std::uint32_t number) {
   ++counters_.wall_checks;
-  const double end = end_of(number);
+  const Facts facts = this->facts();
+  const double end = facts.end_of(number);
   while (!bodies()[number].dirty) {
     const Body& body = bodies()[number];
     if (body.fresh(time_)) {
       const auto next = judge_walls(number);
-      if (next && *next < end) agenda_.add(hot_pair(*next, number, HotPair::walls));
+      if (next && *next < end) agenda_.add(facts.hot_pair(*next, number, HotPair::walls));
       return {};
     }
     const double until = book().walls_of(number) != 0 ? time_
                                                       : until_reports_of_walls(book().rule(), body.bound,
                                                                                *bodies().walls(), time_, end);
     if (until > time_) {
-      if (until < end) agenda_.add(hot_pair(until, number, HotPair::walls));
+      if (until < end) agenda_.add(facts.hot_pair(until, number, HotPair::walls));
       return {};
     }
     if (auto probed = probe(std::span(&number, 1)); !probed) return probed;
@@ -186,7 +145,7 @@ Result<void> Island::look_at_walls(std::uint32_t number) {
 /// anything before its window ends.
 std::optional<double> Island::judge_walls(std::uint32_t number) {
   const Body& body = bodies()[number];
-  const double end = end_of(number);
+  const double end = facts().end_of(number);
   const Promise promise{body.bound.growth_speed, body.largest_acceleration()};
   const Box near = walls_in_reach(book().rule(), body.bound, *bodies().walls(), time_, end);
   double first = infinity;

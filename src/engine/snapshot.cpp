@@ -109,10 +109,11 @@ bool World::Engine::agenda_is_sound() const {
   };
   const auto is_sound = [&](const HotPair& pair) {
     if (!(pair.time < infinity) || !takes_part(pair.first)) return false;
-    if (pair.second == HotPair::renewal) return !bodies()[pair.first].is_fixed() && !everybody_.is_void(pair);
+    if (pair.second == HotPair::renewal)
+      return !bodies()[pair.first].is_fixed() && !everybody_.facts().is_void(pair);
     if (pair.second == HotPair::walls)
-      return bodies().walls() && !bodies()[pair.first].is_fixed() && !everybody_.is_void(pair);
-    return pair.first < pair.second && takes_part(pair.second) && !everybody_.is_void(pair) &&
+      return bodies().walls() && !bodies()[pair.first].is_fixed() && !everybody_.facts().is_void(pair);
+    return pair.first < pair.second && takes_part(pair.second) && !everybody_.facts().is_void(pair) &&
            !(bodies()[pair.first].is_fixed() && bodies()[pair.second].is_fixed());
   };
   return std::all_of(read_pairs_.begin(), read_pairs_.end(), is_sound);

@@ -113,10 +113,11 @@ Result<void> World::Engine::start_with_arrivals(Shift& shift) {
 
 /// Probes those for whom a larger capsule would cost more.
 Result<void> World::Engine::refresh(std::span<const std::uint32_t> ending, Shift& shift) {
+  const Pacing pacing(tables_, time());
   std::vector<std::uint8_t> is_asked(ending.size());
   shift.for_each(ending.size(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
     for (std::size_t k = from; k < to; ++k)
-      is_asked[k] = !bodies()[ending[k]].dirty && everybody_.needs_report(ending[k]) ? 1 : 0;
+      is_asked[k] = !bodies()[ending[k]].dirty && pacing.needs_report(ending[k]) ? 1 : 0;
   });
   std::vector<std::uint32_t> asked;
   for (std::size_t k = 0; k < ending.size(); ++k)
@@ -129,6 +130,7 @@ Result<void> World::Engine::refresh(std::span<const std::uint32_t> ending, Shift
 std::vector<Windows::Starter> World::Engine::choose_windows(std::span<const std::uint32_t> numbers, bool most,
                                                             Tempo::Round& round, Shift& shift) {
   const double now = time();
+  const Pacing pacing(tables_, now);
   std::vector<Windows::Starter> starters(numbers.size());
   const std::size_t parts = (numbers.size() + bodies_at_once - 1) / bodies_at_once;
   std::vector<Tempo::Round> rounds(parts, Tempo::Round(tables_.tempo, most));
@@ -140,7 +142,7 @@ std::vector<Windows::Starter> World::Engine::choose_windows(std::span<const std:
         const std::uint32_t number = numbers[k];
         const RoomyBound bound = bodies().room_for(number, MovedBound(bodies()[number].bound, now));
         const Pace pace = Bodies::pace_of(bound.moved);
-        const Window& window = free.of(everybody_.tier_to_start(number, pace));
+        const Window& window = free.of(pacing.tier_for(number, pace));
         starters[k] = {number, 0, window};
         if (window.end == now) continue;
         if (bodies().space().repeats()) tables_.bodies.bring_home(number, now, window.end - now);
@@ -185,7 +187,7 @@ Result<void> World::Engine::start_windows(Shift& shift, bool all, std::span<cons
       starters, now, [this, now](std::uint32_t number) { return bodies().roomy_bound(number, now); }, shift);
   tempo.finish_start(round, find_pairs_of_started(shift), windows.size());
   find_others_of(starters, shift);
-  for (Island::Found& found : found_) everybody_.take(found);
+  for (FoundPairs& found : found_) everybody_.take(found);
   everybody_.begin_phase(windows.next_end());
   return {};
 }
@@ -194,17 +196,18 @@ Result<void> World::Engine::start_windows(Shift& shift, bool all, std::span<cons
 SearchCost World::Engine::find_pairs_of_started(Shift& shift) {
   const double now = time();
   const Windows& windows = tables_.windows;
+  const Facts facts = everybody_.facts();
   found_.resize(shift.count());
   shift.for_each(
       windows.started(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
-        Island::Found& found = found_[worker];
+        FoundPairs& found = found_[worker];
         const auto bound_of = [this, now](std::uint32_t number) { return bodies().roomy_bound(number, now); };
         found.searches += to - from;
         for (const auto& [a, b] : windows.near_started(from, to, now, bound_of, found.scratch))
-          everybody_.find_hot_pair(a, b, found);
+          facts.find_hot_pair(a, b, found);
       });
   SearchCost cost;
-  for (Island::Found& found : found_) {
+  for (FoundPairs& found : found_) {
     cost += std::exchange(found.scratch.cost, {});
     cost.hot += found.pairs;
   }
@@ -213,11 +216,12 @@ SearchCost World::Engine::find_pairs_of_started(Shift& shift) {
 
 /// Pairs that touch or sense each other, and walls, of those that have started.
 void World::Engine::find_others_of(std::span<const Windows::Starter> starters, Shift& shift) {
+  const Facts facts = everybody_.facts();
   for (const Windows::Starter& starter : starters) tables_.bodies[starter.number].settled = true;
   shift.for_each(starters.size(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
     for (std::size_t k = from; k < to; ++k) {
-      everybody_.find_known_pairs(starters[k].number, found_[worker]);
-      everybody_.find_walls(starters[k].number, found_[worker]);
+      facts.find_known_pairs(starters[k].number, found_[worker]);
+      facts.find_walls(starters[k].number, found_[worker]);
     }
   });
   for (const Windows::Starter& starter : starters) tables_.bodies[starter.number].settled = false;

@@ -36,7 +36,7 @@ bool World::Engine::Answers::settled(std::uint32_t a, std::uint32_t b) const {
 /// The engine looks at the pair no sooner than this, so it tells of no begin before.
 double World::Engine::Answers::recorded(std::uint32_t a, std::uint32_t b, const PairTimes& hot) const {
   if (!settled(a, b)) return now_;
-  return std::max(std::min(hot.of(a, b), engine_.everybody().windows_end(a, b)), now_);
+  return std::max(std::min(hot.of(a, b), engine_.everybody().facts().windows_end(a, b)), now_);
 }
 
 double World::Engine::Answers::recorded_of_walls(std::uint32_t number, const PairTimes& hot) const {

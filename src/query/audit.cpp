@@ -131,7 +131,7 @@ class World::Engine::Audit {
     check_crossings(a, b);
     check_crossings(b, a);
     if (!engine_.bodies().may_meet(a, b) || !settled(a, b)) return;
-    engine_.everybody().for_each_threshold(
+    engine_.everybody().facts().for_each_threshold(
         a, b, [&](const Threshold& threshold) { check_threshold(a, b, threshold); });
   }
 
@@ -155,7 +155,7 @@ class World::Engine::Audit {
     const PlainGap gap(first, second, engine_.bodies().space().period());
     check_state(a, b, threshold, gap);
     // Beyond the end of a window the two may meet in another image, and will have been found again.
-    const double recorded = std::min(hot_.of(a, b), engine_.everybody().windows_end(a, b));
+    const double recorded = std::min(hot_.of(a, b), engine_.everybody().facts().windows_end(a, b));
     if (!threshold.within && !boxes_overlap(a, b)) return;
     if (const auto change = certain_change(a, b, threshold, gap, recorded))
       find("certificate", pair(a, b) + " may change unseen" + times(recorded, *change));
@@ -204,7 +204,7 @@ class World::Engine::Audit {
     const bool doubtful = recorded > computed;
     double end = recorded;
     if (end == infinity && doubtful) end = now_ + 8.0 * (computed - now_);
-    if (end == infinity) end = engine_.everybody().windows_end(a, b);
+    if (end == infinity) end = engine_.everybody().facts().windows_end(a, b);
     const double least_step = (end - now_) / (doubtful ? 512.0 : 16.0);
     const double last = end - 0x1p-20 * (end - now_);
     for (double time = now_; time < end;) {

@@ -36,7 +36,7 @@ Memory World::Engine::memory() const {
   memory.contacts = heap_bytes(book());
   memory.windows = windows().bytes();
   memory.other = sizeof *this + everybody_.bytes() - memory.pairs;
-  for (const Island::Found& found : found_) memory.other += heap_bytes(found.hot);
+  for (const FoundPairs& found : found_) memory.other += heap_bytes(found.hot);
   return memory;
 }
 

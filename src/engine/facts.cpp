@@ -1,0 +1,95 @@
+#include "engine/facts.hpp"
+
+#include <cmath>
+
+#include "number/infinity.hpp"
+
+namespace kinesphere {
+
+std::optional<Window> Facts::window_of(std::uint32_t number) const {
+  if (const BodyKick* kick = beside_ ? beside_->last_kick(number) : nullptr) return kick->window;
+  if (!tables_.windows.contains(number)) return std::nullopt;
+  return tables_.windows.window_of(number);
+}
+
+HotPair Facts::hot_pair(double time, std::uint32_t a, std::uint32_t b) const {
+  if (b >= HotPair::renewal) return {time, a, b, bodies()[a].stamp, 0};
+  const auto [first, second] = std::minmax(a, b);
+  return {time, first, second, bodies()[first].stamp, bodies()[second].stamp};
+}
+
+double Facts::unchanged_until(std::uint32_t a, std::uint32_t b) const {
+  const double until = apart_until(a, b);
+  return until < infinity && are_linked(a, b) ? infinity : until;
+}
+
+double Facts::apart_until(std::uint32_t a, std::uint32_t b) const {
+  const Body& one = bodies()[a];
+  const Body& other = bodies()[b];
+  if (!bodies().may_meet(a, b)) return infinity;
+  const double end = windows_end(a, b);
+  if (one.is_fixed() || other.is_fixed() || end == infinity) {
+    const double until = unchanged_until_by_thresholds(a, b);
+    return until < end ? until : infinity;
+  }
+  const double sensed = bodies().reach_of_pair(a, b);
+  MovedBound moved(other.bound, time_);
+  if (bodies().space().repeats()) moved.centre += bodies().shift_to_meet(a, b);
+  const Encounter pair(MovedBound(one.bound, time_), moved);
+  const double near = sensed + bodies().definition().contact_tolerance;
+  if (pair.stay_apart(end - time_, near)) return infinity;
+  if (pair.is_near(near)) return time_;
+  const double until =
+      rounding::sum_down(time_, pair.meeting(end - time_, sensed + bodies().rounding_room()));
+  return until < end ? std::max(until, time_) : infinity;
+}
+
+double Facts::unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const {
+  const double end = windows_end(a, b);
+  double first = infinity;
+  if (!bodies().may_meet(a, b)) return first;
+  bodies().visit_pair(a, b, [&](const Bound& bound, const auto& other) {
+    for_each_threshold(a, b, [&](const Threshold& threshold) {
+      const Outlook outlook(book().rule_of(threshold), threshold, bound, other, time_, {end, end});
+      first = std::min(first, outlook.until_reports());
+    });
+  });
+  return first;
+}
+
+void Facts::find_hot_pair(std::uint32_t a, std::uint32_t b, FoundPairs& found) const {
+  ++found.candidates;
+  const double until = unchanged_until(a, b);
+  if (until == infinity) return;
+  found.hot.push_back(hot_pair(until, a, b));
+  ++found.pairs;
+}
+
+/// They may be anywhere.
+void Facts::find_known_pairs(std::uint32_t number, FoundPairs& found) const {
+  const auto add = [&](std::uint32_t other) {
+    // Of two in the round the first one finds it.
+    if (!tables_.windows.contains(other) || (bodies()[other].settled && other < number)) return;
+    const double until = unchanged_until_by_thresholds(number, other);
+    if (until < windows_end(number, other)) found.hot.push_back(hot_pair(until, number, other));
+  };
+  for (const std::uint32_t partner : book().partners_of(number)) add(partner);
+  const auto crossed = book().crossings_of(number);
+  for (std::size_t k = 0; k < crossed.size(); ++k) {
+    const std::uint32_t other = crossed[k].partner;
+    if (k > 0 && other == crossed[k - 1].partner) continue;
+    if (!book().touch(number, other)) add(other);
+  }
+}
+
+void Facts::find_walls(std::uint32_t number, FoundPairs& found) const {
+  const Body& body = bodies()[number];
+  if (!bodies().walls() || body.is_fixed()) return;
+  const double end = end_of(number);
+  const double until = book().walls_of(number) != 0
+                           ? time_
+                           : until_reports_of_walls(book().rule(), body.bound, *bodies().walls(), time_, end);
+  if (until < end) found.hot.push_back(hot_pair(until, number, HotPair::walls));
+}
+
+}  // namespace kinesphere

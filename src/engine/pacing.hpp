@@ -1,0 +1,35 @@
+// Which windows suit bodies at an instant, and which of them are to report before they start in one.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "engine/tables.hpp"
+
+namespace kinesphere {
+
+class Pacing {
+ public:
+  Pacing(const Tables& tables, double time) : tables_(tables), time_(time) {}
+
+  /// Of the window, from now on, that suits the pace of a body.
+  int tier_for(std::uint32_t number, const Pace& pace) const;
+  Window window_for(std::uint32_t number) const {
+    return Windows::window_at(time_, tier_for(number, bodies().pace_of(number, time_)));
+  }
+  /// The window in which a body is to be from now on that is in this one, if it is in any: there, unless that
+  /// lasts longer than the one that suits it, or is far shorter.
+  Window next_window(std::uint32_t number, const std::optional<Window>& present) const;
+  /// Whether, until the next window ends, the bound would grow so much that a report costs less, or the body
+  /// go so far from its last report that its place could not be computed well, or so large that no window
+  /// suits it.
+  bool needs_report(std::uint32_t number) const;
+
+ private:
+  const Bodies& bodies() const { return tables_.bodies; }
+
+  const Tables& tables_;
+  double time_;
+};
+
+}  // namespace kinesphere

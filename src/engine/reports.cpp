@@ -1,0 +1,107 @@
+#include "engine/reports.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <mutex>
+#include <optional>
+
+#include "archive/heap_counter.hpp"
+#include "engine/validation.hpp"
+#include "engine/while_true.hpp"
+
+namespace kinesphere {
+namespace {
+
+constexpr double not_said = std::numeric_limits<double>::quiet_NaN();
+/// A probe that forgets to answer is told so.
+constexpr State unanswered{{not_said, not_said, not_said}, {not_said, not_said, not_said}};
+/// So many are worth the while of a thread.
+constexpr std::size_t reports_at_once = 512;
+
+}  // namespace
+
+Result<std::span<const Reports::Broken>> Reports::take(Bodies& bodies, double time,
+                                                       std::span<const std::uint32_t> numbers, Shift& shift) {
+  ask_for(bodies, time, numbers, shift);
+  if (const std::size_t bad = first_bad(bodies, time, shift); bad < ids_.size())
+    return check(bodies, time, bad).error();
+  apply_all(bodies, time, shift);
+  return std::span<const Broken>(broken_);
+}
+
+void Reports::ask_for(const Bodies& bodies, double time, std::span<const std::uint32_t> numbers,
+                      Shift& shift) {
+  ids_.clear();
+  for (const std::uint32_t number : numbers) ids_.push_back(bodies.id_of(number));
+  states_.assign(numbers.size(), unanswered);
+  const WhileTrue guard(asking_);
+  shift.for_each(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+    const std::size_t count = to - from;
+    (*probe_)(std::span(ids_).subspan(from, count), time, std::span(states_).subspan(from, count));
+  });
+}
+
+/// As many as there are if none is.
+std::size_t Reports::first_bad(const Bodies& bodies, double time, Shift& shift) const {
+  std::size_t first = ids_.size();
+  std::mutex mutex;
+  shift.for_each(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+    for (std::size_t k = from; k < to; ++k) {
+      if (check(bodies, time, k)) continue;
+      const std::lock_guard lock(mutex);
+      first = std::min(first, k);
+      return;
+    }
+  });
+  return first;
+}
+
+Result<void> Reports::check(const Bodies& bodies, double time, std::size_t k) const {
+  return check_report(states_[k], ids_[k], time, bodies.definition(), call_);
+}
+
+void Reports::apply_all(Bodies& bodies, double time, Shift& shift) {
+  broken_.clear();
+  // What was changed since the last report is in a table of all bodies.
+  if (ids_.size() <= reports_at_once || bodies.has_changes())
+    return apply(bodies, time, 0, ids_.size(), broken_);
+  std::mutex mutex;
+  shift.for_each(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+    std::vector<Broken> some;
+    apply(bodies, time, from, to, some);
+    if (some.empty()) return;
+    const std::lock_guard lock(mutex);
+    broken_.insert(broken_.end(), some.begin(), some.end());
+  });
+  std::sort(broken_.begin(), broken_.end(), [](const Broken& a, const Broken& b) { return a.k < b.k; });
+}
+
+void Reports::apply(Bodies& bodies, double time, std::size_t from, std::size_t to,
+                    std::vector<Broken>& broken) const {
+  const Space& space = bodies.space();
+  for (std::size_t k = from; k < to; ++k) {
+    const std::uint32_t number = ids_[k].index;
+    Body& body = bodies[number];
+    State state = states_[k];
+    if (space.repeats()) state.position += space.shift_to_nearest(state.position, body.bound.centre_at(time));
+    const Bound before = body.bound;
+    std::optional<Vec3> kicked_to;
+    if (const Change* change = bodies.change_since_report(number)) {
+      kicked_to = change->kicked_to;
+      body.bound = bound_of(bodies.definition_of(number), state, time);
+      bodies.forget_change(number);
+    } else {
+      body.bound.time = time;
+      body.bound.position = state.position;
+      body.bound.velocity = state.velocity;
+    }
+    const auto promise =
+        broken_promise(before, body.bound, body.radius, kicked_to, bodies.definition().contact_tolerance);
+    if (body.is_resting()) body.stand_still();
+    if (promise) broken.push_back({k, states_[k].velocity, *promise});
+  }
+}
+
+std::size_t Reports::bytes() const { return heap_bytes(ids_, states_); }
+
+}  // namespace kinesphere
