@@ -75,17 +75,12 @@ double World::Engine::finest_length() const {
   return std::clamp(windows().least_width(), tolerance, 0x1p30 * tolerance);
 }
 
-/// Outside advance(): probes those whose reports are not of this time, except for disabled ones. True when
-/// there were any.
+/// Outside advance(): as Island::probe_stale().
 Result<bool> World::Engine::probe_stale(std::span<const std::uint32_t> numbers, const Probe& ask,
                                         std::string_view call) {
-  std::vector<std::uint32_t> stale;
-  for (const std::uint32_t number : numbers)
-    if (bodies()[number].enabled && !bodies()[number].fresh(time())) stale.push_back(number);
-  if (stale.empty()) return false;
   everybody_.reports().ask(ask, call);
-  if (auto probed = everybody_.probe(stale); !probed) return probed.error();
-  return true;
+  Shift alone;
+  return everybody_.probe_stale(numbers, alone);
 }
 
 /// The body with its last report in the primary box, wherever the engine keeps it.

@@ -74,6 +74,15 @@ Result<void> Island::probe(std::span<const std::uint32_t> numbers, Shift& shift)
   return {};
 }
 
+Result<bool> Island::probe_stale(std::span<const std::uint32_t> numbers, Shift& shift) {
+  std::vector<std::uint32_t> stale;
+  for (const std::uint32_t number : numbers)
+    if (bodies()[number].enabled && !bodies()[number].fresh(time_)) stale.push_back(number);
+  if (stale.empty()) return false;
+  if (auto probed = probe(stale, shift); !probed) return probed.error();
+  return true;
+}
+
 void Island::mark_dirty(std::uint32_t number) {
   if (bodies()[number].dirty) return;
   bodies()[number].dirty = true;

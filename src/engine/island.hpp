@@ -128,6 +128,8 @@ class alignas(128) Island {
   Result<void> probe(std::span<const std::uint32_t> numbers);
   /// The same, where several threads may be asked.
   Result<void> probe(std::span<const std::uint32_t> numbers, Shift& shift);
+  /// Those of them whose reports are not of this time, except for disabled ones. True when there were any.
+  Result<bool> probe_stale(std::span<const std::uint32_t> numbers, Shift& shift);
 
   // Events.
   Sphere sphere(std::uint32_t number) const { return bodies().sphere_at(time_, number); }

@@ -16,12 +16,10 @@ Result<void> Island::settle_dirty() {
   }
   // Some have been removed or disabled since, or have started with all others.
   std::erase_if(dirty_, [this](std::uint32_t number) { return !bodies()[number].dirty; });
-  round_.clear();
-  for (const std::uint32_t number : dirty_)
-    if (!bodies()[number].fresh(time_)) round_.push_back(number);
-  if (!round_.empty()) {
-    if (auto probed = probe(round_); !probed) return probed;
-  }
+  round_ = dirty_;
+  Shift alone;
+  if (auto probed = probe_stale(round_, alone); !probed) return probed.error();
+  // Broken promises may have made further bodies dirty.
   round_ = dirty_;
   settle(round_);
   for (const std::uint32_t number : round_) bodies()[number].settled_now();

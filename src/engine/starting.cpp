@@ -14,34 +14,20 @@ namespace {
 /// So many are worth the while of a thread.
 constexpr std::size_t bodies_at_once = 256;
 
-/// The windows in which nobody is yet: a layer in which others are already would have to be sorted anew, so
-/// rather a shorter window.
+/// Windows::free_window(), of which most bodies ask for the same one.
 class FreeWindows {
  public:
   FreeWindows(const Windows& windows, double now) : windows_(windows), now_(now) {}
 
-  /// The longest one that is not longer than 2^tier. Where there is none, it ends now.
   const Window& of(int tier) {
-    if (found_ && tier == asked_) return *found_;
+    if (!found_ || tier != asked_) found_ = windows_.free_window(now_, tier);
     asked_ = tier;
-    found_ = find(tier);
     return *found_;
   }
 
  private:
-  Window find(int tier) const {
-    Window window = Windows::window_at(now_, tier);
-    while (!windows_.is_free(window)) {
-      const Window shorter = Windows::window_at(now_, window.tier - Tempo::powers_between_tiers);
-      if (shorter.tier == window.tier) return {window.tier, now_};
-      window = shorter;
-    }
-    return window;
-  }
-
   const Windows& windows_;
   double now_;
-  // Most bodies ask for the same one.
   int asked_ = 0;
   std::optional<Window> found_;
 };
@@ -98,12 +84,7 @@ Result<void> World::Engine::start_with_arrivals(Shift& shift) {
   }
   if (anew || !tables_.tempo.is_chosen()) choose_tempo(joining);
   if (!anew || joining.empty()) return {};
-  std::vector<std::uint32_t> stale;
-  for (const std::uint32_t number : joining)
-    if (!bodies()[number].fresh(time())) stale.push_back(number);
-  if (!stale.empty()) {
-    if (auto probed = everybody_.probe(stale); !probed) return probed;
-  }
+  if (auto probed = everybody_.probe_stale(joining, shift); !probed) return probed.error();
   if (auto started = start_windows(shift, true, joining); !started) return started;
   // For some there was no window.
   for (const std::uint32_t number : joining)

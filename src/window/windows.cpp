@@ -394,6 +394,17 @@ void Windows::end_windows(double now, bool all) {
   }
 }
 
+Window Windows::free_window(double now, int tier) const {
+  Window window = window_at(now, tier);
+  while (!is_free(window)) {
+    const Window shorter = window_at(now, window.tier - Tempo::powers_between_tiers);
+    if (shorter.tier == window.tier) return {window.tier, now};
+    window = shorter;
+  }
+  return window;
+}
+
+/// Nobody is in it, but for those who start now.
 bool Windows::is_free(const Window& window) const {
   return std::none_of(layers_.begin(), layers_.end(), [&](const Member& member) {
     return member.tier == window.tier && !member.fresh && member.layer.size() > 0;

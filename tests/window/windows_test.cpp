@@ -266,9 +266,9 @@ class Playground {
     for (const std::uint32_t number : round) {
       report(number);
       registered_[number] = false;
-      Window window = window_to_start(number);
-      if (window.end == infinity) continue;
-      while (!windows_.is_free(window)) window = Windows::window_at(now_, window.tier - 3);
+      const Window suits = window_to_start(number);
+      if (suits.end == infinity) continue;
+      const Window window = windows_.free_window(now_, suits.tier);
       bring_home(number, window.end - now_);
       starters.push_back({number, Windows::level_of(roomy(number), window), window});
       registered_[number] = true;
@@ -436,6 +436,27 @@ TEST(Windows, OfOneLengthBeginAndEndAtItsMultiples) {
     ASSERT_LE(shorter.end, window.end);
     ASSERT_EQ(Windows::window_at(now, Windows::shortest).tier, Windows::window_at(now, -310).tier);
   }
+}
+
+/// One that is already in the windows that would suit others makes theirs shorter; where there are no shorter
+/// ones, there is none.
+TEST(Windows, AreFreeWhereNobodyIs) {
+  const double now = 3.0;
+  Windows windows{Space{WorldDefinition{}}};
+  const RoomyBound bound{MovedBound(Bound{.time = now, .radius = 1.0}, now), 0.0};
+  const Window shortest = Windows::window_at(now, Windows::shortest);
+  int tier = 5;
+  for (std::uint32_t number = 0;; ++number) {
+    const Window free = windows.free_window(now, 5);
+    EXPECT_EQ(free.tier, std::max(tier, shortest.tier));
+    if (free.end == now) break;
+    EXPECT_EQ(free.end, Windows::window_at(now, tier).end);
+    ASSERT_LT(number, 100u);
+    windows.enter(number, bound, now, free);
+    EXPECT_EQ(windows.free_window(now, 6).tier, 6) << "nobody is in windows of that length";
+    tier -= Tempo::powers_between_tiers;
+  }
+  EXPECT_LE(tier, shortest.tier);
 }
 
 TEST(Windows, SearchesLookAtFewOfMany) {
