@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "bound/encounter.hpp"
-#include "window/box_pairs.hpp"
 
 namespace kinesphere {
 namespace {
@@ -258,31 +257,41 @@ RoomyBound Islands::bound_of(const BodyKick& kick) const {
   return tables_.bodies.room_for(kick.number, MovedBound(kick.bound, kick.time));
 }
 
-/// Joins groups of which kicked bodies may meet. True when some have to run again.
+/// Joins groups of which kicked bodies may meet. True when some have to run again. Kicks get windows of their
+/// own, as if each had been there from the begin of the part on.
 bool Islands::join_kicks() {
-  const Bodies& bodies = tables_.bodies;
   const std::vector<OwnKick> kicks = this->kicks();
   if (kicks.empty()) return false;
-  std::vector<Box> boxes(kicks.size());
-  shift_.for_each(kicks.size(), kicks_at_once, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const BodyKick& kick = *kicks[k].kick;
-      boxes[k] = bound_of(kick).box_of_way(kick.window.end < infinity ? kick.window.end - kick.time : 0.0);
+  const auto bound_at_begin = [&](std::uint32_t k) {
+    const BodyKick& kick = *kicks[k].kick;
+    return tables_.bodies.room_for(kick.number, MovedBound(kick.bound, begin_));
+  };
+  std::vector<Windows::Starter> starters(kicks.size());
+  shift_.for_each(kicks.size(), kicks_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+    for (std::size_t k = from; k < to; ++k) {
+      const auto number = static_cast<std::uint32_t>(k);
+      const Window& window = kicks[k].kick->window;
+      starters[k] = {number, Windows::level_of(bound_at_begin(number), window), window};
     }
   });
-  std::vector<std::uint32_t> owners;
-  owners.reserve(kicks.size());
-  for (const OwnKick& kick : kicks) owners.push_back(kick.own);
-  double widths = 0.0;
-  for (const Box& box : boxes) widths += box.upper.x - box.lower.x;
-  const double size = std::clamp(2.0 * widths / static_cast<double>(kicks.size()), 0x1p-900, 0x1p900);
+  Windows windows(tables_.bodies.space());
+  windows.start(starters, begin_, bound_at_begin, shift_);
+  std::vector<std::vector<Windows::Pair>> meeting(shift_.count());
+  shift_.for_each(kicks.size(), kicks_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
+    Windows::Scratch scratch;
+    for (const auto& [a, b] : windows.near_started(from, to, begin_, bound_at_begin, scratch))
+      if (kicks[a].own != kicks[b].own && may_meet(*kicks[a].kick, *kicks[b].kick))
+        meeting[worker].push_back({kicks[a].own, kicks[b].own});
+  });
   bool any = false;
-  for (const auto& [a, b] : overlapping_pairs(boxes, owners, bodies.space(), size)) {
-    const std::uint32_t one = root_of(kicks[a].own);
-    const std::uint32_t other = root_of(kicks[b].own);
-    if (one == other || !may_meet(*kicks[a].kick, *kicks[b].kick)) continue;
-    join(one, other);
-    any = true;
+  for (const std::vector<Windows::Pair>& pairs : meeting) {
+    for (const auto& [a, b] : pairs) {
+      const std::uint32_t one = root_of(a);
+      const std::uint32_t other = root_of(b);
+      if (one == other) continue;
+      join(one, other);
+      any = true;
+    }
   }
   return any;
 }

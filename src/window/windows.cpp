@@ -100,7 +100,7 @@ std::uint32_t Windows::layer_for(const Window& window, int level) {
     const Member& member = layers_[k];
     if (member.tier == window.tier && member.level == level && member.end == window.end) return k;
     // One that is over, though others go on, is of no use to anybody.
-    const bool over = member.layer.size() == 0 && window.end < infinity &&
+    const bool over = !member.fresh && member.layer.size() == 0 && window.end < infinity &&
                       member.end <= window.end - power_of_two(window.tier);
     if ((member.end == -infinity || over) && free == none) free = k;
   }
@@ -421,8 +421,9 @@ std::vector<Windows::Opening> Windows::choose_layers(std::span<const Starter> st
     if (size == sizes.end() || size->first != level) size = sizes.try_emplace(level).first;
     ++size->second;
     const int level_there = level_to_start(level);
-    const auto suits = [&, tier = window.tier](const Opening& opening) {
-      return layers_[opening.layer].tier == tier && layers_[opening.layer].level == level_there;
+    const auto suits = [&, tier = window.tier, end = window.end](const Opening& opening) {
+      const Member& member = layers_[opening.layer];
+      return member.tier == tier && member.level == level_there && member.end == end;
     };
     if (at == openings.size() || !suits(openings[at])) {
       const auto found = std::find_if(openings.begin(), openings.end(), suits);

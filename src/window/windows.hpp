@@ -13,6 +13,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "bound/encounter.hpp"
@@ -235,7 +236,7 @@ class Windows {
     std::uint64_t changes = 0;  ///< since then, in the order of which nothing depends
 
     bool is_before(const Member& other) const {
-      return tier != other.tier ? tier < other.tier : level < other.level;
+      return std::tie(tier, level, end) < std::tie(other.tier, other.level, other.end);
     }
     Capsule capsule(const RoomyBound& bound, double now) const;
     float time(double now) const;
