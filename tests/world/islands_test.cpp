@@ -82,6 +82,9 @@ TEST_P(Islands, AreAsOneLoop) {
     Hall run(GetParam());
     for (const double part : {0.01, 0.3, 0.3, 1.0}) run.run(part * run.kind.end, &workers).value();
     expect_same_course(run, looped);
+    // What islands have done in vain does not count.
+    const Counters& counters = run.world.counters();
+    EXPECT_EQ(counters.searches, counters.starts + counters.restarts);
     EXPECT_TRUE(is_clean(run.world));
   }
 }
