@@ -12,18 +12,16 @@ void World::Engine::reserve(std::size_t bodies) {
 }
 
 BodyId World::Engine::add(const BodyDefinition& definition) {
-  const std::uint32_t number = tables_.bodies.take_number();
-  tables_.bodies.keep(number, definition);
+  const std::uint32_t number = tables_.bodies.add(definition);
   appear(number, bound_now(definition));
   tables_.book.add(number, bodies()[number].largest_acceleration());
   return bodies().id_of(number);
 }
 
 BodyId World::Engine::add_fixed(const FixedDefinition& definition) {
-  const std::uint32_t number = tables_.bodies.take_number();
   const BodyDefinition at_rest = body_of(definition);
-  tables_.bodies.keep(number, at_rest);
-  tables_.bodies.keep_shape(number, definition.shape);
+  const std::uint32_t number = tables_.bodies.add(at_rest);
+  tables_.bodies.fix(number, definition.shape);
   tables_.book.add(number, 0.0);
   tables_.book.set_fixed(number);
   appear(number, bound_now(at_rest));
@@ -42,7 +40,7 @@ void World::Engine::appear(std::uint32_t number, const Bound& bound) {
   // Others that are added before then have to find it.
   const Window window = body.is_fixed() ? Windows::endless() : Windows::window_at(time(), Windows::shortest);
   if (bodies().space().repeats()) tables_.bodies.bring_home(number, time(), 0.0);
-  windows.enter(number, bodies().roomy_bound(number, time()), time(), window);
+  windows.enter(number, roomy_bound(bodies(), number, time()), time(), window);
   windows.tidy();
 }
 
@@ -66,7 +64,7 @@ void World::Engine::remove(BodyId id) {
   if (bodies()[number].is_resting()) everybody_.resume(number);
   everybody_.wake(number);
   withdraw(number);
-  tables_.bodies.give_back(number);
+  tables_.bodies.remove(number);
 }
 
 /// Another bound takes the place of the body's. Contacts that it certainly ends are over with the states
@@ -78,7 +76,7 @@ void World::Engine::replace(std::uint32_t number, const Bound& bound) {
     const std::uint32_t partner = end.first.index == number ? end.second.index : end.first.index;
     const GapLimits gap =
         end.wall == Wall::none
-            ? bodies().gap_at(time(), bodies().extent(number, bound), bodies().extent(partner))
+            ? gap_at(bodies(), time(), extent_of(bodies(), number, bound), extent_of(bodies(), partner))
             : gap_limits(bound, half_space(*bodies().walls(), end.wall), time());
     return gap.lower >= end.distance + apart;
   };
@@ -133,22 +131,22 @@ void World::Engine::enable(BodyId id, const State& state) {
 }
 
 void World::Engine::set_filter(BodyId id, const Filter& filter) {
-  tables_.bodies.keep_filter(id.index, filter);
+  tables_.bodies.filters.keep(id.index, filter);
   refilter(id);
 }
 
 void World::Engine::set_pair_filter(PairFilter filter) {
-  tables_.bodies.keep_pair_filter(std::move(filter));
+  tables_.bodies.filters.keep_pair_filter(std::move(filter));
   for (std::uint32_t number = 0; number < bodies().numbers(); ++number) refilter(bodies().id_of(number));
 }
 
 void World::Engine::set_solid(BodyId id, bool solid) {
-  tables_.bodies.keep_solid(id.index, solid);
+  tables_.bodies.set_solid(id.index, solid);
   refilter(id);
 }
 
 void World::Engine::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
-  tables_.bodies.sensors().set(sensor_class, sensor);
+  tables_.bodies.sensors.set(sensor_class, sensor);
   for (std::uint32_t number = 0; number < bodies().numbers(); ++number)
     if (bodies()[number].sensor_class == sensor_class) refilter(bodies().id_of(number));
 }
@@ -176,7 +174,7 @@ bool World::Engine::may_hold(const Event& event) const {
   const std::uint32_t b = event.second.index;
   if (!is_of_sensor(event.kind)) return bodies().may_touch(a, b);
   return bodies().may_meet(a, b) &&
-         bodies().sensors().senses(bodies().sensing_of(a), bodies().sensing_of(b), event.distance);
+         bodies().sensors.senses(sensing_of(bodies(), a), sensing_of(bodies(), b), event.distance);
 }
 
 }  // namespace kinesphere

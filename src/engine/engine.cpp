@@ -67,7 +67,7 @@ Result<void> World::Engine::settle(Shift& shift) {
 
 Activity World::Engine::activity() const {
   if (everybody_.reports().is_asking()) return Activity::probing;
-  return bodies().is_filtering() ? Activity::filtering : Activity::idle;
+  return bodies().filters.is_filtering() ? Activity::filtering : Activity::idle;
 }
 
 double World::Engine::finest_length() const {
@@ -106,8 +106,8 @@ BodyView World::Engine::view(std::uint32_t number) const {
   view.box = {view.box.lower - shift, view.box.upper - shift};
   for (int axis = 0; axis < 3; ++axis) {
     constexpr double limit = 0x1p62;
-    view.image[static_cast<std::size_t>(axis)] =
-        static_cast<std::int64_t>(std::clamp(bodies().image_of(number)[axis] + images[axis], -limit, limit));
+    view.image[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(
+        std::clamp(bodies().homes[number].image[axis] + images[axis], -limit, limit));
   }
   return view;
 }

@@ -32,15 +32,15 @@ double Facts::apart_until(std::uint32_t a, std::uint32_t b) const {
     const double until = unchanged_until_by_thresholds(a, b);
     return until < end ? until : infinity;
   }
-  const double sensed = bodies().reach_of_pair(a, b);
+  const double sensed = reach_of_pair(bodies(), a, b);
   MovedBound moved(other.bound, time_);
-  if (bodies().space().repeats()) moved.centre += bodies().shift_to_meet(a, b);
+  if (bodies().space().repeats()) moved.centre += shift_to_meet(bodies(), a, b);
   const Encounter pair(MovedBound(one.bound, time_), moved);
   const double near = sensed + bodies().definition().contact_tolerance;
   if (pair.stay_apart(end - time_, near)) return infinity;
   if (pair.is_near(near)) return time_;
   const double until =
-      rounding::sum_down(time_, pair.meeting(end - time_, sensed + bodies().rounding_room()));
+      rounding::sum_down(time_, pair.meeting(end - time_, sensed + rounding_room(bodies().definition())));
   return until < end ? std::max(until, time_) : infinity;
 }
 
@@ -48,7 +48,7 @@ double Facts::unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) co
   const double end = windows_end(a, b);
   double first = infinity;
   if (!bodies().may_meet(a, b)) return first;
-  bodies().visit_pair(a, b, [&](const Bound& bound, const auto& other) {
+  visit_pair(bodies(), a, b, [&](const Bound& bound, const auto& other) {
     for_each_threshold(a, b, [&](const Threshold& threshold) {
       const Outlook outlook(book().rule_of(threshold), threshold, bound, other, time_, {end, end});
       first = std::min(first, outlook.until_reports());

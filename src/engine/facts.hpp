@@ -88,10 +88,10 @@ class Facts {
 template <class Visit>
 void Facts::for_each_threshold(std::uint32_t a, std::uint32_t b, Visit visit) const {
   if (bodies()[a].solid && bodies()[b].solid) visit(Threshold{.within = book().touch(a, b)});
-  if (!bodies().sensors().any()) return;
+  if (!bodies().sensors.any()) return;
   const Crossings::List crossed = book().crossings_of(a, b);
   if (const auto next =
-          bodies().sensors().next_inward(bodies().sensing_of(a), bodies().sensing_of(b), crossed))
+          bodies().sensors.next_inward(sensing_of(bodies(), a), sensing_of(bodies(), b), crossed))
     visit(Threshold{false, *next, true});
   if (!crossed.empty()) visit(Threshold{true, crossed.back().distance, true});
 }

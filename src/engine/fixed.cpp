@@ -28,6 +28,11 @@ BodyDefinition body_of(const FixedDefinition& fixed) {
           .user_data = fixed.user_data};
 }
 
+FixedDefinition fixed_definition(const Bodies& bodies, BodyId id) {
+  const Body& body = bodies[id.index];
+  return {bodies.shapes.of(body), bodies.filters.of(id.index), body.solid, body.sensor_class, body.user_data};
+}
+
 Shape as_kept(Shape shape, const WorldDefinition& world) {
   const Space space(world);
   if (auto* solid = std::get_if<HalfSpace>(&shape); solid && std::abs(norm(solid->normal) - 1.0) > 0x1p-51)

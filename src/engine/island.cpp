@@ -32,10 +32,10 @@ Event Island::wall_contact(EventKind kind, std::uint32_t number, Wall wall) cons
 
 /// Who senses the other at the distance of this event now.
 Senses Island::senses_in(const Event& event) const {
-  const Sensing first = bodies().sensing_of(event.first.index);
-  const Sensing second = bodies().sensing_of(event.second.index);
-  const bool by_first = bodies().sensors().senses_one_way(first, second, event.distance);
-  const bool by_second = bodies().sensors().senses_one_way(second, first, event.distance);
+  const Sensing first = sensing_of(bodies(), event.first.index);
+  const Sensing second = sensing_of(bodies(), event.second.index);
+  const bool by_first = bodies().sensors.senses_one_way(first, second, event.distance);
+  const bool by_second = bodies().sensors.senses_one_way(second, first, event.distance);
   if (by_first && by_second) return Senses::both;
   return by_first ? Senses::first : by_second ? Senses::second : Senses::neither;
 }
@@ -47,10 +47,10 @@ std::optional<Event> Island::deliver() {
       [this](const Event& enter) { return senses_in(enter); }, bodies().walls());
   if (!event) return event;
   // Of events that a snapshot held, ids have lost their tags.
-  event->first.world = bodies().tag();
-  if (event->second != no_body) event->second.world = bodies().tag();
+  event->first.world = bodies().table().tag();
+  if (event->second != no_body) event->second.world = bodies().table().tag();
   ++counters_.events[static_cast<std::size_t>(event->kind)];
-  if (bodies().any_rests()) wake_by(*event);
+  if (!bodies().rests.empty()) wake_by(*event);
   if (event->repeated) ++counters_.repeated_contacts;
   return event;
 }

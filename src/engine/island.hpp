@@ -132,7 +132,7 @@ class alignas(128) Island {
   Result<bool> probe_stale(std::span<const std::uint32_t> numbers, Shift& shift);
 
   // Events.
-  Sphere sphere(std::uint32_t number) const { return bodies().sphere_at(time_, number); }
+  Sphere sphere(std::uint32_t number) const { return sphere_at(bodies(), time_, number); }
 
   // Beside other islands (beside.cpp).
   /// From now on the island is one of those of a phase, with these pairs that are due.

@@ -27,11 +27,11 @@ bool Islands::run(double until, std::deque<Event>& events) {
   const Bodies& bodies = tables_.bodies;
   assert(everybody_.is_settled());
   // What these do reaches beyond an island, or asks the caller's own code in the middle of one.
-  if (bodies.any_rests() || bodies.has_changes() || bodies.has_pair_filter()) return false;
+  if (!bodies.rests.empty() || !bodies.changes.empty() || bodies.filters.has_pair_filter()) return false;
   begin_ = everybody_.time();
   sea_.phase_end = everybody_.phase_end();
   sea_.until = until;
-  if (most_due_ == 0) most_due_ = std::max(least_due, bodies.size() / 16);
+  if (most_due_ == 0) most_due_ = std::max(least_due, bodies.table().live_count() / 16);
   std::vector<HotPair> due;
   sea_.stop = everybody_.agenda().take_until(
       until, sea_.phase_end, most_due_, due,
@@ -52,7 +52,7 @@ bool Islands::run(double until, std::deque<Event>& events) {
 void Islands::choose_part() {
   const std::size_t again = attempts_ - count_;
   if (16 * again < count_) {
-    most_due_ = std::min(2 * most_due_, std::max(least_due, tables_.bodies.size()));
+    most_due_ = std::min(2 * most_due_, std::max(least_due, tables_.bodies.table().live_count()));
   } else if (6 * again > count_) {
     most_due_ = std::max(most_due_ / 2, least_due);
   }
@@ -128,7 +128,7 @@ bool Islands::are_worth_it() const {
 /// False, and everything is as it was, when one of them has failed.
 bool Islands::attempt_all() {
   attempts_ = 0;
-  tables_.book.start_side_by_side(tables_.bodies.sensors().any());
+  tables_.book.start_side_by_side(tables_.bodies.sensors.any());
   bool failed = false;
   try {
     do {
@@ -254,7 +254,7 @@ std::vector<Islands::OwnKick> Islands::kicks() const {
 }
 
 RoomyBound Islands::bound_of(const BodyKick& kick) const {
-  return tables_.bodies.room_for(kick.number, MovedBound(kick.bound, kick.time));
+  return room_for(tables_.bodies, kick.number, MovedBound(kick.bound, kick.time));
 }
 
 /// Joins groups of which kicked bodies may meet. True when some have to run again. Kicks get windows of their
@@ -264,7 +264,7 @@ bool Islands::join_kicks() {
   if (kicks.empty()) return false;
   const auto bound_at_begin = [&](std::uint32_t k) {
     const BodyKick& kick = *kicks[k].kick;
-    return tables_.bodies.room_for(kick.number, MovedBound(kick.bound, begin_));
+    return room_for(tables_.bodies, kick.number, MovedBound(kick.bound, begin_));
   };
   std::vector<Windows::Starter> starters(kicks.size());
   shift_.for_each(kicks.size(), kicks_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
@@ -305,7 +305,7 @@ bool Islands::may_meet(const BodyKick& a, const BodyKick& b) const {
   MovedBound moved(b.bound, from);
   if (bodies.space().repeats()) moved.centre += bodies.space().shift_between_homes(b.middle, a.middle);
   const Encounter pair(MovedBound(a.bound, from), moved);
-  const double near = bodies.reach_of_pair(a.number, b.number) + bodies.definition().contact_tolerance;
+  const double near = reach_of_pair(bodies, a.number, b.number) + bodies.definition().contact_tolerance;
   return !pair.stay_apart(end - from, near);
 }
 
@@ -346,7 +346,7 @@ void Islands::finish(std::deque<Event>& events) {
     everybody_.add_kicks(group.settled);
     left.insert(left.end(), group.left.begin(), group.left.end());
     for (const Told& one : group.told) told.push_back(&one);
-    if (tables_.bodies.any_fixed()) {
+    if (tables_.bodies.shapes.any()) {
       for (const std::uint32_t place : group.members)
         tables_.book.tell_fixed(kept_[place].number, kept_[place].contacts);
     }

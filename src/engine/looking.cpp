@@ -86,7 +86,7 @@ std::optional<double> Island::judge_pair(std::uint32_t a, std::uint32_t b) {
   const Promise sum{one.bound.growth_speed + other.bound.growth_speed,
                     one.largest_acceleration() + other.largest_acceleration()};
   std::optional<double> next = infinity;
-  bodies().visit_pair(a, b, [&](const Bound& bound, const auto& partner) {
+  visit_pair(bodies(), a, b, [&](const Bound& bound, const auto& partner) {
     facts.for_each_threshold(a, b, [&](const Threshold& threshold) {
       ++counters_.certificates;
       const Outlook outlook(book().rule_of(threshold), threshold, bound, partner, time_, {end, end});

@@ -10,7 +10,7 @@ namespace {
 
 /// Wherever in their bounds the two are.
 bool certainly_overlap(const Bodies& bodies, double now, const Extent& a, const Extent& b) {
-  return bodies.gap_at(now, a, b).upper < -bodies.definition().contact_tolerance;
+  return gap_at(bodies, now, a, b).upper < -bodies.definition().contact_tolerance;
 }
 
 }  // namespace
@@ -41,15 +41,14 @@ std::optional<Wall> World::Engine::certain_overlap_of_wall(const Bound& bound) c
 std::optional<BodyId> World::Engine::certain_overlap(BodyId id, const Extent& extent,
                                                      const BodyDefinition& definition) const {
   std::optional<BodyId> found;
-  const Box box =
-      extent.shape ? bodies().box_of(*extent.shape) : box_now(bodies().space(), extent.bound, time());
+  const Box box = box_now(bodies(), extent, time());
   Windows::Scratch scratch;
   for (const std::uint32_t other : windows().in_box(box, time(), scratch)) {
     const Body& body = bodies()[other];
     const bool certain =
         other != id.index && !(extent.fixed && body.is_fixed()) &&
-        certainly_overlap(bodies(), time(), extent, bodies().extent(other)) &&
-        bodies().may_touch(id, definition, bodies().id_of(other), bodies().definition_of(other));
+        certainly_overlap(bodies(), time(), extent, extent_of(bodies(), other)) &&
+        bodies().filters.may_touch(id, definition, bodies().id_of(other), bodies().definition_of(other));
     if (certain && (!found || other < found->index)) found = bodies().id_of(other);
   }
   return found;
@@ -76,7 +75,8 @@ std::optional<std::pair<std::size_t, std::size_t>> World::Engine::first_overlap(
     const auto [first, second] = std::minmax({a, b});
     if (least && std::tie(least->second, least->first) <= std::tie(second, first)) continue;
     if (certainly_overlap(bodies(), time(), {bound_now(added[first])}, {bound_now(added[second])}) &&
-        bodies().may_touch(bodies().next_id(first), added[first], bodies().next_id(second), added[second]))
+        bodies().filters.may_touch(bodies().table().next_id(first), added[first],
+                                   bodies().table().next_id(second), added[second]))
       least = {first, second};
   }
   return least;

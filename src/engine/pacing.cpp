@@ -12,14 +12,42 @@ namespace {
 /// What a report costs, in looks at a capsule: with it, all that the caller does for it.
 constexpr double price_of_report = 500.0;
 
+/// How wide the box of a body may be on an axis that repeats, by space/space.hpp (2); a little less, for
+/// rounding.
+double widest_in_period(double period, double position_error, double release_gap) {
+  return (0.5 - 0x1p-10) * period - release_gap - 4.0 * position_error;
+}
+
 }  // namespace
+
+/// How long a window of the body may last, `length` at most, for the box around its way to be as narrow as
+/// space/space.hpp (2) wants it.
+double Pacing::longest_in_period(std::uint32_t number, double length, double release_gap) const {
+  const Body& body = bodies()[number];
+  const Space& space = bodies().space();
+  const MovedBound moved(body.bound, time_);
+  const double radius = moved.radius + bodies().sensors.reach(body.sensor_class) +
+                        2.0 * bodies().definition().contact_tolerance;
+  double longest = length;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!space.repeats(axis)) continue;
+    const double speed = std::abs(moved.velocity[axis]) + 2.0 * moved.speed;
+    const double a = norm_one(moved.acceleration) + moved.growth;
+    const double widest = widest_in_period(space.period()[axis], body.position_error, release_gap);
+    const double way = std::max(widest - 2.0 * radius, 0.0);
+    if ((speed + a * longest) * longest <= way) continue;
+    const double divisor = speed + std::sqrt(speed * speed + 4.0 * a * way);
+    if (divisor > 0.0) longest = std::min(longest, 2.0 * way / divisor);
+  }
+  return longest;
+}
 
 int Pacing::tier_for(std::uint32_t number, const Pace& pace) const {
   int tier = tables_.tempo.tier_for(pace);
   if (!bodies().space().repeats()) return tier;
   tier = Windows::window_at(time_, tier).tier;
   const double release_gap = tables_.book.rule().release_gap();
-  while (power_of_two(tier) > bodies().longest_in_period(number, time_, power_of_two(tier), release_gap)) {
+  while (power_of_two(tier) > longest_in_period(number, power_of_two(tier), release_gap)) {
     const int shorter = Windows::window_at(time_, tier - 1).tier;
     if (shorter == tier) break;
     tier = shorter;
@@ -42,7 +70,7 @@ bool Pacing::needs_report(std::uint32_t number) const {
   const Body& body = bodies()[number];
   if (body.fresh(time_)) return false;
   const Bound& bound = body.bound;
-  const Pace pace = bodies().pace_of(number, time_);
+  const Pace pace = pace_of(MovedBound(bound, time_));
   const Window window = Windows::window_at(time_, tier_for(number, pace));
   const double s = window.end - bound.time;
   const auto growth_after = [&bound](double time) {
@@ -51,7 +79,7 @@ bool Pacing::needs_report(std::uint32_t number) const {
   const double saved = growth_after(s) - growth_after(window.end - time_);
   if (tables_.tempo.cost_of_width(2.0 * saved) > price_of_report) return true;
   const double speed = norm(bound.velocity) + bound.growth_speed + body.largest_acceleration() * s;
-  if (!bodies().space().repeats()) return speed * s > bodies().longest_way();
+  if (!bodies().space().repeats()) return speed * s > longest_way(bodies().definition());
   if (window.tier < tables_.tempo.tier_for(pace)) return true;
   const Vec3& period = bodies().space().period();
   double half = infinity;

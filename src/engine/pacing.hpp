@@ -15,7 +15,7 @@ class Pacing {
   /// Of the window, from now on, that suits the pace of a body.
   int tier_for(std::uint32_t number, const Pace& pace) const;
   Window window_for(std::uint32_t number) const {
-    return Windows::window_at(time_, tier_for(number, bodies().pace_of(number, time_)));
+    return Windows::window_at(time_, tier_for(number, pace_of(MovedBound(bodies()[number].bound, time_))));
   }
   /// The window in which a body is to be from now on that is in this one, if it is in any: there, unless that
   /// lasts longer than the one that suits it, or is far shorter.
@@ -26,6 +26,7 @@ class Pacing {
   bool needs_report(std::uint32_t number) const;
 
  private:
+  double longest_in_period(std::uint32_t number, double length, double release_gap) const;
   const Bodies& bodies() const { return tables_.bodies; }
 
   const Tables& tables_;

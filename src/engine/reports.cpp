@@ -63,7 +63,7 @@ Result<void> Reports::check(const Bodies& bodies, double time, std::size_t k) co
 void Reports::apply_all(Bodies& bodies, double time, Shift& shift) {
   broken_.clear();
   // What was changed since the last report is in a table of all bodies.
-  if (ids_.size() <= reports_at_once || bodies.has_changes())
+  if (ids_.size() <= reports_at_once || !bodies.changes.empty())
     return apply(bodies, time, 0, ids_.size(), broken_);
   std::mutex mutex;
   shift.for_each(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
@@ -86,7 +86,7 @@ void Reports::apply(Bodies& bodies, double time, std::size_t from, std::size_t t
     if (space.repeats()) state.position += space.shift_to_nearest(state.position, body.bound.centre_at(time));
     const Bound before = body.bound;
     std::optional<Vec3> kicked_to;
-    if (const Change* change = bodies.change_since_report(number)) {
+    if (const Change* change = bodies.changes.find(bodies[number])) {
       kicked_to = change->kicked_to;
       body.bound = bound_of(bodies.definition_of(number), state, time);
       bodies.forget_change(number);

@@ -20,7 +20,7 @@ void Island::rest(std::uint32_t number) {
   const MotionLimits limits = motion_limits_of(bodies().definition_of(number));
   const bool known = body.bound.time == time_;
   if (!known) bodies().change_of(number).kicked_to = Vec3{};
-  bodies().start_rest(number, limits);
+  bodies().rests.add(body, {number, limits});
   if (known) body.stand_still();
   if (bodies().definition().contacts == ContactMode::impacts) book().release_all(number);
   void_facts(number);
@@ -32,7 +32,7 @@ void Island::resume(std::uint32_t number) {
   Body& body = bodies()[number];
   const bool known = body.is_at_rest();
   const BodyDefinition definition = bodies().definition_of(number);
-  bodies().forget_rest(number);
+  bodies().rests.remove(bodies(), number);
   if (known) body.bound = bound_of(definition, {body.bound.position, {}}, time_);
 }
 
@@ -51,7 +51,7 @@ void Island::rouse(std::uint32_t number) {
 
 /// The body, if it rests, and all resting bodies in touch with it, with those, and so on.
 void Island::wake(std::uint32_t number) {
-  if (!bodies().any_rests()) return;
+  if (bodies().rests.empty()) return;
   std::vector<std::uint32_t> island = resting_in_touch(number);
   if (bodies()[number].is_resting()) rouse(number);
   while (!island.empty()) {
@@ -68,7 +68,7 @@ void Island::wake(std::uint32_t number) {
 void Island::wake_by(const Event& event) {
   if (event.kind != EventKind::contact_begin && event.kind != EventKind::contact_end) return;
   for (const BodyId id : {event.first, event.second})
-    if (bodies().is_alive(id) && bodies()[id.index].is_resting()) wake(id.index);
+    if (bodies().table().is_alive(id) && bodies()[id.index].is_resting()) wake(id.index);
 }
 
 std::vector<std::uint32_t> Island::resting_in_touch(std::uint32_t number) const {
@@ -76,11 +76,11 @@ std::vector<std::uint32_t> Island::resting_in_touch(std::uint32_t number) const 
   if (!bodies()[number].present()) return found;
   const double apart = book().rule().release_gap();
   const Vec3 room = Vec3{1.0, 1.0, 1.0} * apart;
-  const Extent own = bodies().extent(number);
-  const Box box = own.shape ? bodies().box_of(*own.shape) : box_now(bodies().space(), own.bound, time_);
+  const Extent own = extent_of(bodies(), number);
+  const Box box = box_now(bodies(), own, time_);
   for (const std::uint32_t other : bodies_in({box.lower - room, box.upper + room})) {
     if (other != number && bodies()[other].is_resting() && bodies().may_touch(number, other) &&
-        bodies().gap_at(time_, own, bodies().extent(other)).lower <= apart)
+        gap_at(bodies(), time_, own, extent_of(bodies(), other)).lower <= apart)
       found.push_back(other);
   }
   return found;

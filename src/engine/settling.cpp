@@ -93,17 +93,17 @@ void Island::enter(std::uint32_t number, const Window& window) {
     agenda_.add({window.end, number, HotPair::renewal, body.stamp, 0});
   }
   if (beside_) {
-    const Vec3 middle = bodies().space().repeats() ? bodies().middle_of(number) : Vec3{};
+    const Vec3 middle = bodies().space().repeats() ? bodies().homes[number].middle : Vec3{};
     beside_->add({number, time_, window, body.bound, middle});
   } else {
-    tables_->windows.enter(number, bodies().roomy_bound(number, time_), time_, window);
+    tables_->windows.enter(number, roomy_bound(bodies(), number, time_), time_, window);
   }
 }
 
 /// The bodies whose capsules may touch the body's new one; some of them need not. Beside other islands those
 /// that are not its own are claimed, if they matter.
 std::span<const std::uint32_t> Island::near(std::uint32_t number) {
-  const RoomyBound bound = bodies().roomy_bound(number, time_);
+  const RoomyBound bound = roomy_bound(bodies(), number, time_);
   const auto found = tables_->windows.near(number, bound, time_, facts().end_of(number), found_.scratch);
   if (!beside_) return found;
   claim_linked(number);

@@ -73,8 +73,7 @@ Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const st
   if (const char* where = engine->contradiction())
     return refusal(std::string("must hold a world that can be, but contradicts itself in its ") + where);
   engine->everybody_.agenda().add_all(engine->read_pairs_);
-  engine->tables_.bodies.forget_tag();
-  if (pair_filter) engine->tables_.bodies.keep_pair_filter(std::move(pair_filter));
+  if (pair_filter) engine->tables_.bodies.filters.keep_pair_filter(std::move(pair_filter));
   return engine;
 }
 
@@ -83,7 +82,7 @@ Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const st
 const char* World::Engine::contradiction() const {
   if (!std::isfinite(time()) || std::isnan(everybody_.phase_end())) return "time";
   if (const char* where = bodies().contradiction(time(), everybody_.dirty())) return where;
-  const auto known = [this](BodyId id) { return bodies().was_given_out(id); };
+  const auto known = [this](BodyId id) { return bodies().table().was_given_out(id); };
   if (!book().is_sound(bodies().numbers(), bodies().walls()) ||
       !everybody_.instant().is_sound(bodies().numbers(), time(), bodies().walls(), known) ||
       !contacts_of_fixed_are_sound())

@@ -60,7 +60,7 @@ void World::Engine::choose_tempo(std::span<const std::uint32_t> round) {
       lower[axis] = std::min(lower[axis], centre[axis]);
       upper[axis] = std::max(upper[axis], centre[axis]);
     }
-    const Pace pace = bodies().pace_of(number, time());
+    const Pace pace = pace_of(MovedBound(bodies()[number].bound, time()));
     speeds.push_back(pace.speed);
     acceleration += pace.acceleration / static_cast<double>(round.size());
   }
@@ -121,8 +121,8 @@ std::vector<Windows::Starter> World::Engine::choose_windows(std::span<const std:
       const std::size_t end = std::min((part + 1) * bodies_at_once, numbers.size());
       for (std::size_t k = part * bodies_at_once; k < end; ++k) {
         const std::uint32_t number = numbers[k];
-        const RoomyBound bound = bodies().room_for(number, MovedBound(bodies()[number].bound, now));
-        const Pace pace = Bodies::pace_of(bound.moved);
+        const RoomyBound bound = room_for(bodies(), number, MovedBound(bodies()[number].bound, now));
+        const Pace pace = pace_of(bound.moved);
         const Window& window = free.of(pacing.tier_for(number, pace));
         starters[k] = {number, 0, window};
         if (window.end == now) continue;
@@ -165,7 +165,7 @@ Result<void> World::Engine::start_windows(Shift& shift, bool all, std::span<cons
     return true;
   });
   windows.start(
-      starters, now, [this, now](std::uint32_t number) { return bodies().roomy_bound(number, now); }, shift);
+      starters, now, [&](std::uint32_t number) { return roomy_bound(bodies(), number, now); }, shift);
   tempo.finish_start(round, find_pairs_of_started(shift), windows.size());
   find_others_of(starters, shift);
   for (FoundPairs& found : found_) everybody_.take(found);
@@ -182,7 +182,7 @@ SearchCost World::Engine::find_pairs_of_started(Shift& shift) {
   shift.for_each(
       windows.started(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
         FoundPairs& found = found_[worker];
-        const auto bound_of = [this, now](std::uint32_t number) { return bodies().roomy_bound(number, now); };
+        const auto bound_of = [&](std::uint32_t number) { return roomy_bound(bodies(), number, now); };
         found.searches += to - from;
         for (const auto& [a, b] : windows.near_started(from, to, now, bound_of, found.scratch))
           facts.find_hot_pair(a, b, found);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/contact_book.hpp"
-#include "engine/bodies.hpp"
+#include "engine/room.hpp"
 #include "window/tempo.hpp"
 #include "window/windows.hpp"
 
@@ -13,7 +13,7 @@ struct Tables {
       : bodies(definition),
         book(definition),
         windows(bodies.space()),
-        tempo(bodies.longest_way(), definition.dimensions) {}
+        tempo(longest_way(bodies.definition()), definition.dimensions) {}
 
   Bodies bodies;
   ContactBook book;

@@ -17,7 +17,7 @@ World::Engine::Answers::Answers(const Engine& engine) : engine_(engine), now_(en
 }
 
 Bound World::Engine::Answers::present(std::uint32_t number) const {
-  return present_bound(body(number), engine_.bodies().change_since_report(number), now_);
+  return present_bound(body(number), engine_.bodies().changes.find(engine_.bodies()[number]), now_);
 }
 
 /// A begin is told where the gap of fresh reports is at most the tolerance, and each report may be e0 away
@@ -115,7 +115,7 @@ void World::Engine::Answers::consider(std::uint32_t a, std::uint32_t b, const Pa
   const Bound bound_of_a = guarded(a);
   const Bound bound_of_b = guarded(b);
   const double time = std::max(
-      known, meeting(engine_.bodies().extent(a, bound_of_a), engine_.bodies().extent(b, bound_of_b)));
+      known, meeting(extent_of(engine_.bodies(), a, bound_of_a), extent_of(engine_.bodies(), b, bound_of_b)));
   if (time < first.time) first = {time, a, b, Wall::none, false};
 }
 
@@ -161,7 +161,7 @@ Onset World::Engine::Answers::of_world() const {
 
 /// Until a horizon, in the image in which the middle of its way lies in the primary box.
 RoomyBound World::Engine::Answers::until_horizon(std::uint32_t number, double horizon) const {
-  if (body(number).is_fixed()) return engine_.bodies().roomy_bound(number, now_);
+  if (body(number).is_fixed()) return roomy_bound(engine_.bodies(), number, now_);
   Bound bound = guarded(number);
   const Box box = swept_box(bound, now_, horizon);
   bound.position -= engine_.bodies().space().shift_of(
@@ -202,8 +202,8 @@ DistanceLimits World::Engine::Answers::distance(std::uint32_t a, std::uint32_t b
   const Bound first = present(a);
   Bound second = present(b);
   second.position += engine_.bodies().space().shift_to_nearest(second.centre_at(time), first.centre_at(time));
-  const Extent extent_of_a = engine_.bodies().extent(a, first);
-  const Extent extent_of_b = engine_.bodies().extent(b, second);
+  const Extent extent_of_a = extent_of(engine_.bodies(), a, first);
+  const Extent extent_of_b = extent_of(engine_.bodies(), b, second);
   if (extent_of_a.shape && extent_of_b.shape) return {-infinity, infinity, false};
   const GapLimits gap = visit_extents(
       extent_of_a, extent_of_b,
@@ -224,8 +224,8 @@ void World::Engine::Answers::consider_approach(std::uint32_t a, std::uint32_t b,
   // A shape has no radius that could be larger by the distance, but then the other body has.
   double& radius = body(a).is_fixed() ? bound_of_b.radius : bound_of_a.radius;
   radius = rounding::sum_up(radius, distance);
-  const Extent extent_of_a = engine_.bodies().extent(a, bound_of_a);
-  const Extent extent_of_b = engine_.bodies().extent(b, bound_of_b);
+  const Extent extent_of_a = extent_of(engine_.bodies(), a, bound_of_a);
+  const Extent extent_of_b = extent_of(engine_.bodies(), b, bound_of_b);
   const bool known = !extent_of_a.shape || !extent_of_b.shape;
   const double time = known ? meeting(extent_of_a, extent_of_b) : now_;
   const bool within = time <= now_ && known && this->distance(a, b, now_).upper <= distance;

@@ -87,14 +87,14 @@ class World::Engine::Audit {
     if (engine_.bodies().space().is_flat())
       std::tie(box.lower.z, box.upper.z) = std::pair(-infinity, infinity);
     Bound reach = b.bound;
-    reach.radius += engine_.bodies().sensors().reach(b.sensor_class);
+    reach.radius += engine_.bodies().sensors.reach(b.sensor_class);
     const double exit = earliest_exit(reach, box, now_, end);
     if (too_late(end, exit, now_)) find("registration", name(number) + " leaves its box" + times(end, exit));
   }
 
   void check_fixed(std::uint32_t number, double end) {
     const Box box = engine_.box(number);
-    const Box shape = engine_.bodies().box_of_fixed(number);
+    const Box shape = box_of_fixed(engine_.bodies(), number);
     for (int axis = 0; axis < 3; ++axis)
       if (!(box.lower[axis] <= shape.lower[axis] && shape.upper[axis] <= box.upper[axis]) || end != infinity)
         return find("registration", name(number) + " is fixed but not registered where its shape is");
@@ -137,10 +137,9 @@ class World::Engine::Audit {
 
   void check_crossings(std::uint32_t a, std::uint32_t b) {
     for (const Crossing& crossing : engine_.book().crossings_of(a, b)) {
-      const bool senses =
-          engine_.bodies().may_meet(a, b) &&
-          engine_.bodies().sensors().senses(engine_.bodies().sensing_of(a), engine_.bodies().sensing_of(b),
-                                            crossing.distance);
+      const bool senses = engine_.bodies().may_meet(a, b) &&
+                          engine_.bodies().sensors.senses(sensing_of(engine_.bodies(), a),
+                                                          sensing_of(engine_.bodies(), b), crossing.distance);
       if (!engine_.book().is_within(b, a, crossing.distance))
         find("sensor", pair(a, b) + " sense each other on one side only");
       if (!senses) find("sensor", pair(a, b) + " are within a distance that neither senses");
@@ -150,8 +149,8 @@ class World::Engine::Audit {
   void check_threshold(std::uint32_t a, std::uint32_t b, const Threshold& threshold) {
     // It is to be looked at before time moves on.
     if (!checkable(a, b, threshold) || hot_.of(a, b) <= now_) return;
-    const Extent first = engine_.bodies().extent(a);
-    const Extent second = engine_.bodies().extent(b);
+    const Extent first = extent_of(engine_.bodies(), a);
+    const Extent second = extent_of(engine_.bodies(), b);
     const PlainGap gap(first, second, engine_.bodies().space().period());
     check_state(a, b, threshold, gap);
     // Beyond the end of a window the two may meet in another image, and will have been found again.
@@ -180,7 +179,7 @@ class World::Engine::Audit {
   double slack_of_gaps() const { return 0.25 * engine_.definition().contact_tolerance; }
 
   bool boxes_overlap(std::uint32_t a, std::uint32_t b) const {
-    const Vec3 shift = engine_.bodies().space().repeats() ? engine_.bodies().shift_to_meet(a, b) : Vec3{};
+    const Vec3 shift = engine_.bodies().space().repeats() ? shift_to_meet(engine_.bodies(), a, b) : Vec3{};
     const Box one = engine_.box(a);
     const Box other = engine_.box(b);
     for (int axis = 0; axis < 3; ++axis)
@@ -222,7 +221,7 @@ class World::Engine::Audit {
   }
 
   double earliest_change(std::uint32_t a, std::uint32_t b, const Threshold& threshold, double level) const {
-    return engine_.bodies().visit_pair(a, b, [&](const Bound& bound, const auto& partner) {
+    return visit_pair(engine_.bodies(), a, b, [&](const Bound& bound, const auto& partner) {
       return threshold.within ? earliest_separation(bound, partner, now_, infinity, level)
                               : earliest_meeting(bound, partner, now_, infinity, level);
     });
@@ -233,8 +232,8 @@ class World::Engine::Audit {
     if (!exact(body(a)) || !exact(body(b))) return false;
     const ContactRule& rule = engine_.book().rule_of(threshold);
     return !rule.impacts_only() ||
-           engine_.bodies().gap_at(now_, engine_.bodies().extent(a), engine_.bodies().extent(b)).lower >
-               rule.tolerance();
+           gap_at(engine_.bodies(), now_, extent_of(engine_.bodies(), a), extent_of(engine_.bodies(), b))
+                   .lower > rule.tolerance();
   }
 
   /// True when the engine owes a fact about the pair (a body and itself: its walls) now.

@@ -113,7 +113,7 @@ std::vector<Found> World::Engine::Queries::overlapping(const Box& box, Distance 
   std::vector<Found> found;
   const double size = norm_one(box.lower) + norm_one(box.upper);
   for (const std::uint32_t number : engine_.everybody().bodies_in(box)) {
-    if (const Shape* shape = engine_.bodies().extent(number).shape) {
+    if (const Shape* shape = extent_of(engine_.bodies(), number).shape) {
       const GapLimits gap = gap_to(*shape);
       if (gap.lower > 0.0) continue;
       found.push_back(
@@ -147,7 +147,7 @@ std::vector<Near> World::Engine::Queries::distances(const std::vector<std::uint3
                                                     const Vec3& point) const {
   std::vector<Near> all;
   for (const std::uint32_t number : numbers) {
-    if (const Shape* shape = engine_.bodies().extent(number).shape) {
+    if (const Shape* shape = extent_of(engine_.bodies(), number).shape) {
       const GapLimits gap = limits_of(resting(point, 0.0), *shape);
       all.push_back({engine_.bodies().id_of(number), Certainty::possibly, gap.lower, gap.upper});
       continue;
@@ -170,7 +170,8 @@ std::vector<std::uint32_t> World::Engine::Queries::around(const Vec3& point, std
     const std::vector<Near> all = distances(numbers, point);
     const auto within =
         std::count_if(all.begin(), all.end(), [=](const Near& n) { return n.upper <= reach; });
-    if (static_cast<std::size_t>(within) >= count || numbers.size() == engine_.bodies().present_count())
+    if (static_cast<std::size_t>(within) >= count ||
+        numbers.size() == engine_.bodies().table().present_count())
       return numbers;
   }
   std::vector<std::uint32_t> everybody;
@@ -180,7 +181,7 @@ std::vector<std::uint32_t> World::Engine::Queries::around(const Vec3& point, std
 }
 
 std::vector<Near> World::Engine::Queries::nearest(const Vec3& point, std::size_t count) const {
-  count = std::min(count, engine_.bodies().present_count());
+  count = std::min(count, engine_.bodies().table().present_count());
   if (count == 0) return {};
   std::vector<Near> all = distances(around(point, count), point);
   std::vector<double> uppers;
@@ -207,7 +208,7 @@ std::vector<Near> World::Engine::Queries::nearest(const Vec3& point, std::size_t
 /// What becomes of a body on the way, in the first of its images that comes near this piece of it: nothing
 /// where it is missed.
 std::optional<Hit> World::Engine::Queries::hit(const Way& way, const Box& piece, std::uint32_t number) const {
-  if (const Shape* shape = engine_.bodies().extent(number).shape) {
+  if (const Shape* shape = extent_of(engine_.bodies(), number).shape) {
     const WayLimits touch = touch_of(way, *shape);
     if (touch.lower == infinity) return std::nullopt;
     return Hit{engine_.bodies().id_of(number), Certainty::possibly, touch.lower, touch.upper};

@@ -41,7 +41,8 @@ Result<void> World::Check::may_ask(const Probe& probe) const {
 }
 
 bool World::Check::is_foreign(BodyId body) const {
-  return body.world != engine_->bodies().tag() && body.world != 0 && engine_->bodies().tag() != 0;
+  return body.world != engine_->bodies().table().tag() && body.world != 0 &&
+         engine_->bodies().table().tag() != 0;
 }
 
 Result<void> World::Check::known(BodyId body) const {
@@ -51,7 +52,7 @@ Result<void> World::Check::known(BodyId body) const {
   if (is_foreign(body)) return error_about(ErrorCode::foreign_body, body, name + " is one of another world");
   const auto& table = engine_->bodies().table();
   // A free index has the generation that its next body will have.
-  if (body.index < table.size() && body.generation < table[body.index].generation)
+  if (body.index < table.numbers() && body.generation < table[body.index].generation)
     return error_about(ErrorCode::stale_body, body, name + " has been removed");
   return error_about(ErrorCode::unknown_body, body, name + " was never in this world");
 }
@@ -112,7 +113,7 @@ Result<void> World::Check::room(const BodyDefinition& body, BodyId id) const {
 Result<void> World::Check::fixed_room(const FixedDefinition& fixed, BodyId id) const {
   if (definition().allow_overlap) return {};
   const Bound bound = engine_->bound_now(body_of(fixed));
-  const auto other = engine_->certain_overlap(id, Bodies::extent_of(bound, fixed.shape), body_of(fixed));
+  const auto other = engine_->certain_overlap(id, extent_of(bound, fixed.shape), body_of(fixed));
   return other ? Result<void>(overlap_error(call_, *other, text_of(*other), "shape")) : Result<void>();
 }
 
@@ -141,7 +142,7 @@ Result<void> World::Check::growth(const BodyDefinition& changed, BodyId id, std:
 }
 
 Result<void> World::Check::reach(const BodyDefinition& changed, BodyId id, std::string_view argument) const {
-  const double reach = engine_->bodies().sensors().reach(changed.sensor_class);
+  const double reach = engine_->bodies().sensors.reach(changed.sensor_class);
   return check_reach(reach, changed, id, argument, definition(), call_);
 }
 

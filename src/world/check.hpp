@@ -32,7 +32,7 @@ class World::Check {
   /// The world exists, and the body is one of its own and has not been removed.
   Result<void> known(BodyId body) const;
   /// The same as a plain answer, of a world that exists.
-  bool is_known(BodyId body) const { return !is_foreign(body) && engine_->bodies().is_alive(body); }
+  bool is_known(BodyId body) const { return !is_foreign(body) && engine_->bodies().table().is_alive(body); }
   /// Known, and the world is idle.
   Result<void> changeable(BodyId body) const;
   /// Changeable, and enabled or disabled as the call needs it.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/engine.hpp"
+#include "engine/fixed.hpp"
 #include "engine/validation.hpp"
 #include "input/input_check.hpp"
 #include "recording/recorder.hpp"
@@ -64,7 +65,7 @@ Result<World> World::create(const WorldDefinition& definition) {
 Result<BodyId> World::add(const BodyDefinition& body) {
   const Check check(*this, "add");
   if (auto idle = check.idle(); !idle) return idle.error();
-  if (auto valid = check.new_body(body, engine_->bodies().next_id()); !valid) return valid.error();
+  if (auto valid = check.new_body(body, engine_->bodies().table().next_id()); !valid) return valid.error();
   return changing(step::Add{body}).add(body);
 }
 
@@ -87,7 +88,7 @@ Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodie
   std::optional<Error> wrong;
   for (; valid < bodies.size() && !wrong; ++valid) {
     const auto checked =
-        Check(*this, call_for(valid)).new_body(bodies[valid], engine_->bodies().next_id(valid));
+        Check(*this, call_for(valid)).new_body(bodies[valid], engine_->bodies().table().next_id(valid));
     if (!checked) {
       wrong = checked.error();
       break;
@@ -102,8 +103,8 @@ Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodie
   std::vector<BodyId> ids;
   ids.reserve(bodies.size());
   // Room for each of many small batches would be made one by one.
-  if (bodies.size() >= engine_->bodies().size())
-    changeable().reserve(engine_->bodies().size() + bodies.size());
+  if (bodies.size() >= engine_->bodies().table().live_count())
+    changeable().reserve(engine_->bodies().table().live_count() + bodies.size());
   for (const BodyDefinition& body : bodies) ids.push_back(changing(step::Add{body}).add(body));
   return ids;
 }
@@ -147,7 +148,7 @@ Result<void> World::enable(BodyId body, const State& state) {
   auto valid = Check(*this, "enable").enabled(body, false);
   if (valid) {
     valid = engine_->bodies().table()[body.index].is_fixed()
-                ? Check(*this, "enable").fixed_room(engine_->bodies().fixed_definition(body), body)
+                ? Check(*this, "enable").fixed_room(fixed_definition(engine_->bodies(), body), body)
                 : Check(*this, "enable").moved(body, state);
   }
   if (valid) changing(step::Enable{body, state}).enable(body, state);
@@ -243,7 +244,7 @@ Result<void> World::set_sensor_class(BodyId body, SensorClass sensor_class) {
 }
 
 const Sensor& World::sensor(SensorClass sensor_class) const {
-  return engine("sensor").bodies().sensors().of(sensor_class);
+  return engine("sensor").bodies().sensors.of(sensor_class);
 }
 
 Result<void> World::set_user_data(BodyId body, std::uint64_t data) {
@@ -291,7 +292,7 @@ Result<bool> World::refresh(std::span<const std::uint32_t> numbers, const Probe&
 }
 
 double World::time() const { return engine("time").time(); }
-std::size_t World::size() const { return engine("size").bodies().size(); }
+std::size_t World::size() const { return engine("size").bodies().table().live_count(); }
 const WorldDefinition& World::definition() const { return engine("definition").definition(); }
 const Counters& World::counters() const { return engine("counters").counters(); }
 
@@ -336,7 +337,7 @@ Result<void> World::start_recording() {
   if (recorder_)
     return Error{ErrorCode::recording, "world", no_body,
                  "start_recording: the world is being recorded already"};
-  recorder_ = std::make_unique<Recorder>(*this, engine_->bodies().has_pair_filter());
+  recorder_ = std::make_unique<Recorder>(*this, engine_->bodies().filters.has_pair_filter());
   return {};
 }
 
@@ -372,7 +373,7 @@ Result<std::vector<Sensed>> World::sensed(BodyId body) const {
 std::vector<BodyId> World::bodies() const {
   std::vector<BodyId> ids;
   const Engine& engine = this->engine("bodies");
-  for (std::uint32_t number = 0; number < engine.bodies().table().size(); ++number)
+  for (std::uint32_t number = 0; number < engine.bodies().numbers(); ++number)
     if (engine.bodies().table()[number].alive) ids.push_back(engine.bodies().id_of(number));
   return ids;
 }

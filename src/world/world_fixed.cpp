@@ -7,7 +7,7 @@ namespace kinesphere {
 Result<BodyId> World::add_fixed(const FixedDefinition& body) {
   const Check check(*this, "add_fixed");
   if (auto idle = check.idle(); !idle) return idle.error();
-  const auto kept = check.new_fixed(body, engine_->bodies().next_id());
+  const auto kept = check.new_fixed(body, engine_->bodies().table().next_id());
   if (!kept) return kept.error();
   return changing(step::AddFixed{*kept}).add_fixed(*kept);
 }
@@ -17,10 +17,10 @@ Result<BodyId> World::add_zone(const Shape& shape, std::uint64_t user_data) {
   if (auto idle = check.idle(); !idle) return idle.error();
   const auto kept =
       check.new_fixed({.shape = shape, .solid = false, .sensor_class = zone_class, .user_data = user_data},
-                      engine_->bodies().next_id());
+                      engine_->bodies().table().next_id());
   if (!kept) return kept.error();
-  if (engine_->bodies().sensors().of(zone_class).distances.empty()) {
-    Sensor touch = engine_->bodies().sensors().of(zone_class);
+  if (engine_->bodies().sensors.of(zone_class).distances.empty()) {
+    Sensor touch = engine_->bodies().sensors.of(zone_class);
     touch.distances = {0.0};
     changing(step::SetSensor{zone_class, touch}).set_sensor(zone_class, touch);
   }
@@ -33,7 +33,7 @@ Result<std::vector<BodyId>> World::add_fixed_all(std::span<const FixedDefinition
   kept.reserve(bodies.size());
   for (std::size_t number = 0; number < bodies.size(); ++number) {
     const std::string call = "add_fixed_all: bodies[" + std::to_string(number) + "]";
-    auto valid = Check(*this, call).new_fixed(bodies[number], engine_->bodies().next_id(number));
+    auto valid = Check(*this, call).new_fixed(bodies[number], engine_->bodies().table().next_id(number));
     if (!valid) return valid.error();
     kept.push_back(*valid);
   }
@@ -45,9 +45,9 @@ Result<std::vector<BodyId>> World::add_fixed_all(std::span<const FixedDefinition
 
 Result<Shape> World::shape_of(BodyId body) const {
   if (auto valid = Check(*this, "shape_of").known(body); !valid) return valid.error();
-  if (engine_->bodies().table()[body.index].is_fixed()) return engine_->bodies().shape(body.index);
-  const Body& moving = engine_->bodies().table()[body.index];
-  return Shape(Ball{moving.bound.position, moving.radius});
+  const Body& kept = engine_->bodies()[body.index];
+  if (kept.is_fixed()) return engine_->bodies().shapes.of(kept);
+  return Shape(Ball{kept.bound.position, kept.radius});
 }
 
 }  // namespace kinesphere

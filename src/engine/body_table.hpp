@@ -1,0 +1,56 @@
+// The table of bodies: each has a number; numbers that were given back are taken again, last come first, by
+// another generation, so that an id stands for one body for ever.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/body.hpp"
+#include "kinesphere/body_id.hpp"
+
+namespace kinesphere {
+
+class BodyTable {
+ public:
+  BodyTable();
+
+  Body& operator[](std::uint32_t number) { return bodies_[number]; }
+  const Body& operator[](std::uint32_t number) const { return bodies_[number]; }
+  auto begin() const { return bodies_.begin(); }
+  auto end() const { return bodies_.end(); }
+  /// All numbers are smaller than this.
+  std::uint32_t numbers() const { return static_cast<std::uint32_t>(bodies_.size()); }
+  /// That live.
+  std::size_t live_count() const { return live_count_; }
+  /// That live and are enabled. Cost: O(n).
+  std::size_t present_count() const;
+
+  void reserve(std::size_t bodies) { bodies_.reserve(bodies); }
+  /// The number of a body that lives and has nothing else yet.
+  std::uint32_t take();
+  void give_back(std::uint32_t number);
+
+  /// The sum of what all worlds of this program that were made before count: of BodyId::world.
+  std::uint32_t tag() const { return tag_; }
+  BodyId id_of(std::uint32_t number) const { return {number, bodies_[number].generation, tag_}; }
+  /// The ids that the next bodies added will have, in their order.
+  BodyId next_id(std::size_t additions_before = 0) const;
+  bool is_alive(BodyId id) const {
+    return id.index < numbers() && bodies_[id.index].alive && bodies_[id.index].generation == id.generation;
+  }
+  bool was_given_out(BodyId id) const;
+
+  /// Of one that was read: each number is free or that of a body that lives.
+  bool is_sound() const;
+
+ private:
+  friend class Bodies;  // its transfer() archives the fields
+
+  std::vector<Body> bodies_;
+  std::size_t live_count_ = 0;
+  std::vector<std::uint32_t> free_;
+  std::uint32_t tag_;
+};
+
+}  // namespace kinesphere
