@@ -139,7 +139,7 @@ class World::Engine {
 
   Tables tables_;
   Island everybody_;
-  std::vector<FoundPairs> found_;         ///< by worker; kept for its memory only
+  std::vector<FoundPairs> found_;    ///< by worker; kept for its memory only
   std::vector<HotPair> read_pairs_;  ///< from a snapshot, until they are in the agenda
 };
 

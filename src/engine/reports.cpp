@@ -23,17 +23,27 @@ constexpr std::size_t reports_at_once = 512;
 Result<std::span<const Reports::Broken>> Reports::take(Bodies& bodies, double time,
                                                        std::span<const std::uint32_t> numbers, Shift& shift) {
   ask_for(bodies, time, numbers, shift);
-  if (const std::size_t bad = first_bad(bodies, time, shift); bad < ids_.size())
-    return check(bodies, time, bad).error();
-  apply_all(bodies, time, shift);
+  broken_.clear();
+  // Most are asked one by one.
+  if (numbers.size() == 1) {
+    if (auto valid = check(bodies, time, 0); !valid) return valid.error();
+    apply(bodies, time, 0, 1, broken_);
+  } else {
+    const std::size_t bad = first_bad(bodies, time, shift);
+    if (bad < numbers.size()) return check(bodies, time, bad).error();
+    apply_all(bodies, time, shift);
+  }
   return std::span<const Broken>(broken_);
 }
 
 void Reports::ask_for(const Bodies& bodies, double time, std::span<const std::uint32_t> numbers,
                       Shift& shift) {
-  ids_.clear();
-  for (const std::uint32_t number : numbers) ids_.push_back(bodies.id_of(number));
-  states_.assign(numbers.size(), unanswered);
+  ids_.resize(numbers.size());
+  states_.resize(numbers.size());
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    ids_[k] = bodies.id_of(numbers[k]);
+    states_[k] = unanswered;
+  }
   const WhileTrue guard(asking_);
   shift.for_each(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
     const std::size_t count = to - from;
@@ -61,18 +71,17 @@ Result<void> Reports::check(const Bodies& bodies, double time, std::size_t k) co
 }
 
 void Reports::apply_all(Bodies& bodies, double time, Shift& shift) {
-  broken_.clear();
-  // What was changed since the last report is in a table of all bodies.
-  if (ids_.size() <= reports_at_once || !bodies.changes.empty())
-    return apply(bodies, time, 0, ids_.size(), broken_);
+  Shift alone;
   std::mutex mutex;
-  shift.for_each(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
-    std::vector<Broken> some;
-    apply(bodies, time, from, to, some);
-    if (some.empty()) return;
-    const std::lock_guard lock(mutex);
-    broken_.insert(broken_.end(), some.begin(), some.end());
-  });
+  // What was changed since the last report is in a table of all bodies.
+  (bodies.changes.empty() ? shift : alone)
+      .for_each(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+        std::vector<Broken> some;
+        apply(bodies, time, from, to, some);
+        if (some.empty()) return;
+        const std::lock_guard lock(mutex);
+        broken_.insert(broken_.end(), some.begin(), some.end());
+      });
   std::sort(broken_.begin(), broken_.end(), [](const Broken& a, const Broken& b) { return a.k < b.k; });
 }
 

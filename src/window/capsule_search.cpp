@@ -2,6 +2,7 @@
 #include "window/capsule_search.hpp"
 
 #include <array>
+#include <bit>
 
 // Without it, Highway 1.0 cannot be compiled for a processor that has these vectors and no better ones.
 #ifndef HWY_WANT_AVX3_DL
@@ -28,15 +29,13 @@ namespace kinesphere::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// No fused operations: every processor has to round alike. No branches but those of the loops: the processor
-// goes on with the next run before it knows what has been found in this one.
+// No fused operations: every processor has to round alike. Wider vectors than those of eight have been tried:
+// rows are too short for them.
 void near_capsules(const float* const* table, const CapsuleQuery* queries, const Run* runs,
                    std::size_t run_count, std::uint32_t* found, std::uint32_t* ends) {
-  const hn::CappedTag<float, capsule_padding> d;
-  const hn::RebindToUnsigned<decltype(d)> places;
+  const hn::CappedTag<float, capsule_lanes> d;
   const std::size_t lanes = hn::Lanes(d);
   const auto least = hn::Set(d, capsule_search::least_square);
-  const auto counted = hn::Iota(places, 0);
   std::uint32_t* next = found;
   for (std::size_t run = 0; run < run_count; ++run) {
     const auto& [capsule, first_time, last_time] = queries[runs[run].query];
@@ -62,9 +61,10 @@ void near_capsules(const float* const* table, const CapsuleQuery* queries, const
       const auto pz = hn::Add(dz, hn::Mul(dw, s));
       const auto square = hn::Add(hn::Add(hn::Mul(px, px), hn::Mul(py, py)), hn::Mul(pz, pz));
       const auto apart = hn::Gt(square, hn::Add(hn::Mul(radii, radii), least));
-      const auto near = hn::RebindMask(places, hn::AndNot(apart, hn::FirstN(d, end - k)));
-      hn::StoreU(hn::Compress(hn::Add(counted, hn::Set(places, k)), near), places, next);
-      next += hn::CountTrue(places, near);
+      std::array<std::uint8_t, 8> bytes{};
+      hn::StoreMaskBits(d, hn::AndNot(apart, hn::FirstN(d, end - k)), bytes.data());
+      for (unsigned bits = bytes[0]; bits != 0; bits &= bits - 1)
+        *next++ = k + static_cast<std::uint32_t>(std::countr_zero(bits));
     }
     ends[run] = static_cast<std::uint32_t>(next - found);
   }

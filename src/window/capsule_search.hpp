@@ -18,9 +18,9 @@ struct Run {
 };
 
 /// Seven columns of one length: the centres, velocities and radii of capsules of one frame. Behind the last
-/// one there must be room to read `capsule_padding` numbers.
+/// one there must be room to read `capsule_lanes` numbers, as many as are looked at at a time.
 using CapsuleColumns = std::array<const float*, 7>;
-inline constexpr std::size_t capsule_padding = 16;
+inline constexpr std::size_t capsule_lanes = 8;
 
 /// A capsule, and a span of time in which to look at it, from <= to, both in the frame of the table.
 struct CapsuleQuery {
@@ -31,7 +31,7 @@ struct CapsuleQuery {
 
 /// Writes to `found`, run by run, the places of all capsules that may touch the capsule of the run's query
 /// during its span, and to `ends` how many there are up to the end of each run. `found` has room for all
-/// places of all runs, and `capsule_padding` more. Every capsule that does touch it is among them, if speeds
+/// places of all runs. Every capsule that does touch it is among them, if speeds
 /// are as capsule_of() lets them be. The same on all processors, to the bit: the best vectors of this one are
 /// used (Google Highway), and near_capsules_plain() is the same without.
 void near_capsules(const CapsuleColumns& table, std::span<const CapsuleQuery> queries,

@@ -23,8 +23,8 @@ constexpr std::size_t too_many_in_a_cell = 24;
 /// Whole numbers of cells stay below this, so that sums of some do not overflow.
 constexpr float most_cells = 0x1p29f;
 
-/// A search looks at so many capsules at a time, on processors that can.
-constexpr std::uint32_t most_lanes = capsule_padding;
+/// So many are read at a time, on processors that can.
+constexpr std::uint32_t lanes = capsule_lanes;
 
 }  // namespace
 
@@ -63,7 +63,7 @@ void Layer::store(std::uint32_t place, const Capsule& capsule) {
 std::uint32_t Layer::add(std::uint32_t number, const Capsule& capsule, float from) {
   const auto place = static_cast<std::uint32_t>(numbers_.size());
   for (std::vector<float>& column : columns_) {
-    if (column.size() < place + capsule_padding + 1) column.resize(place + capsule_padding + 1);
+    if (column.size() < place + capsule_lanes + 1) column.resize(place + capsule_lanes + 1);
   }
   numbers_.push_back(number);
   store(place, capsule);
@@ -390,8 +390,8 @@ float Layer::arrange(const Unsorted& all, Shift& shift) {
   most_behind_ = least_behind + static_cast<std::uint32_t>(4.0 * std::sqrt(static_cast<double>(count)));
   // With room for those that come behind, or one of them would make vectors twice as large.
   for (std::vector<float>& column : columns_) {
-    column.reserve(count + most_behind_ + capsule_padding + 2);
-    column.resize(count + capsule_padding);
+    column.reserve(count + most_behind_ + capsule_lanes + 2);
+    column.resize(count + capsule_lanes);
   }
   numbers_.reserve(count + most_behind_ + 2);
   numbers_.resize(count);
@@ -441,7 +441,7 @@ void Layer::add_runs(const CapsuleQuery& query, std::uint32_t first_cell, std::u
   // Two that take no fewer vectors than both with all between them are read as one; unless what is between
   // them may have been read already.
   const bool in_order = !wraps(0) && !wraps(1) && !wraps(2);
-  const auto vectors = [](const Run& run) { return (run.end - run.begin + most_lanes - 1) / most_lanes; };
+  const auto vectors = [](const Run& run) { return (run.end - run.begin + lanes - 1) / lanes; };
   const auto add = [&](std::uint32_t first, std::uint32_t last) {
     const Run run{std::max(first, first_place), last, number};
     if (run.begin >= run.end) return;
@@ -484,7 +484,7 @@ void Layer::add_search_behind(std::uint32_t place, Searches& searches) const {
 }
 
 void Layer::make(Searches& searches) const {
-  std::size_t most = capsule_padding;
+  std::size_t most = 0;
   for (const Run& run : searches.runs) most += run.end - run.begin;
   if (searches.places.size() < most) searches.places.resize(most);
   if (searches.ends.size() < searches.runs.size()) searches.ends.resize(searches.runs.size());
@@ -496,7 +496,7 @@ bool Layer::is_sound() const {
   if (!is_finite(frame_.base) || !std::isfinite(frame_.origin) || !is_power(frame_.per_length) ||
       !is_power(frame_.per_time))
     return false;
-  const std::size_t filled = numbers_.empty() ? 0 : numbers_.size() + capsule_padding;
+  const std::size_t filled = numbers_.empty() ? 0 : numbers_.size() + capsule_lanes;
   for (const std::vector<float>& column : columns_)
     if (column.size() < filled) return false;
   const auto holes = static_cast<std::size_t>(std::count(numbers_.begin(), numbers_.end(), nobody));

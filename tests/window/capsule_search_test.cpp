@@ -24,7 +24,7 @@ class Table {
   explicit Table(std::size_t places, std::size_t misalignment = 0)
       : places_(places), misalignment_(misalignment) {
     for (std::vector<float>& column : columns_)
-      column.assign(misalignment + places + capsule_padding, not_a_number);
+      column.assign(misalignment + places + capsule_lanes, not_a_number);
   }
   std::size_t places() const { return places_; }
   void set(std::size_t place, const Capsule& capsule) {
@@ -125,7 +125,7 @@ std::size_t places_in(const std::vector<Run>& runs) {
 
 /// The places that are found and, behind them, where those of each run end.
 std::vector<std::uint32_t> found(decltype(near_capsules)& search, const Question& question) {
-  const std::size_t room = places_in(question.runs) + capsule_padding;
+  const std::size_t room = places_in(question.runs);
   std::vector<std::uint32_t> places(room + 1, 0xabcdu);
   std::vector<std::uint32_t> ends(question.runs.size() + 1, 0xabcdu);
   search(question.table.columns(), std::array{question.query, question.second_query}, question.runs,

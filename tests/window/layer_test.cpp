@@ -271,7 +271,7 @@ class Mirrored {
   std::set<std::uint32_t> plain_search(const CapsuleQuery& query) const {
     const auto places = static_cast<std::uint32_t>(layer.places());
     std::array<std::vector<float>, 7> columns;
-    for (std::vector<float>& column : columns) column.resize(places + capsule_padding);
+    for (std::vector<float>& column : columns) column.resize(places + capsule_lanes);
     for (std::uint32_t place = 0; place < places; ++place) {
       const Capsule capsule = layer.capsule_at(place);
       for (std::size_t axis = 0; axis < 3; ++axis) {
