@@ -141,7 +141,7 @@ class alignas(128) Island {
   Result<void> go_on(Answerer* answerer, std::vector<Told>& told);
   Beside& beside() { return *beside_; }
 
-  // Windows (settling.cpp).
+  // The phase.
   /// All windows that hold a body now end at this time or later; those that end before it, of bodies that
   /// were kicked, are renewed one by one.
   double phase_end() const { return phase_end_; }
