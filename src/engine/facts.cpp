@@ -57,6 +57,12 @@ double Facts::unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) co
   return first;
 }
 
+double Facts::walls_unchanged_until(std::uint32_t number) const {
+  if (book().walls_of(number) != 0) return time_;
+  return until_reports_of_walls(book().rule(), bodies()[number].bound, *bodies().walls(), time_,
+                                end_of(number));
+}
+
 void Facts::find_hot_pair(std::uint32_t a, std::uint32_t b, FoundPairs& found) const {
   ++found.candidates;
   const double until = unchanged_until(a, b);
@@ -85,11 +91,8 @@ void Facts::find_known_pairs(std::uint32_t number, FoundPairs& found) const {
 void Facts::find_walls(std::uint32_t number, FoundPairs& found) const {
   const Body& body = bodies()[number];
   if (!bodies().walls() || body.is_fixed()) return;
-  const double end = end_of(number);
-  const double until = book().walls_of(number) != 0
-                           ? time_
-                           : until_reports_of_walls(book().rule(), body.bound, *bodies().walls(), time_, end);
-  if (until < end) found.hot.push_back(hot_pair(until, number, HotPair::walls));
+  const double until = walls_unchanged_until(number);
+  if (until < end_of(number)) found.hot.push_back(hot_pair(until, number, HotPair::walls));
 }
 
 }  // namespace kinesphere

@@ -67,6 +67,8 @@ class Facts {
   double unchanged_until(std::uint32_t a, std::uint32_t b) const;
   /// The same by the rules of contacts, for any pair; +infinity for ever.
   double unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const;
+  /// The same of a body and its walls, in a world that has any.
+  double walls_unchanged_until(std::uint32_t number) const;
 
   // The hot pairs of a body that has got a capsule.
   /// With one whom a search has found to be near, if they may meet before a window ends.

@@ -123,15 +123,12 @@ Result<void> Island::look_at_walls(std::uint32_t number) {
   const Facts facts = this->facts();
   const double end = facts.end_of(number);
   while (!bodies()[number].dirty) {
-    const Body& body = bodies()[number];
-    if (body.fresh(time_)) {
+    if (bodies()[number].fresh(time_)) {
       const auto next = judge_walls(number);
       if (next && *next < end) agenda_.add(facts.hot_pair(*next, number, HotPair::walls));
       return {};
     }
-    const double until = book().walls_of(number) != 0 ? time_
-                                                      : until_reports_of_walls(book().rule(), body.bound,
-                                                                               *bodies().walls(), time_, end);
+    const double until = facts.walls_unchanged_until(number);
     if (until > time_) {
       if (until < end) agenda_.add(facts.hot_pair(until, number, HotPair::walls));
       return {};

@@ -111,6 +111,6 @@ void Reports::apply(Bodies& bodies, double time, std::size_t from, std::size_t t
   }
 }
 
-std::size_t Reports::bytes() const { return heap_bytes(ids_, states_); }
+std::size_t Reports::bytes() const { return heap_bytes(ids_, states_, broken_); }
 
 }  // namespace kinesphere

@@ -307,6 +307,7 @@ std::span<const std::uint32_t> Windows::near(std::uint32_t number, const RoomyBo
       if (other != number && other != Layer::nobody) scratch.numbers.push_back(other);
     };
     scratch.layer.clear();
+    scratch.images.clear();
     if (add_searches(member, 0, bound, now, end, scratch)) {
       layer.make(scratch.layer);
       scratch.layer.for_each_found([&](std::uint32_t, std::uint32_t place) { note(place); });
@@ -314,7 +315,6 @@ std::span<const std::uint32_t> Windows::near(std::uint32_t number, const RoomyBo
       for (std::uint32_t place = 0; place < layer.places(); ++place) note(place);
     }
   }
-  scratch.images.clear();
   return scratch.numbers;
 }
 
