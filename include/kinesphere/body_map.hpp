@@ -55,7 +55,7 @@ class BodyMap {
 
   Result<void> set_velocity(World& world, BodyId body, const Vec3& velocity);
   Result<void> teleport(World& world, BodyId body, const State& state);
-  /// The motion keeps a body that it cannot remove (a recording); nobody asks about it any more.
+  /// A motion that cannot remove bodies keeps it; nobody asks about it any more.
   Result<void> remove(World& world, BodyId body);
 
   /// Tells the world the velocity of each body that broke its promise in the frame that was pushed last

@@ -16,6 +16,9 @@ namespace {
 const Segment no_piece{
     .begin = infinity, .end = infinity, .position = {}, .velocity = {}, .acceleration = {}, .jerk = {}};
 
+/// So many intervals away from 0 their ends are still distinct.
+constexpr double farthest = 0x1p50;
+
 }  // namespace
 
 PiecewiseAcceleration::PiecewiseAcceleration(const std::vector<State>& start, double start_time,
@@ -88,7 +91,10 @@ Result<void> PiecewiseAcceleration::remove(std::uint32_t body) {
 
 Result<std::uint32_t> PiecewiseAcceleration::add_body(std::string_view call, double t, const State& state) {
   InputCheck check(call);
-  if (check.finite({"t"}, t).error()) return *check.error();
+  const double latest = farthest * interval_;
+  check.finite({"t"}, t).require(std::abs(t) <= latest, ErrorCode::out_of_range, {"t"},
+                                 "must lie within 2^50 intervals of 0, that is within +-", latest, t);
+  if (check.error()) return *check.error();
   if (const auto error = wrong_state(call, no_body, state)) return *error;
   auto body = static_cast<std::uint32_t>(size());
   if (free_.empty()) {

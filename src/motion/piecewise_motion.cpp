@@ -97,7 +97,7 @@ PiecewiseMotion::PiecewiseMotion(std::vector<Trajectory> trajectories)
 
 const Trajectory& PiecewiseMotion::known_trajectory(std::uint32_t body, double t, std::string_view call,
                                                     std::string_view argument) const {
-  if (body >= size() || !std::isfinite(t)) [[unlikely]]
+  if (!contains(body) || !std::isfinite(t)) [[unlikely]]
     refuse_question(call, *this, body, argument, t, {-infinity, infinity});
   return trajectories_[body];
 }
@@ -136,6 +136,12 @@ Trajectory PiecewiseMotion::trajectory(std::uint32_t body, double begin, double 
 
 Result<void> PiecewiseMotion::set_velocity(std::uint32_t body, double, const Vec3&) {
   return cannot_change("set_velocity", *this, body, "given a velocity");
+}
+
+Result<void> PiecewiseMotion::remove(std::uint32_t body) {
+  if (const auto error = wrong_body("remove", *this, body)) return *error;
+  trajectories_[body] = Trajectory();  // and not {}, which would keep the memory
+  return {};
 }
 
 std::unique_ptr<Motion> PiecewiseMotion::clone() const { return std::make_unique<PiecewiseMotion>(*this); }

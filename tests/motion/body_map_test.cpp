@@ -9,6 +9,7 @@
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/motion/recorded_tracks.hpp"
 #include "kinesphere/motion/steered.hpp"
+#include "motion/still.hpp"
 #include "support/expect_error.hpp"
 
 namespace kinesphere {
@@ -107,8 +108,19 @@ TEST(BodyMap, SaysWhatIsWrong) {
   EXPECT_THROW((void)map.state(stranger, 0.0), BadResult);
   EXPECT_THROW((void)world.advance(1000.0, map.probe()), BadResult);
   map.remove(world, recorded).value();
-  EXPECT_TRUE(tracks.contains(0)) << "a recording keeps it";
+  EXPECT_FALSE(tracks.contains(0));
   EXPECT_FALSE(world.contains(recorded));
+}
+
+TEST(BodyMap, LeavesBodiesToMotionsThatCannotRemoveThem) {
+  Still motion;
+  World world = World::create({}).value();
+  BodyMap map;
+  const BodyId id = map.add(world, motion, 0).value();
+  map.remove(world, id).value();
+  EXPECT_TRUE(motion.contains(0));
+  EXPECT_FALSE(world.contains(id));
+  EXPECT_FALSE(map.find(id));
 }
 
 TEST(BodyMap, TellsViolationsAtTheirFrameOnly) {

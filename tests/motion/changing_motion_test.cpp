@@ -44,6 +44,7 @@ TEST(AddedBodies, AreForcedAndDrawnAlong) {
   EXPECT_EQ(forces.add(1.0, muzzle, 3.0).value(), 1u);
   EXPECT_EQ(forces.state(1, 1.0), muzzle);
   EXPECT_GT(norm(forces.trajectory(1, 1.0, 1.0).front().acceleration), 0.0);
+  EXPECT_EQ(forces.add(1e300, muzzle, 3.0).error().code, ErrorCode::out_of_range) << "beyond 2^50 intervals";
 
   VelocityField field = VelocityField::create({.field =
                                                    [](const Vec3& p) {

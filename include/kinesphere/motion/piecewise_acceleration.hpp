@@ -42,7 +42,7 @@ class PiecewiseAcceleration : public Motion {
 
   /// A body that moves on from `state` at time t. Returns its number: that of a removed body if there is one,
   /// else size() as it was. What a derived class keeps by body is to be set then. `call` begins the message
-  /// of an error: not_finite.
+  /// of an error: not_finite; out_of_range for times that are too far from 0.
   Result<std::uint32_t> add_body(std::string_view call, double t, const State& state);
   /// Sets what a derived class keeps of a body that add_body() has returned.
   template <class Value>

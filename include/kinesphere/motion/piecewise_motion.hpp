@@ -11,9 +11,9 @@
 
 namespace kinesphere {
 
-/// Each body follows a smooth trajectory of its own and cannot be changed. After its last time it coasts on
-/// with the velocity it had there. Before its first time it comes in on a straight line with the velocity it
-/// has there; only in that part trajectory() and state() may differ by a rounding.
+/// Each body follows a smooth trajectory of its own; it can be removed, but not be changed. After its last
+/// time it coasts on with the velocity it had there. Before its first time it comes in on a straight line
+/// with the velocity it has there; only in that part trajectory() and state() may differ by a rounding.
 class PiecewiseMotion : public Motion {
  public:
   /// One trajectory for each body. Errors, naming body and segment: out_of_range when a trajectory is empty,
@@ -22,6 +22,7 @@ class PiecewiseMotion : public Motion {
   static Result<PiecewiseMotion> create(std::vector<Trajectory> trajectories);
 
   std::size_t size() const final { return trajectories_.size(); }
+  bool contains(std::uint32_t body) const final { return body < size() && !trajectories_[body].empty(); }
   /// The limit is the largest acceleration of the whole trajectory, plus a relative 1e-12 for rounding. It is
   /// exact, and found at an end of a segment, because the length of a linear function is convex.
   BodyDefinition definition(std::uint32_t body, double t) const final;
@@ -30,6 +31,7 @@ class PiecewiseMotion : public Motion {
   Trajectory trajectory(std::uint32_t body, double begin, double end) const final;
   /// Errors: unsupported.
   Result<void> set_velocity(std::uint32_t body, double t, const Vec3& velocity) final;
+  Result<void> remove(std::uint32_t body) final;
   std::unique_ptr<Motion> clone() const override;
 
   /// Throws BadResult as state() does.
@@ -45,7 +47,8 @@ class PiecewiseMotion : public Motion {
   const Trajectory& known_trajectory(std::uint32_t body, double t, std::string_view call,
                                      std::string_view argument) const;
 
-  std::vector<Trajectory> trajectories_;  ///< each with an endless segment added, for coasting
+  /// Each with an endless segment added, for coasting. Removed bodies have none.
+  std::vector<Trajectory> trajectories_;
   std::vector<double> limits_;
 };
 
