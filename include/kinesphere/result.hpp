@@ -40,6 +40,7 @@ enum class ErrorCode {
   moved_from,          ///< the world has been moved from: only assigning to it and destroying it are left
   unsupported,         ///< this detector cannot do what the scene asks for
   bad_snapshot,        ///< bytes that no world can be restored from
+  bad_bytes,           ///< bytes that no body of a motion can be read from
   recording,           ///< the world is being recorded already
   not_recording,       ///< the world is not being recorded
   bad_recording,       ///< bytes that are no recording

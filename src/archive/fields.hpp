@@ -11,6 +11,8 @@
 #include "kinesphere/bound.hpp"
 #include "kinesphere/counters.hpp"
 #include "kinesphere/event.hpp"
+#include "kinesphere/motion/trajectory.hpp"
+#include "kinesphere/run.hpp"
 #include "kinesphere/shape.hpp"
 #include "kinesphere/world_definition.hpp"
 
@@ -43,6 +45,18 @@ template <Some<State> Self, class Archive>
 void transfer(Self& self, Archive& archive) {
   auto& [position, velocity] = self;
   archive(position, velocity);
+}
+
+template <Some<Departure> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [time, state] = self;
+  archive(time, state);
+}
+
+template <Some<Segment> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [begin, end, position, velocity, acceleration, jerk] = self;
+  archive(begin, end, position, velocity, acceleration, jerk);
 }
 
 template <Some<Filter> Self, class Archive>

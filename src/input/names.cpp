@@ -54,6 +54,8 @@ std::string_view name_of(ErrorCode code) {
       return "unsupported";
     case ErrorCode::bad_snapshot:
       return "bad_snapshot";
+    case ErrorCode::bad_bytes:
+      return "bad_bytes";
     case ErrorCode::recording:
       return "recording";
     case ErrorCode::not_recording:

@@ -2,6 +2,8 @@
 #include "kinesphere/motion/ballistic.hpp"
 
 #include "input/input_check.hpp"
+#include "motion/body_bytes.hpp"
+#include "motion/checks.hpp"
 
 namespace kinesphere {
 
@@ -18,6 +20,22 @@ Ballistic::Ballistic(const BallisticDefinition& definition)
 
 BodyDefinition Ballistic::definition(std::uint32_t body, double t) const {
   return definition_with(body, t, 0.0, gravity_);
+}
+
+Result<void> Ballistic::write_body(std::uint32_t body, std::vector<std::byte>& bytes) const {
+  if (const auto error = wrong_body("write_body", *this, body)) return *error;
+  append_body(bytes, ballistic_mark, departure(body));
+  return {};
+}
+
+Result<std::uint32_t> Ballistic::read_body(std::span<const std::byte>& bytes) {
+  Departure last;
+  const auto rest = take_body(bytes, ballistic_mark, last);
+  if (!rest) return rest.error();
+  auto body = add(last.time, last.state);
+  if (!body) return bad_bytes(body.error());
+  bytes = *rest;
+  return body;
 }
 
 std::unique_ptr<Motion> Ballistic::clone() const { return std::make_unique<Ballistic>(*this); }

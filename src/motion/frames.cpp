@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "input/input_check.hpp"
+#include "motion/body_bytes.hpp"
 #include "motion/checks.hpp"
 #include "number/infinity.hpp"
 
@@ -218,6 +219,35 @@ Result<std::uint32_t> Frames::add(double t, const State& state, double accelerat
   }
   limits_[body] = acceleration_limit;
   turn(body, t, state);
+  return body;
+}
+
+Result<void> Frames::write_body(std::uint32_t body, std::vector<std::byte>& bytes) const {
+  if (const auto error = wrong_body("write_body", *this, body)) return *error;
+  append_body(bytes, frames_mark, latest_frame_, departure(body), latest_[body], pushed_[body],
+              limits_[body]);
+  return {};
+}
+
+Result<std::uint32_t> Frames::read_body(std::span<const std::byte>& bytes) {
+  std::uint64_t frame = 0;
+  Departure last;
+  Vec3 latest, pushed;
+  double limit = 0.0;
+  const auto rest = take_body(bytes, frames_mark, frame, last, latest, pushed, limit);
+  if (!rest) return rest.error();
+  InputCheck check("Frames");
+  check
+      .require(frame == latest_frame_, ErrorCode::out_of_range, {"frame"}, "must be the latest one here,",
+               std::size_t{latest_frame_}, std::size_t{frame})
+      .finite({"latest position"}, latest)
+      .finite({"pushed position"}, pushed);
+  if (check.error()) return bad_bytes(*check.error());
+  auto body = add(last.time, last.state, limit);
+  if (!body) return bad_bytes(body.error());
+  latest_[*body] = latest;
+  pushed_[*body] = pushed;
+  bytes = *rest;
   return body;
 }
 

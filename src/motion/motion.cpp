@@ -32,6 +32,15 @@ Result<void> Motion::depart(std::uint32_t body, const Departure&) {
   return cannot_change("depart", *this, body, "changed");
 }
 
+Result<void> Motion::write_body(std::uint32_t body, std::vector<std::byte>&) const {
+  return cannot_change("write_body", *this, body, "written to bytes");
+}
+
+Result<std::uint32_t> Motion::read_body(std::span<const std::byte>&) {
+  return Error{ErrorCode::unsupported, "bytes", no_body,
+               "read_body: bytes: this is a motion that reads no bodies from bytes"};
+}
+
 void Motion::require_number(BodyId id, std::size_t size) {
   if (id.generation != 0 || id.index >= size) [[unlikely]]
     refuse_probe(id, size);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "input/input_check.hpp"
+#include "motion/body_bytes.hpp"
 #include "motion/checks.hpp"
 #include "motion/limit_rounding.hpp"
 #include "number/infinity.hpp"
@@ -50,13 +51,42 @@ void check_segment(InputCheck& check, const Subject& subject, const Segment& seg
                 segment.begin, segment.end);
 }
 
-void check_transition(InputCheck& check, const Subject& subject, const Segment& before,
-                      const Segment& after) {
+void check_time(InputCheck& check, const Subject& subject, const Segment& before, const Segment& after) {
   check.require(after.begin == before.end, ErrorCode::out_of_range, subject,
                 "must begin when the one before it ends,", before.end, after.begin);
+}
+
+void check_state(InputCheck& check, const Subject& subject, const Segment& before, const Segment& after) {
   check.require(goes_on(before, after), ErrorCode::out_of_range, subject,
                 "must have the position and velocity with which the one before it ends,",
                 before.state_at(before.end), State{after.position, after.velocity});
+}
+
+/// Whether one segment follows another at its time, and `smoothly`: in its state too.
+void check_trajectory(InputCheck& check, Subject subject, const Trajectory& trajectory, bool smoothly) {
+  check.require(!trajectory.empty(), ErrorCode::out_of_range, subject, "must have at least 1 segment",
+                trajectory.size());
+  subject.part = "segment";
+  for (std::size_t k = 0; k < trajectory.size(); ++k) {
+    subject.part_number = k;
+    check_segment(check, subject, trajectory[k]);
+    if (k == 0) continue;
+    check_time(check, subject, trajectory[k - 1], trajectory[k]);
+    if (smoothly) check_state(check, subject, trajectory[k - 1], trajectory[k]);
+  }
+}
+
+double limit_of(const Trajectory& trajectory) { return slightly_more * largest_acceleration(trajectory); }
+
+void add_coasting(Trajectory& trajectory) {
+  const double last_time = trajectory.back().end;
+  const State last = trajectory.back().state_at(last_time);
+  trajectory.push_back({.begin = last_time,
+                        .end = infinity,
+                        .position = last.position,
+                        .velocity = last.velocity,
+                        .acceleration = {},
+                        .jerk = {}});
 }
 
 }  // namespace
@@ -64,16 +94,7 @@ void check_transition(InputCheck& check, const Subject& subject, const Segment& 
 Result<PiecewiseMotion> PiecewiseMotion::create(std::vector<Trajectory> trajectories) {
   InputCheck check("PiecewiseMotion::create");
   for (std::uint32_t body = 0; body < trajectories.size(); ++body) {
-    const Trajectory& trajectory = trajectories[body];
-    Subject subject{"trajectories", {body, 0}};
-    check.require(!trajectory.empty(), ErrorCode::out_of_range, subject, "must have at least 1 segment",
-                  trajectory.size());
-    subject.part = "segment";
-    for (std::size_t k = 0; k < trajectory.size(); ++k) {
-      subject.part_number = k;
-      check_segment(check, subject, trajectory[k]);
-      if (k > 0) check_transition(check, subject, trajectory[k - 1], trajectory[k]);
-    }
+    check_trajectory(check, {"trajectories", {body, 0}}, trajectories[body], true);
     if (check.error()) return *check.error();
   }
   return PiecewiseMotion(std::move(trajectories));
@@ -83,15 +104,8 @@ PiecewiseMotion::PiecewiseMotion(std::vector<Trajectory> trajectories)
     : trajectories_(std::move(trajectories)) {
   limits_.reserve(trajectories_.size());
   for (Trajectory& trajectory : trajectories_) {
-    limits_.push_back(slightly_more * largest_acceleration(trajectory));
-    const double last_time = trajectory.back().end;
-    const State last = trajectory.back().state_at(last_time);
-    trajectory.push_back({.begin = last_time,
-                          .end = infinity,
-                          .position = last.position,
-                          .velocity = last.velocity,
-                          .acceleration = {},
-                          .jerk = {}});
+    limits_.push_back(limit_of(trajectory));
+    add_coasting(trajectory);
   }
 }
 
@@ -141,7 +155,39 @@ Result<void> PiecewiseMotion::set_velocity(std::uint32_t body, double, const Vec
 Result<void> PiecewiseMotion::remove(std::uint32_t body) {
   if (const auto error = wrong_body("remove", *this, body)) return *error;
   trajectories_[body] = Trajectory();  // and not {}, which would keep the memory
+  free_.push_back(body);
   return {};
+}
+
+Result<void> PiecewiseMotion::write_body(std::uint32_t body, std::vector<std::byte>& bytes) const {
+  if (const auto error = wrong_body("write_body", *this, body)) return *error;
+  const Trajectory& known = trajectories_[body];
+  append_body(bytes, piecewise_motion_mark, Trajectory(known.begin(), known.end() - 1));
+  return {};
+}
+
+Result<std::uint32_t> PiecewiseMotion::read_body(std::span<const std::byte>& bytes) {
+  Trajectory trajectory;
+  const auto rest = take_body(bytes, piecewise_motion_mark, trajectory);
+  if (!rest) return rest.error();
+  // Not smoothly: where steps of a recorded track are 10^12 times as long as others, its velocities there
+  // differ by more than create() allows.
+  InputCheck check("PiecewiseMotion");
+  check_trajectory(check, {"trajectory"}, trajectory, false);
+  if (check.error()) return bad_bytes(*check.error());
+  auto body = static_cast<std::uint32_t>(size());
+  if (free_.empty()) {
+    trajectories_.emplace_back();
+    limits_.emplace_back();
+  } else {
+    body = free_.back();
+    free_.pop_back();
+  }
+  limits_[body] = limit_of(trajectory);
+  add_coasting(trajectory);
+  trajectories_[body] = std::move(trajectory);
+  bytes = *rest;
+  return body;
 }
 
 std::unique_ptr<Motion> PiecewiseMotion::clone() const { return std::make_unique<PiecewiseMotion>(*this); }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "input/input_check.hpp"
+#include "motion/body_bytes.hpp"
 #include "motion/checks.hpp"
 #include "motion/limit_rounding.hpp"
 
@@ -52,6 +53,31 @@ Result<void> Steered::steer(std::uint32_t body, double t, const Vec3& accelerati
 
 BodyDefinition Steered::definition(std::uint32_t body, double t) const {
   return definition_with(body, t, limits_);
+}
+
+Result<void> Steered::write_body(std::uint32_t body, std::vector<std::byte>& bytes) const {
+  if (const auto error = wrong_body("write_body", *this, body)) return *error;
+  append_body(bytes, steered_mark, departure(body), limits_[body], accelerations_[body]);
+  return {};
+}
+
+Result<std::uint32_t> Steered::read_body(std::span<const std::byte>& bytes) {
+  Departure last;
+  double limit = 0.0;
+  Vec3 acceleration;
+  const auto rest = take_body(bytes, steered_mark, last, limit, acceleration);
+  if (!rest) return rest.error();
+  InputCheck check("Steered");
+  check.finite({"acceleration"}, acceleration)
+      .require(norm(acceleration) <= limit, ErrorCode::out_of_range, {"acceleration"},
+               "must not be longer than", limit, acceleration);
+  if (check.error()) return bad_bytes(*check.error());
+  auto body = add(last.time, last.state, limit);
+  if (!body) return bad_bytes(body.error());
+  limits_[*body] = limit;  // rounded up when the body was added there
+  accelerations_[*body] = acceleration;
+  bytes = *rest;
+  return body;
 }
 
 std::unique_ptr<Motion> Steered::clone() const { return std::make_unique<Steered>(*this); }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "input/input_check.hpp"
+#include "motion/body_bytes.hpp"
 #include "motion/checks.hpp"
 #include "motion/limit_rounding.hpp"
 
@@ -60,6 +61,23 @@ Result<std::uint32_t> VelocityField::add(double t, const State& state, double ac
 
 BodyDefinition VelocityField::definition(std::uint32_t body, double t) const {
   return definition_with(body, t, limits_);
+}
+
+Result<void> VelocityField::write_body(std::uint32_t body, std::vector<std::byte>& bytes) const {
+  if (const auto error = wrong_body("write_body", *this, body)) return *error;
+  append_body(bytes, velocity_field_mark, departure(body), limits_[body]);
+  return {};
+}
+
+Result<std::uint32_t> VelocityField::read_body(std::span<const std::byte>& bytes) {
+  Departure last;
+  double limit = 0.0;
+  const auto rest = take_body(bytes, velocity_field_mark, last, limit);
+  if (!rest) return rest.error();
+  auto body = add(last.time, last.state, limit);
+  if (!body) return bad_bytes(body.error());
+  bytes = *rest;
+  return body;
 }
 
 std::unique_ptr<Motion> VelocityField::clone() const { return std::make_unique<VelocityField>(*this); }

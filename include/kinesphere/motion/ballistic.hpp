@@ -1,8 +1,10 @@
 // Bodies that fly freely under a common gravity.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "kinesphere/motion/piecewise_acceleration.hpp"
@@ -28,6 +30,8 @@ class Ballistic final : public PiecewiseAcceleration {
   Result<std::uint32_t> add(double t, const State& state) { return add_body("add", t, state); }
 
   BodyDefinition definition(std::uint32_t body, double t) const override;
+  Result<void> write_body(std::uint32_t body, std::vector<std::byte>& bytes) const override;
+  Result<std::uint32_t> read_body(std::span<const std::byte>& bytes) override;
   std::unique_ptr<Motion> clone() const override;
 
  private:

@@ -10,6 +10,7 @@
 //   positions = frames.latest();  // where changes at events have left the bodies
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -118,6 +119,11 @@ class Frames final : public Motion {
   /// Needs previous_time() <= departure.time <= latest_time().
   Result<void> depart(std::uint32_t body, const Departure& departure) override;
   Result<void> remove(std::uint32_t body) override;
+  /// A body can be read only in the frame in which it was written: a motion that was created anew takes as
+  /// many push() before (of no positions while it has no bodies). Later frames are to have its position.
+  /// What violations() says of the body stays where it was written.
+  Result<void> write_body(std::uint32_t body, std::vector<std::byte>& bytes) const override;
+  Result<std::uint32_t> read_body(std::span<const std::byte>& bytes) override;
   std::unique_ptr<Motion> clone() const override;
 
  private:

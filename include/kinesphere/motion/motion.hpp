@@ -10,6 +10,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "kinesphere/body.hpp"
 #include "kinesphere/motion/trajectory.hpp"
@@ -66,6 +67,28 @@ class Motion {
   virtual Result<void> depart(std::uint32_t body, const Departure& departure);
   /// From now on there is no body of this number. The next body that is added takes the number again.
   virtual Result<void> remove(std::uint32_t body);
+
+  // Bodies that move to another motion, in another process or in a later run.
+
+  /// Appends what the future of this body depends on and the motion knows of it alone: its last change,
+  /// limits, steering, track, the name under which random forces are drawn for it. What all bodies have in
+  /// common (seed, interval, gravity, field) is not written. The bytes may go between machines, and they say
+  /// themselves where they end, so bodies can be written one after the other. They hold no checksum: damage
+  /// that leaves numbers which a body can have is not noticed. Errors, and then nothing is appended: as above
+  /// without the time; unsupported.
+  virtual Result<void> write_body(std::uint32_t body, std::vector<std::byte>& bytes) const;
+  /// Adds the body that write_body() wrote at the front of `bytes`, takes it from there and returns its
+  /// number here, which may be another one. This motion must have been created with the same definition; it
+  /// may have other bodies, or none. From then on state(), trajectory(), definition() and departure() give,
+  /// to the last bit, what they give where the body was written, as long as it is changed in the same ways.
+  /// There it stays until it is removed. Errors, and then motion and `bytes` are as they were: bad_bytes for
+  /// bytes that are cut short, were written by another kind of motion, or hold what no body can have;
+  /// unsupported.
+  ///
+  /// A motion of your own that has both must not let anything depend on a body's number, must write numbers
+  /// in an order that all machines share, and must check all that it reads: examples/own_motion.cpp.
+  virtual Result<std::uint32_t> read_body(std::span<const std::byte>& bytes);
+
   /// An independent copy, changes included.
   virtual std::unique_ptr<Motion> clone() const = 0;
 

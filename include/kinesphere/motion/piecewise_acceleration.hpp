@@ -6,6 +6,9 @@
 //     Vec3 acceleration(std::uint32_t body, std::int64_t k, const State& state) const override;
 //     ... definition(), clone()
 //   };
+//
+// Where its bodies are to move to other motions it takes write_body() and read_body() too: they write and
+// read departure() and what the class keeps of the body itself. examples/own_motion.cpp shows all of it.
 #pragma once
 
 #include <cstddef>
@@ -23,8 +26,8 @@ class PiecewiseAcceleration : public Motion {
  public:
   std::size_t size() const final { return courses_.size(); }
   bool contains(std::uint32_t body) const final;
-  /// Cost: O(1) when t has not gone back since the last call, else one step for every interval since the
-  /// body's last change.
+  /// Cost: O(1) when t has not gone back since the last call, else, and after read_body(), one step for every
+  /// interval since the body's last change.
   State state(std::uint32_t body, double t) const final;
   Trajectory trajectory(std::uint32_t body, double begin, double end) const final;
   Result<void> set_velocity(std::uint32_t body, double t, const Vec3& velocity) final;

@@ -1,8 +1,10 @@
 // Motion along ready-made trajectories.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -32,6 +34,9 @@ class PiecewiseMotion : public Motion {
   /// Errors: unsupported.
   Result<void> set_velocity(std::uint32_t body, double t, const Vec3& velocity) final;
   Result<void> remove(std::uint32_t body) final;
+  /// The whole trajectory goes along.
+  Result<void> write_body(std::uint32_t body, std::vector<std::byte>& bytes) const override;
+  Result<std::uint32_t> read_body(std::span<const std::byte>& bytes) override;
   std::unique_ptr<Motion> clone() const override;
 
   /// Throws BadResult as state() does.
@@ -50,6 +55,7 @@ class PiecewiseMotion : public Motion {
   /// Each with an endless segment added, for coasting. Removed bodies have none.
   std::vector<Trajectory> trajectories_;
   std::vector<double> limits_;
+  std::vector<std::uint32_t> free_;  ///< numbers of removed bodies
 };
 
 }  // namespace kinesphere

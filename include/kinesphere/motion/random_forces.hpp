@@ -1,8 +1,10 @@
 // Bodies pushed around by random forces that change at fixed times (the first experiment of the paper).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "kinesphere/motion/piecewise_acceleration.hpp"
@@ -22,17 +24,21 @@ struct RandomForcesDefinition {
 };
 
 /// During each interval a body has a constant acceleration, drawn uniformly from the ball of radius A. The
-/// draw depends on nothing but (seed, body, interval), so set_velocity() leaves the force as it is.
+/// draw depends on nothing but (seed, name of the body, interval), so set_velocity() leaves the force as it
+/// is. The name of a body is its number in the motion that it began in. It keeps it wherever it is read
+/// (read_body), so bodies that began in different motions and come together may be given the same forces.
 class RandomForces final : public PiecewiseAcceleration {
  public:
   /// Errors: not_finite or out_of_range, naming the field and the body.
   static Result<RandomForces> create(RandomForcesDefinition definition);
 
-  /// Adds a body that moves on from `state` at time t, and returns its number: also the one of the forces
-  /// that are drawn for it. Errors: not_finite; out_of_range for a negative limit.
+  /// Adds a body that moves on from `state` at time t, and returns its number, which is its name too.
+  /// Errors: not_finite; out_of_range for a negative limit and for times beyond 2^50 intervals.
   Result<std::uint32_t> add(double t, const State& state, double acceleration_limit);
 
   BodyDefinition definition(std::uint32_t body, double t) const override;
+  Result<void> write_body(std::uint32_t body, std::vector<std::byte>& bytes) const override;
+  Result<std::uint32_t> read_body(std::span<const std::byte>& bytes) override;
   std::unique_ptr<Motion> clone() const override;
 
  private:
@@ -40,6 +46,7 @@ class RandomForces final : public PiecewiseAcceleration {
   Vec3 acceleration(std::uint32_t body, std::int64_t k, const State& state) const override;
 
   std::vector<double> limits_;
+  std::vector<std::uint32_t> names_;  ///< under which forces are drawn
   std::uint64_t seed_;
 };
 

@@ -4,8 +4,10 @@
 //   ships.steer(3, world.time(), {0, 0, 5}).value();  // from now on, until told otherwise
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "kinesphere/motion/piecewise_acceleration.hpp"
@@ -41,6 +43,8 @@ class Steered final : public PiecewiseAcceleration {
   /// The limit is a relative 1e-12 more than that of the definition, so that an acceleration that was scaled
   /// to that length passes however it was rounded.
   BodyDefinition definition(std::uint32_t body, double t) const override;
+  Result<void> write_body(std::uint32_t body, std::vector<std::byte>& bytes) const override;
+  Result<std::uint32_t> read_body(std::span<const std::byte>& bytes) override;
   std::unique_ptr<Motion> clone() const override;
 
  private:

@@ -1,9 +1,11 @@
 // Bodies that follow a velocity field as well as a limited acceleration lets them (paper, section 4.3).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "kinesphere/motion/piecewise_acceleration.hpp"
@@ -49,10 +51,12 @@ class VelocityField final : public PiecewiseAcceleration {
   static Result<VelocityField> create(VelocityFieldDefinition definition);
 
   /// Adds a body that moves on from `state` at time t, and returns its number. Errors: not_finite (also where
-  /// the field is not finite there); out_of_range for a negative limit.
+  /// the field is not finite there); out_of_range for a negative limit and for times beyond 2^50 intervals.
   Result<std::uint32_t> add(double t, const State& state, double acceleration_limit);
 
   BodyDefinition definition(std::uint32_t body, double t) const override;
+  Result<void> write_body(std::uint32_t body, std::vector<std::byte>& bytes) const override;
+  Result<std::uint32_t> read_body(std::span<const std::byte>& bytes) override;
   std::unique_ptr<Motion> clone() const override;
 
  private:

@@ -1,0 +1,66 @@
+// How the library's motions write a body to bytes and read it back (Motion::write_body, read_body): the mark
+// of the kind of motion, then what it keeps of the body, in the byte order of archive/archive.hpp. Each
+// motion lists its fields in both functions, in the same order.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "archive/archive.hpp"
+#include "archive/fields.hpp"
+#include "kinesphere/result.hpp"
+
+namespace kinesphere {
+
+/// What stands in front of a body. A kind of motion that writes other fields than it did gets a new mark.
+struct BodyMark {
+  std::uint32_t number;
+  std::string_view motion;
+};
+
+inline constexpr BodyMark ballistic_mark{1, "Ballistic"};
+inline constexpr BodyMark random_forces_mark{2, "RandomForces"};
+inline constexpr BodyMark steered_mark{3, "Steered"};
+inline constexpr BodyMark velocity_field_mark{4, "VelocityField"};
+inline constexpr BodyMark piecewise_motion_mark{5, "PiecewiseMotion or RecordedTracks"};
+inline constexpr BodyMark frames_mark{6, "Frames"};
+
+template <class... Fields>
+void append_body(std::vector<std::byte>& bytes, const BodyMark& mark, const Fields&... fields) {
+  ByteWriter writer;
+  writer(mark.number, fields...);
+  bytes.insert(bytes.end(), writer.bytes().begin(), writer.bytes().end());
+}
+
+/// The error of read_body(): "read_body: bytes <what>".
+inline Error bad_bytes(const std::string& what) {
+  return {ErrorCode::bad_bytes, "bytes", no_body, "read_body: bytes " + what};
+}
+
+/// The same for bytes that hold numbers which no body of the motion can have.
+inline Error bad_bytes(const Error& reason) {
+  return bad_bytes("hold no body of this motion: " + reason.message);
+}
+
+/// Sets the fields as append_body() had them, and returns what follows. Whether the numbers make sense is the
+/// caller's question.
+template <class... Fields>
+Result<std::span<const std::byte>> take_body(std::span<const std::byte> bytes, const BodyMark& mark,
+                                             Fields&... fields) {
+  ByteReader reader(bytes);
+  std::uint32_t number = 0;
+  reader(number);
+  if (!reader.failed() && number != mark.number) {
+    return bad_bytes("must begin with " + std::to_string(mark.number) + ", the mark of a body of " +
+                     std::string(mark.motion) + ", but begin with " + std::to_string(number));
+  }
+  reader(fields...);
+  if (reader.failed()) return bad_bytes("must hold a whole body, but end before it does");
+  return bytes.last(reader.remaining());
+}
+
+}  // namespace kinesphere
