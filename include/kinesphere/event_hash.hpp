@@ -11,16 +11,19 @@
 
 namespace kinesphere {
 
-/// 64-bit FNV-1a over time, kind, ids and wall of each event, in order, and the distance of sensor events.
-/// States, points and speeds are left out.
+/// A hash of a set of events: time, kind, ids and wall of each, and the distance of sensor events. States,
+/// points and speeds are left out. It is a sum, so that events may be added in any order, and hashes of parts
+/// of a run, wherever these were made, add up to that of the whole. When events happened is in their times;
+/// which of two at one instant was told first is not in the hash.
 class EventHash {
  public:
   void add(const Event& event);
-  std::uint64_t value() const { return value_; }
+  EventHash& operator+=(const EventHash& other);
+  std::uint64_t value() const;
 
  private:
-  void mix(std::uint64_t word);
-  std::uint64_t value_ = 0xcbf29ce484222325u;
+  std::uint64_t sum_ = 0;
+  std::uint64_t count_ = 0;
 };
 
 }  // namespace kinesphere

@@ -116,7 +116,7 @@ class World::Engine {
   Result<void> refresh(std::span<const std::uint32_t> ending, Shift& shift);
   std::vector<Windows::Starter> choose_windows(std::span<const std::uint32_t> numbers, bool most,
                                                Tempo::Round& round, Shift& shift);
-  SearchCost find_pairs_of_started(Shift& shift);
+  std::uint64_t find_pairs_of_started(Shift& shift);
   void find_others_of(std::span<const Windows::Starter> starters, Shift& shift);
   void choose_tempo(std::span<const std::uint32_t> round);
   Result<void> gather();

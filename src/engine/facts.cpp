@@ -1,6 +1,7 @@
 #include "engine/facts.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "number/infinity.hpp"
 
@@ -24,6 +25,8 @@ double Facts::unchanged_until(std::uint32_t a, std::uint32_t b) const {
 }
 
 double Facts::apart_until(std::uint32_t a, std::uint32_t b) const {
+  // The same, to the last bit, whoever has found whom.
+  if (b < a) std::swap(a, b);
   const Body& one = bodies()[a];
   const Body& other = bodies()[b];
   if (!bodies().may_meet(a, b)) return infinity;

@@ -114,10 +114,7 @@ class alignas(128) Island {
   void take(FoundPairs& found);
   /// Bodies that were settled one by one since this was asked last.
   Kicks take_kicks() { return std::exchange(kicks_, {}); }
-  void add_kicks(const Kicks& kicks) {
-    kicks_.bodies += kicks.bodies;
-    kicks_.hot += kicks.hot;
-  }
+  void add_kicks(const Kicks& kicks) { kicks_ += kicks; }
   /// All that may be in a box now, by number. Cost: a search, and those that were added or changed since time
   /// moved on.
   std::vector<std::uint32_t> bodies_in(const Box& box) const;

@@ -53,8 +53,7 @@ void Island::search(std::span<const std::uint32_t> numbers) {
     facts.find_walls(number, found_);
   }
   for (const std::uint32_t number : numbers) bodies()[number].settled = false;
-  kicks_.bodies += numbers.size();
-  kicks_.hot += found_.pairs;
+  kicks_ += {numbers.size(), found_.pairs};
   take(found_);
 }
 

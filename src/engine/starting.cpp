@@ -1,12 +1,8 @@
 // Windows end, and new ones start.
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
 #include <optional>
 
 #include "engine/engine.hpp"
-#include "number/infinity.hpp"
 
 namespace kinesphere {
 namespace {
@@ -32,43 +28,19 @@ class FreeWindows {
   std::optional<Window> found_;
 };
 
-/// About the distance between so many points along a line or in a layer, if their box is thinner than that,
-/// or in a cube around it. The same on all machines, without std::cbrt().
-double spacing_within(const Vec3& size, int count) {
-  std::array<double, 3> sides{size.x, size.y, size.z};
-  std::sort(sides.begin(), sides.end(), std::greater<>());
-  const double on_line = sides[0] / count;
-  if (!(sides[1] > on_line)) return on_line;
-  const double in_layer = std::sqrt(sides[1] * on_line);
-  if (!(sides[2] > in_layer)) return in_layer;
-  return std::ldexp(sides[0], -std::ilogb(count) / 3);
-}
-
 }  // namespace
 
 /// The first main window lets most new bodies go about a quarter of the distance between them.
 void World::Engine::choose_tempo(std::span<const std::uint32_t> round) {
   // One that was chosen for few bodies may be far too slow for many.
   if (round.empty() || (tables_.tempo.is_chosen() && 2 * round.size() < windows().moving())) return;
-  Vec3 lower{infinity, infinity, infinity};
-  Vec3 upper = -lower;
-  std::vector<double> speeds;
-  double acceleration = 0.0;
+  Survey survey;
   for (const std::uint32_t number : round) {
-    const Vec3 centre = bodies()[number].bound.centre_at(time());
-    for (int axis = 0; axis < 3; ++axis) {
-      lower[axis] = std::min(lower[axis], centre[axis]);
-      upper[axis] = std::max(upper[axis], centre[axis]);
-    }
-    const Pace pace = pace_of(MovedBound(bodies()[number].bound, time()));
-    speeds.push_back(pace.speed);
-    acceleration += pace.acceleration / static_cast<double>(round.size());
+    const MovedBound moved(bodies()[number].bound, time());
+    survey.note(moved.centre, pace_of(moved));
   }
-  const auto middle = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() / 2);
-  std::nth_element(speeds.begin(), middle, speeds.end());
-  const double spacing = spacing_within(upper - lower, static_cast<int>(round.size()));
-  const double way = std::max(0.25 * spacing, 0x1p8 * definition().contact_tolerance);
-  tables_.tempo.choose(way, {*middle, acceleration});
+  const double way = std::max(0.25 * survey.spacing(), 0x1p8 * definition().contact_tolerance);
+  tables_.tempo.choose(way, survey.typical());
 }
 
 /// Where many have arrived since windows started, all start anew with them: those that have arrived one by
@@ -173,8 +145,8 @@ Result<void> World::Engine::start_windows(Shift& shift, bool all, std::span<cons
   return {};
 }
 
-/// The hot pairs that searches find of those that have started.
-SearchCost World::Engine::find_pairs_of_started(Shift& shift) {
+/// The hot pairs that searches find of those that have started: how many.
+std::uint64_t World::Engine::find_pairs_of_started(Shift& shift) {
   const double now = time();
   const Windows& windows = tables_.windows;
   const Facts facts = everybody_.facts();
@@ -187,12 +159,9 @@ SearchCost World::Engine::find_pairs_of_started(Shift& shift) {
         for (const auto& [a, b] : windows.near_started(from, to, now, bound_of, found.scratch))
           facts.find_hot_pair(a, b, found);
       });
-  SearchCost cost;
-  for (FoundPairs& found : found_) {
-    cost += std::exchange(found.scratch.cost, {});
-    cost.hot += found.pairs;
-  }
-  return cost;
+  std::uint64_t hot = 0;
+  for (const FoundPairs& found : found_) hot += found.pairs;
+  return hot;
 }
 
 /// Pairs that touch or sense each other, and walls, of those that have started.

@@ -298,34 +298,6 @@ std::uint32_t Layer::filled_cubes() const {
   return filled;
 }
 
-Grain Layer::grain() const {
-  if (filled_ == 0 || cell_count() == 1) return {};
-  const auto count = [this](std::size_t axis) { return static_cast<double>(grid_.count[axis]); };
-  return {grid_.edge[1],
-          {std::ceil(count(0) / Grid::slices), count(1), count(2)},
-          static_cast<double>(sorted_) / filled_};
-}
-
-/// Cubes along an axis: those that a width reaches into, and those whose capsules stick out.
-double Grain::across(const std::array<double, 3>& widths, std::size_t axis) const {
-  const double reached = widths[axis] / edge + 2.0;
-  return reached < cubes[axis] ? reached : cubes[axis];
-}
-
-double Grain::rows(const std::array<double, 3>& widths) const {
-  return edge > 0.0 ? across(widths, 1) * across(widths, 2) : 1.0;
-}
-
-double Grain::capsules(const std::array<double, 3>& widths, double all) const {
-  return edge > 0.0 ? std::min(all, per_cube * across(widths, 0) * rows(widths)) : all;
-}
-
-bool Grain::is_sound() const {
-  const auto is_count = [](double count) { return count >= 0.0 && count <= 0x1p20; };
-  return edge >= 0.0 && edge < infinity && per_cube >= 0.0 && per_cube < infinity &&
-         std::all_of(cubes.begin(), cubes.end(), is_count);
-}
-
 double Layer::density(bool flat) const {
   if (filled_ == 0) return 0.0;
   const double edge = grid_.edge[1];

@@ -17,30 +17,6 @@
 
 namespace kinesphere {
 
-/// The grid of a layer in brief: cubes of this edge (0 for a layer without a grid), how many there are along
-/// each axis, and how many capsules are in one that holds any.
-struct Grain {
-  double edge = 0.0;
-  std::array<double, 3> cubes{};
-  double per_cube = 0.0;
-
-  /// How many of so many capsules a search looks at whose capsule is so wide on each axis, and in how many
-  /// rows, about. Neither knows which capsules have been replaced since, nor in what order.
-  double rows(const std::array<double, 3>& widths) const;
-  double capsules(const std::array<double, 3>& widths, double all) const;
-
-  template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
-    auto& [size, counts, density] = self;
-    archive(size, counts, density);
-  }
-  /// For one that was read.
-  bool is_sound() const;
-
- private:
-  double across(const std::array<double, 3>& widths, std::size_t axis) const;
-};
-
 /// Each capsule has a place, which stays the same until the layer is sorted anew or cleared, and belongs to a
 /// body. Those that were added since the layer was sorted are behind the others, and every search looks at
 /// them. Where a grid over all of them would have too many cells, it is folded: cells count modulo its size.
@@ -161,8 +137,6 @@ class Layer {
   /// How many are in a unit of volume (or of area, if `flat`), where there are any. Of a layer that was
   /// sorted.
   double density(bool flat) const;
-  /// What searches of the layer cost, by its grid as it is.
-  Grain grain() const;
   std::size_t bytes() const;
   /// For one that was read.
   bool is_sound() const;

@@ -2,17 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
-#include "number/infinity.hpp"
 #include "number/powers.hpp"
 
 namespace kinesphere {
 namespace {
 
-/// What it costs to start a body, apart from its search, in looks at a capsule.
+// Costs in looks at a capsule, fitted to measured times.
+/// To start a body, apart from its search.
 constexpr double start_cost = 120.0;
-/// What a hot pair costs in all, in looks at a capsule, with the looks and reports that come of it.
-constexpr double price_of_hot_pair = 240.0;
+/// A search that finds nothing looks at so many capsules,
+constexpr double search_capsules = 24.0;
+/// and costs this with the rows in which they are.
+constexpr double search_cost = 36.0;
+/// A search finds a pair, and it becomes hot.
+constexpr double cost_of_hot_pair = 100.0;
+/// The same with the looks and reports that come of it.
+constexpr double price_of_hot_pair = 260.0;
+/// Cells are cubes, capsules are not: so many times as far apart are bodies at which a search looks.
+constexpr double farther_in_cells = 5.0;
+// Of a search among cells that are small beside its capsule.
+constexpr double cost_of_row = 4.0;
+constexpr double capsules_in_cell = 2.0;
+
 /// Another length has to be so much cheaper.
 constexpr double enough_cheaper = 0.9;
 /// A body is much faster than most if it goes so many times as far.
@@ -31,12 +44,46 @@ double power(double base, int exponent) {
   return product;
 }
 
-/// In looks at a capsule.
-double units_of(double capsules, double rows, double found, double hot) {
-  return capsules + 4.0 * rows + 12.0 * found + 60.0 * hot;
+}  // namespace
+
+void Survey::Magnitudes::note(double value) {
+  const int last = static_cast<int>(counts_.size()) - 1;
+  ++counts_[static_cast<std::size_t>(std::clamp(exponent_of(value) - least, 0, last))];
 }
 
-}  // namespace
+/// Of the smallest and the largest ones it is 0 and infinity.
+double Survey::Magnitudes::median() const {
+  std::uint64_t all = 0;
+  for (const std::uint64_t count : counts_) all += count;
+  std::size_t k = 0;
+  for (std::uint64_t below = counts_[0]; 2 * below < all;) below += counts_[++k];
+  if (k == 0) return 0.0;
+  return k + 1 == counts_.size() ? infinity : 1.5 * power_of_two(static_cast<int>(k) + least);
+}
+
+void Survey::note(const Vec3& centre, const Pace& pace) {
+  ++bodies_;
+  for (int axis = 0; axis < 3; ++axis) {
+    lower_[axis] = std::min(lower_[axis], centre[axis]);
+    upper_[axis] = std::max(upper_[axis], centre[axis]);
+  }
+  speeds_.note(pace.speed);
+  accelerations_.note(pace.acceleration);
+}
+
+double Survey::spacing() const {
+  const Vec3 size = upper_ - lower_;
+  std::array<double, 3> sides{size.x, size.y, size.z};
+  std::sort(sides.begin(), sides.end(), std::greater<>());
+  const double on_line = sides[0] / static_cast<double>(bodies_);
+  if (!(sides[1] > on_line)) return on_line;
+  const double in_layer = std::sqrt(sides[1] * on_line);
+  if (!(sides[2] > in_layer)) return in_layer;
+  // The mathematical library has no cubic root that is the same everywhere.
+  return sides[0] * power_of_two(-exponent_of(static_cast<double>(bodies_)) / 3);
+}
+
+Pace Survey::typical() const { return {speeds_.median(), accelerations_.median()}; }
 
 void Tempo::choose(double way, const Pace& typical) {
   way = std::min(way, longest_way_);
@@ -56,66 +103,38 @@ int Tempo::tier_for(const Pace& pace) const {
   return tier;
 }
 
-void Tempo::Starts::add(double width, const Pace& pace, double time, double most) {
-  ++bodies;
-  widths += width;
-  const double part = std::min(1.0, most / pace.way(time));
-  if (!(part > 0.0)) {
-    ways += most;
-    return;
-  }
-  ways += part * pace.speed * time;
-  growths += part * pace.acceleration * time * time;
-}
-
 double Tempo::Starts::times_larger(double factor, int dimensions) const {
-  return power(short_side(factor) / short_side(1.0), dimensions - 1) * times_longer(factor);
+  return power(short_side(factor) / short_side(1.0), dimensions - 1) * (long_side(factor) / long_side(1.0));
 }
 
-Tempo::Starts& Tempo::Starts::operator+=(const Starts& more) {
-  bodies += more.bodies;
-  in_main += more.in_main;
-  for (std::size_t k = 0; k < magnitudes.size(); ++k) magnitudes[k] += more.magnitudes[k];
-  widths += more.widths;
-  ways += more.ways;
-  growths += more.growths;
-  cost += more.cost;
-  return *this;
-}
-
-/// Searches go through cubes, in which there are no more than all bodies, and find what lies along a way.
-double Tempo::Starts::units(double factor, int dimensions, double among, double rows) const {
-  const auto count = static_cast<double>(bodies);
-  const double capsules = static_cast<double>(cost.capsules) * power(times_longer(factor), dimensions);
-  const double larger = times_larger(factor, dimensions);
-  return count * start_cost + units_of(std::min(capsules, count * among), rows,
-                                       static_cast<double>(cost.found) * larger,
-                                       static_cast<double>(cost.hot) * larger);
+double Tempo::Starts::cost_of_finding(double factor, int dimensions) const {
+  const double slenderness = long_side(factor) / short_side(factor);
+  return power(farther_in_cells * slenderness, dimensions - 1);
 }
 
 /// The cost of a time as long as a main window, if these were so many times as long and there were so many
-/// kicks in so many windows. Cells become larger with the capsules, so that rows do not become more.
+/// kicks in so many windows. Cells become larger with the capsules, so that searches that find nothing cost
+/// the same. Those that start find each pair once, and kicks do not.
 double Tempo::main_rate(double times_longer, const Kicks& kicks, double windows) const {
-  const auto rows = static_cast<double>(main_.cost.rows);
-  const double starts = main_.units(times_longer, dimensions_, static_cast<double>(bodies_), rows);
-  // As the searches of those that started, which found each pair once.
-  const double searches = 2.0 * static_cast<double>(kicks.bodies) / static_cast<double>(main_.bodies);
-  const double larger = main_.times_larger(times_longer, dimensions_);
-  const double capsules =
-      static_cast<double>(main_.cost.capsules) * power(main_.times_longer(times_longer), dimensions_);
-  const double of_kicks = units_of(searches * capsules, searches * rows,
-                                   searches * static_cast<double>(main_.cost.found) * larger,
-                                   static_cast<double>(kicks.hot) * larger);
+  const double cost_of_pair = main_.times_larger(times_longer, dimensions_) *
+                              (cost_of_hot_pair + main_.cost_of_finding(times_longer, dimensions_));
+  const double starts = static_cast<double>(main_.bodies) * (start_cost + search_cost) +
+                        static_cast<double>(main_.hot) * cost_of_pair;
+  const double of_kicks =
+      static_cast<double>(kicks.bodies) * 2.0 * search_cost + static_cast<double>(kicks.hot) * cost_of_pair;
   return starts / times_longer + of_kicks / windows;
 }
 
 /// The same for those that are much faster than most, whose cells are those of others.
 double Tempo::fast_rate(double times_longer) const {
-  const auto among = static_cast<double>(bodies_);
-  const double rows =
-      static_cast<double>(fast_.cost.rows) * power(fast_.times_longer(times_longer), dimensions_ - 1);
-  const double most = static_cast<double>(fast_.bodies) * among;
-  return fast_.units(times_longer, dimensions_, among, std::min(rows, most)) / times_longer;
+  const double width = fast_.long_side(times_longer) / static_cast<double>(fast_.bodies);
+  const double cells = 1.0 + width / std::max(price_.long_side, typical_way_);
+  const double rows = power(cells, dimensions_ - 1);
+  const double search = std::min(rows * (cost_of_row + cells * capsules_in_cell),
+                                 (cost_of_row + 1.0) * static_cast<double>(bodies_));
+  const double pairs = static_cast<double>(fast_.hot) * fast_.times_larger(times_longer, dimensions_);
+  return (static_cast<double>(fast_.bodies) * (start_cost + search) + pairs * cost_of_hot_pair) /
+         times_longer;
 }
 
 void Tempo::start_main(double now, const Kicks& kicks) {
@@ -124,22 +143,70 @@ void Tempo::start_main(double now, const Kicks& kicks) {
   main_start_ = now;
 }
 
-void Tempo::Round::note(const Pace& pace, double width, int tier) {
-  if (tier == tempo_->main_tier_) ++starts_.in_main;
-  if (!most_) return starts_.add(width, pace, length_of(tier), tempo_->longest_way_);
-  const double time = length_of(tempo_->main_tier_);
-  starts_.add(width, pace, time, much_farther * tempo_->typical_way_);
-  const double way = pace.way(time);
-  const int magnitude = way > 0.0 ? exponent_of(way / tempo_->typical_way_) : -least_magnitude;
-  const int last = static_cast<int>(starts_.magnitudes.size()) - 1;
-  ++starts_.magnitudes[static_cast<std::size_t>(std::clamp(magnitude + least_magnitude, 0, last))];
+/// Far less than the typical way.
+double Tempo::Round::quantum() const {
+  constexpr int quanta_in_way = 12;
+  return power_of_two(exponent_of(tempo_->typical_way_) - quanta_in_way);
 }
 
-void Tempo::finish_start(const Round& round, const SearchCost& cost, std::size_t bodies) {
+/// Lengths far beyond the typical way say no more than that they are, and those far below it no less; 2^30 of
+/// the longest still have a sum.
+std::uint64_t Tempo::Round::quanta_in(double length) const {
+  constexpr double most = 0x1p33;
+  const double quanta = std::ceil(length / quantum());
+  return static_cast<std::uint64_t>(quanta < most ? quanta : most);
+}
+
+void Tempo::Round::add(double width, const Pace& pace, double time, double most) {
+  widths_ += quanta_in(width);
+  const double part = std::min(1.0, most / pace.way(time));
+  if (!(part > 0.0)) {
+    ways_ += quanta_in(most);
+    return;
+  }
+  ways_ += quanta_in(part * pace.speed * time);
+  growths_ += quanta_in(part * pace.acceleration * time * time);
+}
+
+void Tempo::Round::note(const Pace& pace, double width, int tier) {
+  ++bodies_;
+  if (tier == tempo_->main_tier_) ++in_main_;
+  if (!most_) return add(width, pace, length_of(tier), tempo_->longest_way_);
+  const double time = length_of(tempo_->main_tier_);
+  add(width, pace, time, much_farther * tempo_->typical_way_);
+  const double way = pace.way(time);
+  const int magnitude = way > 0.0 ? exponent_of(way / tempo_->typical_way_) : -least_magnitude;
+  const int last = static_cast<int>(magnitudes) - 1;
+  ++ways_gone_[static_cast<std::size_t>(std::clamp(magnitude + least_magnitude, 0, last))];
+}
+
+Tempo::Round& Tempo::Round::operator+=(const Round& more) {
+  bodies_ += more.bodies_;
+  in_main_ += more.in_main_;
+  for (std::size_t k = 0; k < magnitudes; ++k) ways_gone_[k] += more.ways_gone_[k];
+  widths_ += more.widths_;
+  ways_ += more.ways_;
+  growths_ += more.growths_;
+  return *this;
+}
+
+/// What a round adds to those that have started.
+Tempo::Starts& Tempo::Starts::operator+=(const Round& round) {
+  bodies += round.bodies_;
+  in_main += round.in_main_;
+  for (std::size_t k = 0; k < magnitudes; ++k) ways_gone[k] += round.ways_gone_[k];
+  const double quantum = round.quantum();
+  widths += quantum * static_cast<double>(round.widths_);
+  ways += quantum * static_cast<double>(round.ways_);
+  growths += quantum * static_cast<double>(round.growths_);
+  return *this;
+}
+
+void Tempo::finish_start(const Round& round, std::uint64_t hot, std::uint64_t bodies) {
   bodies_ = bodies;
   Starts& starts = round.most_ ? main_ : fast_;
-  starts += round.starts_;
-  starts.cost += cost;
+  starts += round;
+  starts.hot += hot;
   if (round.most_) {
     note_price();
   } else if (fast_.bodies >= enough_starts) {
@@ -149,22 +216,21 @@ void Tempo::finish_start(const Round& round, const SearchCost& cost, std::size_t
 
 void Tempo::note_price() {
   const auto count = static_cast<double>(main_.bodies);
-  const double pairs = units_of(0.0, 0.0, static_cast<double>(main_.cost.found), 0.0) +
-                       price_of_hot_pair * static_cast<double>(main_.cost.hot);
-  const double across = (main_.widths + main_.growths) / count;
-  const double along = across + main_.ways / count;
+  const double pairs =
+      static_cast<double>(main_.hot) * (price_of_hot_pair + main_.cost_of_finding(1.0, dimensions_));
+  const double across = main_.short_side(1.0) / count;
+  const double along = main_.long_side(1.0) / count;
   price_ = {};
-  if (along < infinity && across > 0.0)
-    price_ = {across, along, static_cast<double>(main_.cost.capsules) / count, pairs / count};
+  if (along < infinity && across > 0.0) price_ = {across, along, pairs / count};
 }
 
-/// As Starts::units() has it.
+/// As times_larger() has it; the cells stay as they are.
 double Tempo::cost_of_width(double more) const {
-  const auto& [across, along, capsules, pairs] = price_;
+  const auto& [across, along, pairs] = price_;
   if (!(across > 0.0)) return 0.0;
   const double longer = 1.0 + more / along;
   const double larger = power(1.0 + more / across, dimensions_ - 1) * longer;
-  const double cost = capsules * (power(longer, dimensions_) - 1.0) + pairs * (larger - 1.0);
+  const double cost = search_capsules * (power(longer, dimensions_) - 1.0) + pairs * (larger - 1.0);
   return std::isnan(cost) ? infinity : cost;
 }
 
@@ -182,10 +248,9 @@ void Tempo::adapt_main(const Kicks& kicks, double windows) {
   change = std::clamp(change, -most_powers - main_tier_, most_powers - main_tier_);
   main_tier_ += change;
   // An eighth of the bodies may be faster than most.
-  const auto& magnitudes = main_.magnitudes;
-  std::size_t magnitude = magnitudes.size() - 1;
-  for (std::uint64_t faster = magnitudes[magnitude]; 8 * faster <= main_.bodies && magnitude > 0;)
-    faster += magnitudes[--magnitude];
+  std::size_t magnitude = magnitudes - 1;
+  for (std::uint64_t faster = main_.ways_gone[magnitude]; 8 * faster <= main_.bodies && magnitude > 0;)
+    faster += main_.ways_gone[--magnitude];
   const double way = typical_way_ * power_of_two(static_cast<int>(magnitude) - least_magnitude + change);
   const double before = typical_way_;
   typical_way_ = std::clamp(way, power_of_two(-most_powers), longest_way_);
@@ -214,8 +279,8 @@ bool Tempo::is_sound() const {
   const auto are_sound = [](const Starts& starts) {
     return starts.widths >= 0.0 && starts.ways >= 0.0 && starts.growths >= 0.0;
   };
-  const bool is_price = price_.short_side >= 0.0 && price_.long_side >= price_.short_side &&
-                        price_.capsules >= 0.0 && price_.pairs >= 0.0;
+  const bool is_price =
+      price_.short_side >= 0.0 && price_.long_side >= price_.short_side && price_.pairs >= 0.0;
   return is_price && std::abs(main_tier_) <= most_powers && is_way(typical_way_) && is_way(fast_way_) &&
          are_sound(main_) && are_sound(fast_) && std::isfinite(main_start_);
 }

@@ -1,10 +1,15 @@
 // The tempo: how long windows are. A cost model, which counts and measures no time, so that it is the same on
-// all machines.
+// all machines; and which knows of bodies and their hot pairs alone, not of the order of bodies nor of where
+// capsules are kept, so that it is the same wherever they are.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
+
+#include "kinesphere/vec3.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 
@@ -16,40 +21,51 @@ struct Pace {
   double way(double time) const { return (speed + 0.5 * acceleration * time) * time; }
 };
 
-/// What searches have cost: capsules that were looked at, and rows of them; those that were found to be near,
-/// and pairs that became hot.
-struct SearchCost {
-  std::uint64_t capsules = 0;
-  std::uint64_t rows = 0;
-  std::uint64_t found = 0;
+/// Bodies that have got another capsule by themselves, within a window, and how many pairs became hot by
+/// that.
+struct Kicks {
+  std::uint64_t bodies = 0;
   std::uint64_t hot = 0;
 
-  SearchCost& operator+=(const SearchCost& more) {
-    capsules += more.capsules;
-    rows += more.rows;
-    found += more.found;
+  Kicks& operator+=(const Kicks& more) {
+    bodies += more.bodies;
     hot += more.hot;
     return *this;
   }
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [seen, runs, near, due] = self;
-    archive(seen, runs, near, due);
-  }
-};
-
-/// Bodies that have got another capsule by themselves, within a window, and how many pairs became hot by
-/// that. Nothing more is counted of them: what their searches cost depends on the order in which they come,
-/// and the length of windows must not.
-struct Kicks {
-  std::uint64_t bodies = 0;
-  std::uint64_t hot = 0;
-
-  template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
     auto& [count, due] = self;
     archive(count, due);
   }
+};
+
+/// Where bodies are and how fast, about, before anything is known of them.
+class Survey {
+ public:
+  void note(const Vec3& centre, const Pace& pace);
+  /// About the distance between neighbours (length), if they are spread evenly along a line or in a layer, if
+  /// their box is thinner than that, or in a cube around it. The same on all machines.
+  double spacing() const;
+  /// That of the body in the middle, to within a factor of two.
+  Pace typical() const;
+
+ private:
+  /// How many numbers there are of each power of two.
+  class Magnitudes {
+   public:
+    void note(double value);
+    double median() const;
+
+   private:
+    static constexpr int least = -512;
+    std::array<std::uint64_t, 1024> counts_{};
+  };
+
+  std::uint64_t bodies_ = 0;
+  Vec3 lower_{infinity, infinity, infinity};
+  Vec3 upper_{-infinity, -infinity, -infinity};
+  Magnitudes speeds_;
+  Magnitudes accelerations_;
 };
 
 /// Most bodies share windows of one length, the main one, 2^main_tier. In longer windows searches find more,
@@ -71,11 +87,11 @@ class Tempo {
   double typical_way() const { return typical_way_; }
 
   class Round;
-  /// Most bodies are going to start. Chooses the length of the main windows, knowing what the searches of
-  /// those that started last time have cost, and how many have been kicked since then.
+  /// Most bodies are going to start. Chooses the length of the main windows, knowing how many hot pairs those
+  /// that started last time have found, and how many have been kicked since then.
   void start_main(double now, const Kicks& kicks);
-  /// All of a round have started, so that there are so many bodies, and their searches have cost this much.
-  void finish_start(const Round& round, const SearchCost& cost, std::size_t bodies);
+  /// All of a round have started, so that there are so many bodies, and found so many hot pairs.
+  void finish_start(const Round& round, std::uint64_t hot, std::uint64_t bodies);
   /// What it costs that the capsule of a typical body is so much wider (length), in looks at a capsule.
   double cost_of_width(double more) const;
 
@@ -89,48 +105,46 @@ class Tempo {
 
  private:
   static constexpr int least_magnitude = 40;
+  static constexpr std::size_t magnitudes = 64;
 
   /// Bodies that have started, and what that has cost.
   struct Starts {
     std::uint64_t bodies = 0;
     std::uint64_t in_main = 0;  ///< of them, in a main window
     /// How many went about 2^(k - least_magnitude) times the typical way, or less for k = 0.
-    std::array<std::uint64_t, 64> magnitudes{};
+    std::array<std::uint64_t, magnitudes> ways_gone{};
     // Sums of what makes capsules large.
     double widths = 0.0;
     double ways = 0.0;     ///< straight on
     double growths = 0.0;  ///< on all sides, by what acceleration may do
-    SearchCost cost;
+    std::uint64_t hot = 0;
 
-    void add(double width, const Pace& pace, double time, double most);
-    Starts& operator+=(const Starts& more);
-    /// How much more they would be, and in how much more space, if windows were so many times as long.
-    double times_longer(double factor) const { return long_side(factor) / long_side(1.0); }
-    double times_larger(double factor, int dimensions) const;
-    /// What they would cost then, among so many bodies, with so many rows, in looks at a capsule.
-    double units(double factor, int dimensions, double among, double rows) const;
-    template <class Self, class Archive>
-    static void transfer(Self& self, Archive& archive) {
-      auto& [count, most, ways_gone, width, way, growth, searches] = self;
-      archive(count, most, ways_gone, width, way, growth, searches);
-    }
-
-   private:
+    Starts& operator+=(const Round& round);
+    /// What they would be if windows were so many times as long.
     double short_side(double factor) const { return widths + growths * factor * factor; }
     double long_side(double factor) const { return short_side(factor) + ways * factor; }
+    /// In how much more space they would be.
+    double times_larger(double factor, int dimensions) const;
+    /// What a search for one of them costs for each hot pair that it finds, in looks at a capsule.
+    double cost_of_finding(double factor, int dimensions) const;
+
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+      auto& [count, most, by_way, width, way, growth, due] = self;
+      archive(count, most, by_way, width, way, growth, due);
+    }
   };
 
   /// What those that started last as most did tell of wider capsules.
   struct PriceOfWidth {
     double short_side = 0.0;
     double long_side = 0.0;
-    double capsules = 0.0;  ///< of each body
-    double pairs = 0.0;     ///< the same: their price, in looks at a capsule
+    double pairs = 0.0;  ///< the price of those of a body, in looks at a capsule
 
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
-      auto& [across, along, seen, due] = self;
-      archive(across, along, seen, due);
+      auto& [across, along, due] = self;
+      archive(across, along, due);
     }
   };
 
@@ -152,7 +166,7 @@ class Tempo {
   PriceOfWidth price_;
 };
 
-/// Bodies that start together, or some of them: rounds may be made side by side, and added up.
+/// Bodies that start together, or some of them: rounds may be made side by side, and added up in any order.
 class Tempo::Round {
  public:
   /// Needs the tempo to stay as it is. `most`: of all bodies, after start_main().
@@ -160,17 +174,23 @@ class Tempo::Round {
 
   /// A body starts in a window; `width` is that of its capsule without its way.
   void note(const Pace& pace, double width, int tier);
-  /// Sums depend on the order in which they are made: always the same one, where results have to be.
-  Round& operator+=(const Round& more) {
-    starts_ += more.starts_;
-    return *this;
-  }
+  Round& operator+=(const Round& more);
 
  private:
   friend class Tempo;
+  double quantum() const;
+  std::uint64_t quanta_in(double length) const;
+  void add(double width, const Pace& pace, double time, double most);
+
   const Tempo* tempo_;
   bool most_;
-  Starts starts_;
+  std::uint64_t bodies_ = 0;
+  std::uint64_t in_main_ = 0;
+  std::array<std::uint64_t, magnitudes> ways_gone_{};
+  // Lengths in whole quanta, the sums of which do not depend on their order.
+  std::uint64_t widths_ = 0;
+  std::uint64_t ways_ = 0;
+  std::uint64_t growths_ = 0;
 };
 
 }  // namespace kinesphere

@@ -27,26 +27,6 @@ double end_of_window(int tier, double now) {
 
 double largest_part(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// What searches of a layer that has just been sorted have cost.
-SearchCost cost_of(const Layer::Searches& searches) {
-  SearchCost cost{.rows = searches.runs.size(), .found = searches.found()};
-  for (const Run& run : searches.runs) cost.capsules += run.end - run.begin;
-  return cost;
-}
-
-/// What those of a layer that has been changed cost, about.
-SearchCost estimated_cost_of(const Layer::Searches& searches, const Grain& grain, std::size_t bodies) {
-  SearchCost cost{.found = searches.found()};
-  for (const auto& [capsule, from, to] : searches.queries) {
-    std::array<double, 3> widths;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      widths[axis] = 2.0 * double{capsule.radius} + std::abs(double{capsule.velocity[axis]}) * (to - from);
-    cost.capsules += static_cast<std::uint64_t>(grain.capsules(widths, static_cast<double>(bodies)));
-    cost.rows += static_cast<std::uint64_t>(grain.rows(widths));
-  }
-  return cost;
-}
-
 /// What stands still is as large as it is, for however long.
 double duration_until(double end, double now) { return end < infinity ? end - now : 0.0; }
 
@@ -123,7 +103,6 @@ void Windows::open(Member& member, const Vec3& base, double origin) {
   member.layer.clear(frame);
   member.layer.set_coarseness(coarseness_of(member));
   member.has_frame = true;
-  member.grain = {};
   next_end_ = std::min(next_end_, member.end);
 }
 
@@ -471,7 +450,6 @@ void Windows::sort_to_start(std::uint32_t layer, Sort sort_layer) {
   const float before = coarseness_of(member);
   member.layer.set_coarseness(before);
   sort_layer();
-  member.grain = member.layer.grain();
   member.changes = 0;
   const float after = member.layer.coarseness();
   if (after == before) return;
@@ -507,7 +485,6 @@ void Windows::search_behind(const Started& some, Scratch& scratch) const {
   scratch.layer.clear();
   for (std::uint32_t k = 0; k < some.count; ++k) layer.add_search_behind(some.place + k, scratch.layer);
   layer.make(scratch.layer);
-  scratch.cost += cost_of(scratch.layer);
   scratch.layer.for_each_found([&](std::uint32_t k, std::uint32_t place) {
     scratch.pairs.push_back({layer.number_at(some.place + k), layer.number_at(place)});
   });
@@ -534,8 +511,6 @@ void Windows::search_other_layers(const Started& some, double now, Scratch& scra
       for (std::uint32_t place = 0; place < member.layer.places(); ++place) note({k, true}, place);
     }
     member.layer.make(scratch.layer);
-    scratch.cost += member.fresh ? cost_of(scratch.layer)
-                                 : estimated_cost_of(scratch.layer, member.grain, member.layer.size());
     scratch.layer.for_each_found(
         [&](std::uint32_t query, std::uint32_t place) { note(scratch.images[query], place); });
   }
@@ -589,8 +564,7 @@ bool Windows::is_sound(std::size_t bodies) const {
            const bool possible = member.tier == never_ends
                                      ? member.end == infinity
                                      : std::abs(member.tier) <= longest_tier && std::isfinite(member.end);
-           return member.layer.is_sound() && member.grain.is_sound() &&
-                  ((possible && member.has_frame) || member.layer.size() == 0) &&
+           return member.layer.is_sound() && ((possible && member.has_frame) || member.layer.size() == 0) &&
                   std::abs(member.level) <= largest_level;
          });
 }

@@ -60,7 +60,6 @@ class Windows {
     std::vector<Pair> pairs;
     std::vector<RoomyBound> bounds;
     std::vector<ImageSearch> images;
-    SearchCost cost;  ///< of all searches of bodies that start, with it
   };
 
   explicit Windows(const Space& space) : space_(space) {}
@@ -231,9 +230,7 @@ class Windows {
     bool has_frame = false;  ///< without one it is empty
     bool fresh = false;      ///< all in it have started since windows ended
     Layer layer{};
-    // Of when it was last sorted as windows started.
-    Grain grain{};
-    std::uint64_t changes = 0;  ///< since then, in the order of which nothing depends
+    std::uint64_t changes = 0;  ///< since it was last sorted as windows started
 
     bool is_before(const Member& other) const {
       return std::tie(tier, level, end) < std::tie(other.tier, other.level, other.end);
@@ -243,8 +240,8 @@ class Windows {
 
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
-      auto& [power, size, until, is_framed, is_fresh, capsules, cells, entered] = self;
-      archive(power, size, until, is_framed, is_fresh, capsules, cells, entered);
+      auto& [power, size, until, is_framed, is_fresh, capsules, entered] = self;
+      archive(power, size, until, is_framed, is_fresh, capsules, entered);
     }
   };
   /// How coarse the cells of such a layer have turned out to have to be, where that is not 1.

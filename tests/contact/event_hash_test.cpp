@@ -1,4 +1,4 @@
-// The hash of events: the same for the same events in the same order, another one for any bit that differs.
+// The hash of events: the same for the same events in any order, another one for any bit that differs.
 #include "kinesphere/event_hash.hpp"
 
 #include <gtest/gtest.h>
@@ -51,17 +51,26 @@ TEST(EventHash, KnowsDistancesOfSensorsOnly) {
   EXPECT_FALSE(differ(EventKind::contact_begin));
 }
 
-TEST(EventHash, KnowsTheOrder) {
+TEST(EventHash, KnowsHowOften) {
   const std::vector<Event> events = variants();
-  EXPECT_EQ(hash_of(events), hash_of(events));
-  EXPECT_NE(hash_of({events[0], events[1]}), hash_of({events[1], events[0]}));
   EXPECT_NE(hash_of({events[0]}), hash_of({events[0], events[0]}));
+  EXPECT_NE(hash_of({events[0], events[1]}), hash_of({events[1], events[1]}));
+}
+
+TEST(EventHash, OfPartsAddUp) {
+  const std::vector<Event> events = variants();
+  std::vector<EventHash> parts(3);
+  for (std::size_t k = events.size(); k-- > 0;) parts[k % parts.size()].add(events[k]);
+  EventHash whole;
+  for (const EventHash& part : parts) whole += part;
+  EXPECT_EQ(whole.value(), hash_of(events));
+  EXPECT_NE(whole.value(), parts[0].value());
 }
 
 /// Hashes are compared across machines and versions. This one was computed apart from the library.
 TEST(EventHash, IsTheSameEverywhere) {
-  EXPECT_EQ(hash_of({}), 0xcbf29ce484222325u);
-  EXPECT_EQ(hash_of(variants()), 0xab02a9dc59f46c3cu);
+  EXPECT_EQ(hash_of({}), 0u);
+  EXPECT_EQ(hash_of(variants()), 0x22fbd9b593c0e96fu);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -16,8 +17,9 @@ namespace kinesphere {
 namespace {
 
 constexpr std::uint64_t seed = 4301;
-constexpr SearchCost nothing{};
-constexpr SearchCost immense{.capsules = 1'000'000'000'000};
+/// Hot pairs.
+constexpr std::uint64_t none = 0;
+constexpr std::uint64_t countless_pairs = 1'000'000'000'000;
 constexpr Kicks countless{.hot = 1'000'000'000'000};
 constexpr Pace everyday{1.0, 0.0};
 /// Of everyday bodies in windows of length 1.
@@ -38,8 +40,8 @@ Tempo chosen(double way = 1.0, const Pace& typical = everyday, int dimensions = 
 struct Round {
   std::vector<Pace> paces;
   double width = usual_width;
-  SearchCost starts;  ///< what their searches cost
-  Kicks kicks;        ///< until their windows end
+  std::uint64_t hot = 0;  ///< pairs that their searches find
+  Kicks kicks;            ///< until their windows end
 };
 
 Tempo::Round round_of(const Tempo& tempo, bool most, const std::vector<Pace>& paces, double width) {
@@ -51,14 +53,21 @@ Tempo::Round round_of(const Tempo& tempo, bool most, const std::vector<Pace>& pa
 /// They start at `now`, and those that start when their windows end know what it has cost.
 void start_main(Tempo& tempo, double& now, const Round& round) {
   tempo.start_main(now, {});
-  tempo.finish_start(round_of(tempo, true, round.paces, round.width), round.starts, many);
+  tempo.finish_start(round_of(tempo, true, round.paces, round.width), round.hot, many);
   now += length_of(main_tier(tempo));
   tempo.start_main(now, round.kicks);
 }
 
 /// Bodies start while most do not.
-void start_between(Tempo& tempo, const std::vector<Pace>& paces, const SearchCost& cost) {
-  tempo.finish_start(round_of(tempo, false, paces, usual_width), cost, many);
+void start_between(Tempo& tempo, const std::vector<Pace>& paces, std::uint64_t hot,
+                   std::uint64_t among = many) {
+  tempo.finish_start(round_of(tempo, false, paces, usual_width), hot, among);
+}
+
+std::vector<std::byte> bytes_of(const Tempo& tempo) {
+  ByteWriter writer;
+  writer(tempo);
+  return writer.bytes();
 }
 
 std::vector<Pace> bodies(std::size_t count, const Pace& pace = everyday) {
@@ -107,7 +116,7 @@ TEST(Tempo, ShorterWhereSearchesCostMost) {
     Tempo tempo = chosen(1.0, everyday, dimensions);
     double now = 0.0;
     const int before = tempo.tier_for(everyday);
-    start_main(tempo, now, {.paces = bodies(100), .starts = immense, .kicks = countless});
+    start_main(tempo, now, {.paces = bodies(100), .hot = countless_pairs, .kicks = countless});
     EXPECT_LT(tempo.tier_for(everyday), before);
     EXPECT_GE(tempo.tier_for(everyday), before - 6);
     EXPECT_EQ(std::log2(tempo.typical_way()), tempo.tier_for(everyday) - before);
@@ -118,12 +127,12 @@ TEST(Tempo, ShorterWhereSearchesCostMost) {
 /// What kicks cost in the time of a window counts, not what they cost until the next start.
 TEST(Tempo, CostsOfKicksAreOfAMainWindow) {
   // In 64 windows they would make windows shorter if they were of one.
-  const Kicks kicks{.hot = 64 * 80};
+  const Kicks kicks{.hot = 64 * 4};
   for (const double windows : {1.0, 64.0}) {
     Tempo tempo = chosen();
     const int before = main_tier(tempo);
     tempo.start_main(0.0, {});
-    tempo.finish_start(round_of(tempo, true, bodies(100), usual_width), nothing, many);
+    tempo.finish_start(round_of(tempo, true, bodies(100), usual_width), none, many);
     tempo.start_main(windows * length_of(before), kicks);
     if (windows == 1.0) {
       EXPECT_LT(main_tier(tempo), before);
@@ -133,16 +142,17 @@ TEST(Tempo, CostsOfKicksAreOfAMainWindow) {
   }
 }
 
-/// A kick's search costs what two of those that start do, as these find each pair once.
-TEST(Tempo, KicksSearchAsThoseThatStart) {
-  for (const std::uint64_t kicked : {0, 200}) {
-    Tempo tempo = chosen();
-    double now = 0.0;
-    const int before = main_tier(tempo);
-    start_main(tempo, now,
-               {.paces = bodies(100), .starts = {.capsules = 8'000}, .kicks = {.bodies = kicked}});
-    // Starts take 12,000 looks, half as long 24,000; their searches 8,000, half as long less than 3,000.
-    EXPECT_EQ(main_tier(tempo) < before, kicked > 0) << kicked;
+TEST(Tempo, HotPairsOfKicksCostAsThoseOfStarts) {
+  for (const std::uint64_t hot : {6, 18}) {
+    for (const std::uint64_t of_kicks : {std::uint64_t{0}, hot}) {
+      Tempo tempo = chosen();
+      double now = 0.0;
+      const int before = main_tier(tempo);
+      const Kicks kicks{.bodies = 2, .hot = of_kicks};
+      start_main(tempo, now, {.paces = bodies(100), .hot = hot - of_kicks, .kicks = kicks});
+      // Starts cost 15,600, half as long 31,200; a pair costs 3,100, half as long 550.
+      EXPECT_EQ(main_tier(tempo) < before, hot == 18) << of_kicks;
+    }
   }
 }
 
@@ -152,7 +162,7 @@ TEST(Tempo, InAPlaneWindowsAreLonger) {
   for (const int dimensions : {2, 3}) {
     Tempo tempo = chosen(1.0, everyday, dimensions);
     double now = 0.0;
-    start_main(tempo, now, {.paces = bodies(100), .width = 1e-6, .starts = {.capsules = 26'000}});
+    start_main(tempo, now, {.paces = bodies(100), .width = 1e-6, .hot = 1});
     tiers[static_cast<std::size_t>(dimensions - 2)] = main_tier(tempo);
   }
   EXPECT_GT(tiers[0], tiers[1]);
@@ -179,8 +189,8 @@ TEST(Tempo, StaysWhereNothingIsMuchCheaper) {
     const int before = main_tier(tempo);
     // As in a crowd: what searches find grows with the volume of the capsules.
     const double larger = 0.5 + tempo.typical_way();
-    const SearchCost cost{.capsules = static_cast<std::uint64_t>(100 * 20 * larger * larger * larger)};
-    start_main(tempo, now, {.paces = bodies(100), .width = 0.5, .starts = cost, .kicks = {.bodies = 50}});
+    const auto hot = static_cast<std::uint64_t>(20 * larger * larger * larger);
+    start_main(tempo, now, {.paces = bodies(100), .width = 0.5, .hot = hot, .kicks = {.bodies = 50}});
     if (main_tier(tempo) != before) ++changes;
   }
   EXPECT_LE(changes, 12);
@@ -192,7 +202,7 @@ TEST(Tempo, WithoutStartsNothingIsKnown) {
   Tempo tempo = chosen();
   double now = 0.0;
   const int before = main_tier(tempo);
-  start_main(tempo, now, {.starts = immense, .kicks = countless});
+  start_main(tempo, now, {.hot = countless_pairs, .kicks = countless});
   EXPECT_EQ(main_tier(tempo), before);
 }
 
@@ -202,7 +212,7 @@ TEST(Tempo, AtOneInstantNothingIsKnown) {
   const int before = main_tier(tempo);
   for (int round = 0; round < 3; ++round) {
     tempo.start_main(0.0, countless);
-    tempo.finish_start(round_of(tempo, true, bodies(100), usual_width), immense, many);
+    tempo.finish_start(round_of(tempo, true, bodies(100), usual_width), countless_pairs, many);
   }
   EXPECT_EQ(main_tier(tempo), before);
   EXPECT_EQ(tempo.typical_way(), 1.0);
@@ -272,7 +282,7 @@ TEST(Tempo, FollowsBodiesThatBecomeFaster) {
   const int main = main_tier(tempo);
   EXPECT_LT(tempo.tier_for(everyday), main - 100);
   for (int round = 0; round < 40; ++round)
-    start_main(tempo, now, {.paces = bodies(100), .width = 1.0, .starts = {.capsules = 12'000}});
+    start_main(tempo, now, {.paces = bodies(100), .width = 1.0, .hot = 100});
   EXPECT_EQ(tempo.tier_for(everyday), main_tier(tempo));
 }
 
@@ -284,13 +294,13 @@ TEST(Tempo, GrowsWhereMostAreInLongerWindows) {
   for (int k = 0; k < 6; ++k) {
     Tempo::Round round(tempo, false);
     for (int body = 0; body < 64; ++body) round.note({1e-3, 0.0}, usual_width, main_tier(tempo));
-    tempo.finish_start(round, nothing, many);
+    tempo.finish_start(round, none, many);
   }
   EXPECT_EQ(main_tier(tempo), before + 6 * Tempo::powers_between_tiers);
   EXPECT_EQ(tempo.typical_way(), length_of(main_tier(tempo) - before));
   EXPECT_TRUE(tempo.is_sound());
   // Up to the longest way.
-  for (int round = 0; round < 6; ++round) start_between(tempo, bodies(64, {1e-3, 0.0}), nothing);
+  for (int round = 0; round < 6; ++round) start_between(tempo, bodies(64, {1e-3, 0.0}), none);
   EXPECT_EQ(tempo.typical_way(), 1e6);
   EXPECT_TRUE(tempo.is_sound());
 }
@@ -303,7 +313,7 @@ TEST(Tempo, FastBodiesGoFarWhereNothingIsInTheirWay) {
   ASSERT_LT(first, main - Tempo::powers_between_tiers);
   std::vector<int> tiers;
   for (int round = 0; round < 5; ++round) {
-    start_between(tempo, bodies(64, fast), nothing);
+    start_between(tempo, bodies(64, fast), none, 64);
     tiers.push_back(tempo.tier_for(fast));
     ASSERT_TRUE(tempo.is_sound());
   }
@@ -318,15 +328,19 @@ TEST(Tempo, FastBodiesGoFarWhereNothingIsInTheirWay) {
   EXPECT_GT(way, std::ldexp(4.0, 4 * Tempo::powers_between_tiers));
 }
 
-TEST(Tempo, FastBodiesHaveShorterWindowsInDenseSurroundings) {
-  const Pace fast{1000.0, 0.0};
+/// Where others come, the fast pass by too many of them.
+TEST(Tempo, FastBodiesHaveShorterWindowsAmongMany) {
+  const Pace fast{1e5, 0.0};
   for (const int dimensions : {2, 3}) {
     Tempo tempo = chosen(1.0, everyday, dimensions);
     const int first = tempo.tier_for(fast);
-    start_between(tempo, bodies(64, fast), immense);
-    EXPECT_EQ(tempo.tier_for(fast), first - Tempo::powers_between_tiers);
-    for (int round = 0; round < 5; ++round) start_between(tempo, bodies(64, fast), immense);
-    EXPECT_GT(fast.way(length_of(tempo.tier_for(fast))), tempo.typical_way() / 8.0) << "about as far as most";
+    for (int round = 0; round < 3; ++round) start_between(tempo, bodies(64, fast), none, 64);
+    const int among_few = tempo.tier_for(fast);
+    EXPECT_EQ(among_few, first + 3 * Tempo::powers_between_tiers);
+    start_between(tempo, bodies(64, fast), none);
+    EXPECT_EQ(tempo.tier_for(fast), among_few - Tempo::powers_between_tiers);
+    for (int round = 0; round < 5; ++round) start_between(tempo, bodies(64, fast), none);
+    EXPECT_GE(fast.way(length_of(tempo.tier_for(fast))), tempo.typical_way()) << "as far as most";
     EXPECT_EQ(tempo.typical_way(), 1.0);
   }
 }
@@ -341,8 +355,7 @@ TEST(Tempo, FastBodiesFindTheirWindows) {
       for (int round = 0; round < 100; ++round) {
         const int before = tempo.tier_for(fast);
         const double way = fast.way(length_of(before));
-        const double found = density * (dimensions == 2 ? way * way : way * way * way);
-        start_between(tempo, bodies(64, fast), {.capsules = static_cast<std::uint64_t>(64 * 120 * found)});
+        start_between(tempo, bodies(64, fast), static_cast<std::uint64_t>(64 * density * way));
         if (tempo.tier_for(fast) != before) ++changes;
       }
       EXPECT_LE(changes, 4) << dimensions << " dimensions, density " << density;
@@ -358,7 +371,7 @@ TEST(Tempo, NobodyGoesMuchFartherThanTheLongestWay) {
       ASSERT_TRUE(tempo.is_sound()) << "way " << way << ", round " << round;
       for (double speed = 1e-3; speed < 1e6; speed *= 3.0)
         ASSERT_LE(speed * length_of(tempo.tier_for({speed, 0.0})), speed > 16.0 ? 1.0 : 4.0) << "way " << way;
-      start_between(tempo, bodies(64, {1e3, 0.0}), nothing);
+      start_between(tempo, bodies(64, {1e3, 0.0}), none);
     }
   }
 }
@@ -371,15 +384,13 @@ TEST(Tempo, StaysPossibleWhateverTheNumbers) {
   const auto positive = [&] { return std::clamp(value(), 1e-300, 1e300); };
   // As the limits of a world's tolerance let it be.
   const auto longest_way = [&] { return std::clamp(value(), 1e-60, 1e300); };
-  const auto cost = [&] {
+  const auto count = [&] {
     constexpr std::array<std::uint64_t, 4> counts{0, 1, 1000, std::uint64_t{1} << 62};
-    SearchCost c;
-    for (std::uint64_t* part : {&c.capsules, &c.rows, &c.found, &c.hot}) *part = counts[random.bits() % 4];
-    return c;
+    return counts[random.bits() % 4];
   };
   const auto kicks = [&] {
-    const SearchCost counts = cost();
-    return Kicks{counts.capsules, counts.hot};
+    const std::uint64_t kicked = count();
+    return Kicks{kicked, count()};
   };
   for (int k = 0; k < 20000; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", case " << k);
@@ -399,7 +410,7 @@ TEST(Tempo, StaysPossibleWhateverTheNumbers) {
         ASSERT_LE(std::abs(tier), 300 + Tempo::powers_between_tiers);
         starts.note(pace, value(), tier);
       }
-      tempo.finish_start(starts, cost(), many);
+      tempo.finish_start(starts, count(), many);
       ASSERT_GE(tempo.cost_of_width(positive()), 0.0);
       ASSERT_TRUE(tempo.is_sound()) << "round " << round;
     }
@@ -413,12 +424,83 @@ TEST(Tempo, WiderCapsulesCostAsTheirVolume) {
     EXPECT_EQ(tempo.cost_of_width(1.0), 0.0) << "nothing is known yet";
     tempo.start_main(0.0, {});
     const auto round = round_of(tempo, true, bodies(10, {0.0, 0.0}), 2.0);
-    tempo.finish_start(round, {.capsules = 1000}, many);
+    tempo.finish_start(round, none, many);
     EXPECT_EQ(tempo.cost_of_width(0.0), 0.0);
-    EXPECT_DOUBLE_EQ(tempo.cost_of_width(2.0), dimensions == 2 ? 300.0 : 700.0);
-    tempo.finish_start(Tempo::Round(tempo, true), {.hot = 10}, many);
-    EXPECT_GT(tempo.cost_of_width(2.0), dimensions == 2 ? 310.0 : 710.0) << "hot pairs cost, too";
+    EXPECT_DOUBLE_EQ(tempo.cost_of_width(2.0), dimensions == 2 ? 3.0 * 24.0 : 7.0 * 24.0);
+    tempo.finish_start(Tempo::Round(tempo, true), 10, many);
+    EXPECT_GT(tempo.cost_of_width(2.0), dimensions == 2 ? 3.0 * 284.0 : 7.0 * 284.0) << "hot pairs cost, too";
   }
+}
+
+/// Whoever adds up what, and in which order.
+TEST(Tempo, RoundsHaveOneSum) {
+  Random random(seed + 5);
+  for (int k = 0; k < 300; ++k) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed + 5 << ", case " << k);
+    const bool most = chance(random, 0.5);
+    Tempo one = chosen(log_uniform(random, -30, 30));
+    Tempo other = one;
+    double now = 0.0;
+    for (int start = 0; start < 3; ++start) {
+      const std::uint64_t hot = random.bits() % 1000;
+      if (most) one.start_main(now, {10, hot});
+      if (most) other.start_main(now, {10, hot});
+      Tempo::Round whole(one, most);
+      std::vector<Tempo::Round> parts(1 + random.bits() % 5, Tempo::Round(other, most));
+      for (int body = 0; body < 100; ++body) {
+        const Pace pace{log_uniform(random, -30, 30), log_uniform(random, -30, 30)};
+        const double width = log_uniform(random, -30, 60);
+        whole.note(pace, width, one.tier_for(pace));
+        parts[random.bits() % parts.size()].note(pace, width, other.tier_for(pace));
+      }
+      for (std::size_t part = parts.size() - 1; part > 0; --part) parts[part - 1] += parts[part];
+      one.finish_start(whole, hot, many);
+      other.finish_start(parts[0], hot, many);
+      ASSERT_EQ(bytes_of(one), bytes_of(other));
+      now += length_of(main_tier(one));
+    }
+  }
+}
+
+TEST(Survey, TellsTheDistanceOfNeighbours) {
+  const auto spacing = [](int x, int y, int z) {
+    Survey survey;
+    for (int k = 0; k < x * y * z; ++k)
+      survey.note({2.0 * (k % x), 2.0 * (k / x % y), 2.0 * (k / x / y)}, everyday);
+    return survey.spacing();
+  };
+  for (const auto& [x, y, z] : {std::array{1000, 1, 1}, std::array{30, 30, 1}, std::array{10, 10, 10}}) {
+    EXPECT_GT(spacing(x, y, z), 0.9) << x;
+    EXPECT_LT(spacing(x, y, z), 2.7) << x;
+  }
+  Survey alone;
+  alone.note({1.0, 2.0, 3.0}, everyday);
+  EXPECT_EQ(alone.spacing(), 0.0);
+}
+
+TEST(Survey, TellsTheTypicalPace) {
+  Random random(seed + 6);
+  for (int k = 0; k < 1000; ++k) {
+    Survey survey;
+    std::vector<double> speeds, accelerations;
+    for (std::uint64_t left = 1 + 2 * (random.bits() % 50); left > 0; --left) {
+      speeds.push_back(chance(random, 0.1) ? 0.0 : log_uniform(random, -60, 60));
+      accelerations.push_back(log_uniform(random, -60, 60));
+      survey.note({}, {speeds.back(), accelerations.back()});
+    }
+    std::sort(speeds.begin(), speeds.end());
+    std::sort(accelerations.begin(), accelerations.end());
+    const double speed = speeds[speeds.size() / 2];
+    const double acceleration = accelerations[accelerations.size() / 2];
+    const Pace typical = survey.typical();
+    ASSERT_TRUE(typical.speed <= 1.5 * speed && typical.speed >= 0.75 * speed)
+        << "seed " << seed + 6 << ", case " << k;
+    ASSERT_TRUE(typical.acceleration <= 1.5 * acceleration && typical.acceleration >= 0.75 * acceleration);
+  }
+  Survey immense;
+  immense.note({}, {infinity, 0.0});
+  EXPECT_EQ(immense.typical().speed, infinity);
+  EXPECT_EQ(immense.typical().acceleration, 0.0);
 }
 
 /// However long nothing moves.
@@ -441,24 +523,22 @@ TEST(Tempo, GoesOnAsBeforeAfterItWasBytes) {
   for (int round = 0; round < 400; ++round) {
     std::vector<Pace> paces;
     for (int k = 0; k < 20; ++k) paces.push_back({log_uniform(random, -10, 10), random.uniform()});
-    const auto cost = [&] { return SearchCost{.capsules = random.bits() % 10000}; };
-    const SearchCost of_starts = cost();
+    const std::uint64_t of_starts = random.bits() % 100;
     const bool most = random.bits() % 2 == 0;
     const auto kicks = [&] { return Kicks{.bodies = random.bits() % 1000, .hot = random.bits() % 1000}; };
     if (most) tempo.start_main(now, kicks());
     tempo.finish_start(round_of(tempo, most, paces, random.uniform()), of_starts, many);
-    ByteWriter writer;
-    writer(tempo);
+    const std::vector<std::byte> bytes = bytes_of(tempo);
     Tempo back = chosen();
     back.choose(3.0, everyday);
-    ByteReader reader(writer.bytes());
+    ByteReader reader(bytes);
     reader(back);
     ASSERT_FALSE(reader.failed());
     EXPECT_EQ(reader.remaining(), 0u);
     ASSERT_TRUE(back.is_sound());
     now += random.uniform();
     const Kicks kicks_since = kicks();
-    const SearchCost of_fast = cost();
+    const std::uint64_t of_fast = random.bits() % 100;
     for (Tempo* each : {&tempo, &back}) {
       start_between(*each, bodies(70, {1e3, 0.0}), of_fast);
       each->start_main(now, kicks_since);

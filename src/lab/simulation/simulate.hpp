@@ -33,7 +33,7 @@ struct SimulationResult {
   DetectorCounters counters;
   double simulated_time = 0.0;
   double body_time = 0.0;          ///< sum over bodies of the time they were there
-  std::uint64_t contact_hash = 0;  ///< of all events, in order; see EventHash
+  std::uint64_t contact_hash = 0;  ///< of all events; see EventHash
   std::optional<Memory> memory{};  ///< of the detector at the end, if it knows
 };
 
