@@ -170,7 +170,8 @@ void Tempo::Round::add(double width, const Pace& pace, double time, double most)
 
 void Tempo::Round::note(const Pace& pace, double width, int tier) {
   ++bodies_;
-  if (tier == tempo_->main_tier_) ++in_main_;
+  // Where times cannot be told apart so well, windows are longer than they should be.
+  if (tier >= tempo_->main_tier_) ++in_main_;
   if (!most_) return add(width, pace, length_of(tier), tempo_->longest_way_);
   const double time = length_of(tempo_->main_tier_);
   add(width, pace, time, much_farther * tempo_->typical_way_);

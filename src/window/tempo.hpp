@@ -110,7 +110,7 @@ class Tempo {
   /// Bodies that have started, and what that has cost.
   struct Starts {
     std::uint64_t bodies = 0;
-    std::uint64_t in_main = 0;  ///< of them, in a main window
+    std::uint64_t in_main = 0;  ///< of them, in a window no shorter than the main one
     /// How many went about 2^(k - least_magnitude) times the typical way, or less for k = 0.
     std::array<std::uint64_t, magnitudes> ways_gone{};
     // Sums of what makes capsules large.

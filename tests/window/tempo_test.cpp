@@ -305,6 +305,20 @@ TEST(Tempo, GrowsWhereMostAreInLongerWindows) {
   EXPECT_TRUE(tempo.is_sound());
 }
 
+/// A main window may be far shorter than times can be told apart: then all are in longer ones.
+TEST(Tempo, GrowsWhereWindowsAreLongerThanItSays) {
+  Tempo tempo = chosen(1.0, {1e60, 0.0});
+  const int shortest = -40;
+  ASSERT_LT(main_tier(tempo), shortest - 100);
+  for (int k = 0; k < 60; ++k) {
+    Tempo::Round round(tempo, false);
+    for (int body = 0; body < 64; ++body)
+      round.note(everyday, usual_width, std::max(main_tier(tempo), shortest));
+    tempo.finish_start(round, none, many);
+  }
+  EXPECT_GT(main_tier(tempo), shortest);
+}
+
 TEST(Tempo, FastBodiesGoFarWhereNothingIsInTheirWay) {
   const Pace fast{1000.0, 0.0};
   Tempo tempo = chosen();
