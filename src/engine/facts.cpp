@@ -19,11 +19,6 @@ HotPair Facts::hot_pair(double time, std::uint32_t a, std::uint32_t b) const {
   return {time, first, second, bodies()[first].stamp, bodies()[second].stamp};
 }
 
-double Facts::unchanged_until(std::uint32_t a, std::uint32_t b) const {
-  const double until = apart_until(a, b);
-  return until < infinity && are_linked(a, b) ? infinity : until;
-}
-
 double Facts::apart_until(std::uint32_t a, std::uint32_t b) const {
   // The same, to the last bit, whoever has found whom.
   if (b < a) std::swap(a, b);
@@ -68,8 +63,11 @@ double Facts::walls_unchanged_until(std::uint32_t number) const {
 
 void Facts::find_hot_pair(std::uint32_t a, std::uint32_t b, FoundPairs& found) const {
   ++found.candidates;
-  const double until = unchanged_until(a, b);
+  const double until = apart_until(a, b);
   if (until == infinity) return;
+  ++found.near;
+  // Of those that touch or sense each other, find_known_pairs() takes care.
+  if (are_linked(a, b)) return;
   found.hot.push_back(hot_pair(until, a, b));
   ++found.pairs;
 }

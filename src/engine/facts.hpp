@@ -20,11 +20,12 @@ struct alignas(128) FoundPairs {
   Windows::Scratch scratch;
   std::uint64_t searches = 0;
   std::uint64_t candidates = 0;
-  std::uint64_t pairs = 0;  ///< that candidates have given
+  std::uint64_t near = 0;   ///< of them, those that may meet before a window ends
+  std::uint64_t pairs = 0;  ///< that have become hot
 
   void forget() {
     hot.clear();
-    searches = candidates = pairs = 0;
+    searches = candidates = near = pairs = 0;
   }
 };
 
@@ -62,9 +63,6 @@ class Facts {
   /// Two that neither touch nor sense each other do not before this time, or not before a window ends
   /// (+infinity); now, if that takes fresh reports.
   double apart_until(std::uint32_t a, std::uint32_t b) const;
-  /// As apart_until(), for a pair that a search has found: of pairs that touch or sense each other,
-  /// find_known_pairs() takes care.
-  double unchanged_until(std::uint32_t a, std::uint32_t b) const;
   /// The same by the rules of contacts, for any pair; +infinity for ever.
   double unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const;
   /// The same of a body and its walls, in a world that has any.

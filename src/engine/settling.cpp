@@ -53,7 +53,7 @@ void Island::search(std::span<const std::uint32_t> numbers) {
     facts.find_walls(number, found_);
   }
   for (const std::uint32_t number : numbers) bodies()[number].settled = false;
-  kicks_ += {numbers.size(), found_.pairs};
+  kicks_ += {numbers.size(), found_.near};
   take(found_);
 }
 
@@ -77,6 +77,7 @@ void Island::take(FoundPairs& found) {
   counters_.searches += std::exchange(found.searches, 0);
   counters_.candidates += std::exchange(found.candidates, 0);
   counters_.hot_pairs += std::exchange(found.pairs, 0);
+  found.near = 0;
   agenda_.add_all(found.hot);
 }
 

@@ -145,7 +145,7 @@ Result<void> World::Engine::start_windows(Shift& shift, bool all, std::span<cons
   return {};
 }
 
-/// The hot pairs that searches find of those that have started: how many.
+/// The hot pairs that searches find of those that have started, and how many pairs are near.
 std::uint64_t World::Engine::find_pairs_of_started(Shift& shift) {
   const double now = time();
   const Windows& windows = tables_.windows;
@@ -159,9 +159,9 @@ std::uint64_t World::Engine::find_pairs_of_started(Shift& shift) {
         for (const auto& [a, b] : windows.near_started(from, to, now, bound_of, found.scratch))
           facts.find_hot_pair(a, b, found);
       });
-  std::uint64_t hot = 0;
-  for (const FoundPairs& found : found_) hot += found.pairs;
-  return hot;
+  std::uint64_t near = 0;
+  for (const FoundPairs& found : found_) near += found.near;
+  return near;
 }
 
 /// Pairs that touch or sense each other, and walls, of those that have started.

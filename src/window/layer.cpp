@@ -393,8 +393,9 @@ void Layer::add_runs(const CapsuleQuery& query, std::uint32_t first_cell, std::u
     const std::int32_t all = grid_.count[axis];
     const std::int32_t first = grid_.cell_of(corners.lower[axis] - reach_, axis);
     const std::int32_t last = grid_.cell_of(corners.upper[axis] + reach_, axis);
+    const float cells = (corners.upper[axis] - corners.lower[axis] + 2.0f * reach_) * grid_.per_edge[axis];
     // Also where a corner is infinite or not a number.
-    if (!(corners.upper[axis] - corners.lower[axis] < most_cells)) {
+    if (!(cells < most_cells)) {
       begin[axis] = 0;
       count[axis] = all;
     } else if (grid_.folded[axis]) {

@@ -16,10 +16,10 @@ constexpr double start_cost = 120.0;
 constexpr double search_capsules = 24.0;
 /// and costs this with the rows in which they are.
 constexpr double search_cost = 36.0;
-/// A search finds a pair, and it becomes hot.
-constexpr double cost_of_hot_pair = 100.0;
+/// A search finds a near pair, which mostly becomes hot.
+constexpr double cost_of_near_pair = 100.0;
 /// The same with the looks and reports that come of it.
-constexpr double price_of_hot_pair = 260.0;
+constexpr double price_of_near_pair = 260.0;
 /// Cells are cubes, capsules are not: so many times as far apart are bodies at which a search looks.
 constexpr double farther_in_cells = 5.0;
 // Of a search among cells that are small beside its capsule.
@@ -49,16 +49,26 @@ double power(double base, int exponent) {
 void Survey::Magnitudes::note(double value) {
   const int last = static_cast<int>(counts_.size()) - 1;
   ++counts_[static_cast<std::size_t>(std::clamp(exponent_of(value) - least, 0, last))];
+  ++all_;
 }
 
 /// Of the smallest and the largest ones it is 0 and infinity.
-double Survey::Magnitudes::median() const {
-  std::uint64_t all = 0;
-  for (const std::uint64_t count : counts_) all += count;
-  std::size_t k = 0;
-  for (std::uint64_t below = counts_[0]; 2 * below < all;) below += counts_[++k];
+double Survey::Magnitudes::value_of(std::size_t k) const {
   if (k == 0) return 0.0;
   return k + 1 == counts_.size() ? infinity : 1.5 * power_of_two(static_cast<int>(k) + least);
+}
+
+double Survey::Magnitudes::median() const {
+  std::size_t k = 0;
+  for (std::uint64_t below = counts_[0]; 2 * below < all_;) below += counts_[++k];
+  return value_of(k);
+}
+
+double Survey::Magnitudes::mean() const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < counts_.size(); ++k)
+    if (counts_[k] > 0) sum += static_cast<double>(counts_[k]) / static_cast<double>(all_) * value_of(k);
+  return sum;
 }
 
 void Survey::note(const Vec3& centre, const Pace& pace) {
@@ -83,7 +93,7 @@ double Survey::spacing() const {
   return sides[0] * power_of_two(-exponent_of(static_cast<double>(bodies_)) / 3);
 }
 
-Pace Survey::typical() const { return {speeds_.median(), accelerations_.median()}; }
+Pace Survey::typical() const { return {speeds_.median(), accelerations_.mean()}; }
 
 void Tempo::choose(double way, const Pace& typical) {
   way = std::min(way, longest_way_);
@@ -117,11 +127,11 @@ double Tempo::Starts::cost_of_finding(double factor, int dimensions) const {
 /// the same. Those that start find each pair once, and kicks do not.
 double Tempo::main_rate(double times_longer, const Kicks& kicks, double windows) const {
   const double cost_of_pair = main_.times_larger(times_longer, dimensions_) *
-                              (cost_of_hot_pair + main_.cost_of_finding(times_longer, dimensions_));
+                              (cost_of_near_pair + main_.cost_of_finding(times_longer, dimensions_));
   const double starts = static_cast<double>(main_.bodies) * (start_cost + search_cost) +
-                        static_cast<double>(main_.hot) * cost_of_pair;
+                        static_cast<double>(main_.near) * cost_of_pair;
   const double of_kicks =
-      static_cast<double>(kicks.bodies) * 2.0 * search_cost + static_cast<double>(kicks.hot) * cost_of_pair;
+      static_cast<double>(kicks.bodies) * 2.0 * search_cost + static_cast<double>(kicks.near) * cost_of_pair;
   return starts / times_longer + of_kicks / windows;
 }
 
@@ -132,8 +142,8 @@ double Tempo::fast_rate(double times_longer) const {
   const double rows = power(cells, dimensions_ - 1);
   const double search = std::min(rows * (cost_of_row + cells * capsules_in_cell),
                                  (cost_of_row + 1.0) * static_cast<double>(bodies_));
-  const double pairs = static_cast<double>(fast_.hot) * fast_.times_larger(times_longer, dimensions_);
-  return (static_cast<double>(fast_.bodies) * (start_cost + search) + pairs * cost_of_hot_pair) /
+  const double pairs = static_cast<double>(fast_.near) * fast_.times_larger(times_longer, dimensions_);
+  return (static_cast<double>(fast_.bodies) * (start_cost + search) + pairs * cost_of_near_pair) /
          times_longer;
 }
 
@@ -203,11 +213,11 @@ Tempo::Starts& Tempo::Starts::operator+=(const Round& round) {
   return *this;
 }
 
-void Tempo::finish_start(const Round& round, std::uint64_t hot, std::uint64_t bodies) {
+void Tempo::finish_start(const Round& round, std::uint64_t near, std::uint64_t bodies) {
   bodies_ = bodies;
   Starts& starts = round.most_ ? main_ : fast_;
   starts += round;
-  starts.hot += hot;
+  starts.near += near;
   if (round.most_) {
     note_price();
   } else if (fast_.bodies >= enough_starts) {
@@ -218,7 +228,7 @@ void Tempo::finish_start(const Round& round, std::uint64_t hot, std::uint64_t bo
 void Tempo::note_price() {
   const auto count = static_cast<double>(main_.bodies);
   const double pairs =
-      static_cast<double>(main_.hot) * (price_of_hot_pair + main_.cost_of_finding(1.0, dimensions_));
+      static_cast<double>(main_.near) * (price_of_near_pair + main_.cost_of_finding(1.0, dimensions_));
   const double across = main_.short_side(1.0) / count;
   const double along = main_.long_side(1.0) / count;
   price_ = {};

@@ -1,6 +1,6 @@
 // The tempo: how long windows are. A cost model, which counts and measures no time, so that it is the same on
-// all machines; and which knows of bodies and their hot pairs alone, not of the order of bodies nor of where
-// capsules are kept, so that it is the same wherever they are.
+// all machines; and which knows of bodies and of pairs that may meet alone, not of the order of bodies nor of
+// where capsules are kept, so that it is the same wherever they are.
 #pragma once
 
 #include <array>
@@ -21,15 +21,15 @@ struct Pace {
   double way(double time) const { return (speed + 0.5 * acceleration * time) * time; }
 };
 
-/// Bodies that have got another capsule by themselves, within a window, and how many pairs became hot by
-/// that.
+/// Bodies that have got another capsule by themselves, within a window, and how many near pairs their
+/// searches have found: two bodies that may meet before the window of either ends.
 struct Kicks {
   std::uint64_t bodies = 0;
-  std::uint64_t hot = 0;
+  std::uint64_t near = 0;
 
   Kicks& operator+=(const Kicks& more) {
     bodies += more.bodies;
-    hot += more.hot;
+    near += more.near;
     return *this;
   }
   template <class Self, class Archive>
@@ -46,7 +46,7 @@ class Survey {
   /// About the distance between neighbours (length), if they are spread evenly along a line or in a layer, if
   /// their box is thinner than that, or in a cube around it. The same on all machines.
   double spacing() const;
-  /// That of the body in the middle, to within a factor of two.
+  /// The speed of the body in the middle, and the mean acceleration, each to within a factor of two.
   Pace typical() const;
 
  private:
@@ -55,9 +55,12 @@ class Survey {
    public:
     void note(double value);
     double median() const;
+    double mean() const;
 
    private:
     static constexpr int least = -512;
+    double value_of(std::size_t k) const;
+    std::uint64_t all_ = 0;
     std::array<std::uint64_t, 1024> counts_{};
   };
 
@@ -87,11 +90,11 @@ class Tempo {
   double typical_way() const { return typical_way_; }
 
   class Round;
-  /// Most bodies are going to start. Chooses the length of the main windows, knowing how many hot pairs those
-  /// that started last time have found, and how many have been kicked since then.
+  /// Most bodies are going to start. Chooses the length of the main windows, knowing how many near pairs
+  /// those that started last time have found, and how many have been kicked since then.
   void start_main(double now, const Kicks& kicks);
-  /// All of a round have started, so that there are so many bodies, and found so many hot pairs.
-  void finish_start(const Round& round, std::uint64_t hot, std::uint64_t bodies);
+  /// All of a round have started, so that there are so many bodies, and found so many near pairs.
+  void finish_start(const Round& round, std::uint64_t near, std::uint64_t bodies);
   /// What it costs that the capsule of a typical body is so much wider (length), in looks at a capsule.
   double cost_of_width(double more) const;
 
@@ -115,9 +118,9 @@ class Tempo {
     std::array<std::uint64_t, magnitudes> ways_gone{};
     // Sums of what makes capsules large.
     double widths = 0.0;
-    double ways = 0.0;     ///< straight on
-    double growths = 0.0;  ///< on all sides, by what acceleration may do
-    std::uint64_t hot = 0;
+    double ways = 0.0;       ///< straight on
+    double growths = 0.0;    ///< on all sides, by what acceleration may do
+    std::uint64_t near = 0;  ///< pairs that they found
 
     Starts& operator+=(const Round& round);
     /// What they would be if windows were so many times as long.
@@ -125,7 +128,7 @@ class Tempo {
     double long_side(double factor) const { return short_side(factor) + ways * factor; }
     /// In how much more space they would be.
     double times_larger(double factor, int dimensions) const;
-    /// What a search for one of them costs for each hot pair that it finds, in looks at a capsule.
+    /// What a search for one of them costs for each near pair that it finds, in looks at a capsule.
     double cost_of_finding(double factor, int dimensions) const;
 
     template <class Self, class Archive>
