@@ -42,8 +42,8 @@ double Pacing::longest_in_period(std::uint32_t number, double length, double rel
   return longest;
 }
 
-int Pacing::tier_for(std::uint32_t number, const Pace& pace) const {
-  int tier = tables_.tempo.tier_for(pace);
+/// Of the longest window up to this tier, from now on, that is short enough for a space that repeats.
+int Pacing::tier_in_space(std::uint32_t number, int tier) const {
   if (!bodies().space().repeats()) return tier;
   tier = Windows::window_at(time_, tier).tier;
   const double release_gap = tables_.book.rule().release_gap();
@@ -64,6 +64,11 @@ Window Pacing::next_window(std::uint32_t number, const std::optional<Window>& pr
                      present->end <= window.end &&
                      (present->tier <= window.tier || !bodies().space().repeats());
   return suits && time_ < present->end ? *present : window;
+}
+
+Window Pacing::longer_window(std::uint32_t number, const Window& ended) const {
+  const int suits = tables_.tempo.tier_for(pace_of(MovedBound(bodies()[number].bound, time_)));
+  return Windows::window_at(time_, tier_in_space(number, std::max(suits, ended.tier + 1)));
 }
 
 bool Pacing::needs_report(std::uint32_t number) const {

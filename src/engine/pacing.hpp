@@ -13,19 +13,25 @@ class Pacing {
   Pacing(const Tables& tables, double time) : tables_(tables), time_(time) {}
 
   /// Of the window, from now on, that suits the pace of a body.
-  int tier_for(std::uint32_t number, const Pace& pace) const;
+  int tier_for(std::uint32_t number, const Pace& pace) const {
+    return tier_in_space(number, tables_.tempo.tier_for(pace));
+  }
   Window window_for(std::uint32_t number) const {
     return Windows::window_at(time_, tier_for(number, pace_of(MovedBound(bodies()[number].bound, time_))));
   }
   /// The window in which a body is to be from now on that is in this one, if it is in any: there, unless that
   /// lasts longer than the one that suits it, or is far shorter.
   Window next_window(std::uint32_t number, const std::optional<Window>& present) const;
+  /// For a body that had a window for itself, which ends now. Nothing has happened to it for a while, so the
+  /// next one is longer, where space lets it, so that there are not many.
+  Window longer_window(std::uint32_t number, const Window& ended) const;
   /// Whether, until the next window ends, the bound would grow so much that a report costs less, or the body
   /// go so far from its last report that its place could not be computed well, or so large that no window
   /// suits it.
   bool needs_report(std::uint32_t number) const;
 
  private:
+  int tier_in_space(std::uint32_t number, int tier) const;
   double longest_in_period(std::uint32_t number, double length, double release_gap) const;
   const Bodies& bodies() const { return tables_.bodies; }
 

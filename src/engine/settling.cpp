@@ -64,11 +64,9 @@ Result<void> Island::renew(std::uint32_t number) {
     if (auto probed = probe(std::span(&number, 1)); !probed) return probed;
   }
   if (bodies()[number].dirty) return {};
-  // Nothing has happened to it for a while: the next one may be longer, so that there are not many.
-  Window window = pacing.window_for(number);
-  if (const auto ended = facts().window_of(number); ended && !bodies().space().repeats())
-    window = Windows::window_at(time_, std::max(window.tier, ended->tier + 1));
-  enter(number, window);
+  const auto ended = facts().window_of(number);
+  const bool lasted = ended && ended->end <= time_;
+  enter(number, lasted ? pacing.longer_window(number, *ended) : pacing.window_for(number));
   search(std::span(&number, 1));
   return {};
 }

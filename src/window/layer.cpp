@@ -404,8 +404,8 @@ void Layer::add_runs(const CapsuleQuery& query, std::uint32_t first_cell, std::u
     } else {
       begin[axis] = std::max(first - grid_.first[axis], 0);
       count[axis] = std::min(last - grid_.first[axis] + 1, all) - begin[axis];
-      if (count[axis] <= 0) return;
     }
+    if (count[axis] <= 0) return;
   }
   const auto along = [this](std::size_t axis) { return static_cast<std::uint32_t>(grid_.count[axis]); };
   const auto from = [&begin](std::size_t axis) { return static_cast<std::uint32_t>(begin[axis]); };

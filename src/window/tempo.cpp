@@ -122,16 +122,25 @@ double Tempo::Starts::cost_of_finding(double factor, int dimensions) const {
   return power(farther_in_cells * slenderness, dimensions - 1);
 }
 
+/// At how many capsules so many searches look that find so many near pairs, among those in main windows, if
+/// these were so many times as long; at no more than there are.
+double Tempo::looks(std::uint64_t searches, double found, double times_longer) const {
+  return std::min(found * main_.cost_of_finding(times_longer, dimensions_),
+                  static_cast<double>(searches) * static_cast<double>(bodies_));
+}
+
 /// The cost of a time as long as a main window, if these were so many times as long and there were so many
 /// kicks in so many windows. Cells become larger with the capsules, so that searches that find nothing cost
 /// the same. Those that start find each pair once, and kicks do not.
 double Tempo::main_rate(double times_longer, const Kicks& kicks, double windows) const {
-  const double cost_of_pair = main_.times_larger(times_longer, dimensions_) *
-                              (cost_of_near_pair + main_.cost_of_finding(times_longer, dimensions_));
-  const double starts = static_cast<double>(main_.bodies) * (start_cost + search_cost) +
-                        static_cast<double>(main_.near) * cost_of_pair;
+  const auto pairs = [&](std::uint64_t searches, std::uint64_t near) {
+    const double found = static_cast<double>(near) * main_.times_larger(times_longer, dimensions_);
+    return found * cost_of_near_pair + looks(searches, found, times_longer);
+  };
+  const double starts =
+      static_cast<double>(main_.bodies) * (start_cost + search_cost) + pairs(main_.bodies, main_.near);
   const double of_kicks =
-      static_cast<double>(kicks.bodies) * 2.0 * search_cost + static_cast<double>(kicks.near) * cost_of_pair;
+      static_cast<double>(kicks.bodies) * 2.0 * search_cost + pairs(kicks.bodies, kicks.near);
   return starts / times_longer + of_kicks / windows;
 }
 
@@ -227,8 +236,8 @@ void Tempo::finish_start(const Round& round, std::uint64_t near, std::uint64_t b
 
 void Tempo::note_price() {
   const auto count = static_cast<double>(main_.bodies);
-  const double pairs =
-      static_cast<double>(main_.near) * (price_of_near_pair + main_.cost_of_finding(1.0, dimensions_));
+  const auto near = static_cast<double>(main_.near);
+  const double pairs = near * price_of_near_pair + looks(main_.bodies, near, 1.0);
   const double across = main_.short_side(1.0) / count;
   const double along = main_.long_side(1.0) / count;
   price_ = {};

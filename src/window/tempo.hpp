@@ -151,6 +151,7 @@ class Tempo {
     }
   };
 
+  double looks(std::uint64_t searches, double found, double times_longer) const;
   double main_rate(double times_longer, const Kicks& kicks, double windows) const;
   double fast_rate(double times_longer) const;
   void note_price();

@@ -19,8 +19,8 @@ namespace {
 constexpr std::uint64_t seed = 4301;
 /// Near pairs.
 constexpr std::uint64_t none = 0;
-constexpr std::uint64_t countless_pairs = 1'000'000'000'000;
-constexpr Kicks countless{.near = 1'000'000'000'000};
+constexpr std::uint64_t countless_pairs = 1'000'000'000;
+constexpr Kicks countless{.bodies = 100, .near = 1'000'000'000};
 constexpr Pace everyday{1.0, 0.0};
 /// Of everyday bodies in windows of length 1.
 constexpr double usual_width = 0.1;
@@ -124,10 +124,22 @@ TEST(Tempo, ShorterWhereSearchesCostMost) {
   }
 }
 
+/// No search looks at more bodies than there are: where there are few, windows may be long.
+TEST(Tempo, SearchesAmongFewCostLittle) {
+  for (const std::size_t all : {std::size_t{10}, many}) {
+    Tempo tempo = chosen();
+    const int before = main_tier(tempo);
+    tempo.start_main(0.0, {});
+    tempo.finish_start(round_of(tempo, true, bodies(10), usual_width), 2, all);
+    tempo.start_main(length_of(before), {});
+    EXPECT_EQ(main_tier(tempo) < before, all == many) << all;
+  }
+}
+
 /// What kicks cost in the time of a window counts, not what they cost until the next start.
 TEST(Tempo, CostsOfKicksAreOfAMainWindow) {
   // In 64 windows they would make windows shorter if they were of one.
-  const Kicks kicks{.near = 64 * 4};
+  const Kicks kicks{.bodies = 1, .near = 64 * 4};
   for (const double windows : {1.0, 64.0}) {
     Tempo tempo = chosen();
     const int before = main_tier(tempo);
