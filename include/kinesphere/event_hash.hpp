@@ -5,6 +5,7 @@
 //   std::printf("%016llx\n", static_cast<unsigned long long>(hash.value()));
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "kinesphere/event.hpp"
@@ -20,6 +21,14 @@ class EventHash {
   void add(const Event& event);
   EventHash& operator+=(const EventHash& other);
   std::uint64_t value() const;
+  /// All that a hash is made of, for messages and files; and a hash that is made of it.
+  std::array<std::uint64_t, 2> parts() const { return {sum_, count_}; }
+  static EventHash of(const std::array<std::uint64_t, 2>& parts) {
+    EventHash hash;
+    hash.sum_ = parts[0];
+    hash.count_ = parts[1];
+    return hash;
+  }
 
  private:
   std::uint64_t sum_ = 0;

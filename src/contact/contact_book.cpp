@@ -21,14 +21,14 @@ bool ContactBook::touch(std::uint32_t a, std::uint32_t b) const {
 }
 
 Senses ContactBook::senses_of(const Event& leave) const {
-  for (const Crossing& crossing : crossings_of(leave.first.index, leave.second.index))
+  for (const Crossing& crossing : crossings_of(number_of(leave.first), number_of(leave.second)))
     if (crossing.distance == leave.distance) return crossing.senses;
   return Senses::neither;
 }
 
 void ContactBook::set_touching(const Event& contact, bool touching) {
-  const std::uint32_t a = contact.first.index;
-  const std::uint32_t b = contact.second.index;
+  const std::uint32_t a = number_of(contact.first);
+  const std::uint32_t b = number_of(contact.second);
   if (contact.wall != Wall::none) {
     std::uint8_t& set = entries_[a].walls;
     const std::uint8_t bit = wall_bit(contact.wall);
@@ -65,6 +65,25 @@ void ContactBook::release_all(std::uint32_t body) {
   partners_[body].clear();
 }
 
+void ContactBook::set_links(std::uint32_t body, std::span<const std::uint32_t> partners,
+                            std::vector<Crossing> crossings) {
+  if (partners_.size() < entries_.size()) partners_.resize(entries_.size());
+  for (const std::uint32_t before : partners_[body].all()) partners_[before].erase(body);
+  partners_[body].clear();
+  for (const std::uint32_t partner : partners) {
+    partners_[body].add(partner);
+    partners_[partner].add(body);
+  }
+  if (crossings.empty() && crossings_.of(body).empty()) return;
+  crossings_.make_lists(entries_.size());
+  for (const Crossing& before : crossings_.of(body))
+    crossings_.erase(before.partner, {body, before.distance, before.senses});
+  std::sort(crossings.begin(), crossings.end());
+  for (const Crossing& crossing : crossings)
+    crossings_.add(crossing.partner, {body, crossing.distance, crossing.senses});
+  crossings_.set(body, crossings);
+}
+
 void ContactBook::start_side_by_side(bool with_sensors) {
   fixed_wait_ = true;
   // No list may have to be made while others are read.
@@ -84,6 +103,8 @@ void ContactBook::put_back(std::uint32_t body, const Kept& kept) {
   if (body < partners_.size()) partners_[body] = kept.partners;
   crossings_.set(body, kept.crossings);
 }
+
+void ContactBook::put_back_alone(std::uint32_t body, const Kept& kept) { entries_[body] = kept.entry; }
 
 void ContactBook::tell_fixed(std::uint32_t body, const Kept& before) {
   const auto missing = [](const auto& from, const auto& in) {
@@ -126,8 +147,8 @@ bool ContactBook::is_repeated(const Event& begin, std::uint32_t body) const {
 std::uint32_t ContactBook::contacts_now(const Event& contact) const {
   std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
   for (const BodyId id : {contact.first, contact.second}) {
-    if (id == no_body || entries_[id.index].fixed) continue;
-    const Entry& entry = entries_[id.index];
+    if (id == no_body || entries_[number_of(id)].fixed) continue;
+    const Entry& entry = entries_[number_of(id)];
     least = std::min(least, entry.last_contact == contact.time ? std::uint32_t{entry.contacts_then} : 0);
   }
   return least;
@@ -135,10 +156,12 @@ std::uint32_t ContactBook::contacts_now(const Event& contact) const {
 
 void ContactBook::note_contact(Event& begin) {
   const bool pair = begin.second != no_body;
-  begin.repeated = is_repeated(begin, begin.first.index) || (pair && is_repeated(begin, begin.second.index));
+  const std::uint32_t first = number_of(begin.first);
+  const std::uint32_t second = number_of(begin.second);
+  begin.repeated = is_repeated(begin, first) || (pair && is_repeated(begin, second));
   begin.jammed = contacts_now(begin) >= many_at_one_instant;
-  note_contact(begin.first.index, begin.time);
-  if (pair) note_contact(begin.second.index, begin.time);
+  note_contact(first, begin.time);
+  if (pair) note_contact(second, begin.time);
 }
 
 void ContactBook::note_contact(std::uint32_t body, double time) {

@@ -28,6 +28,10 @@ class ContactBook {
     return threshold.sensed ? sensor_rule_ : rule_;
   }
 
+  /// From now on the numbers of bodies are in the tags of their ids (BodyTable).
+  void find_numbers_in_tags() { numbers_in_tags_ = true; }
+  std::uint32_t number_of(BodyId id) const { return numbers_in_tags_ ? id.world : id.index; }
+
   void reserve(std::size_t bodies) { entries_.reserve(bodies); }
   /// A body that touches nothing. `largest_acceleration` sets its Zeno interval.
   void add(std::uint32_t body, double largest_acceleration);
@@ -97,6 +101,10 @@ class ContactBook {
   /// Marks the begin of a contact if it is a repeated or a jammed one, and remembers it for the next.
   void note_contact(Event& begin);
 
+  /// Of a body that has come from elsewhere: it touches these, and is within these distances of others, and
+  /// all of them are told.
+  void set_links(std::uint32_t body, std::span<const std::uint32_t> partners,
+                 std::vector<Crossing> crossings);
   // Several threads may change the contacts of different bodies at the same time, between these two calls.
   // The lists of fixed bodies, which all may touch, stay as they are.
   void start_side_by_side(bool with_sensors);
@@ -105,13 +113,15 @@ class ContactBook {
   struct Kept;
   Kept keep(std::uint32_t body) const;
   void put_back(std::uint32_t body, const Kept& kept);
+  /// The same but for whom it touches and senses.
+  void put_back_alone(std::uint32_t body, const Kept& kept);
   /// Brings the lists of fixed bodies up to date with what has changed about this one.
   void tell_fixed(std::uint32_t body, const Kept& before);
 
   /// All but the rules and the space, which follow from the world's definition.
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [rule, sensor_rule, space, entries, partners, crossings, wait] = self;
+    auto& [rule, sensor_rule, space, entries, partners, crossings, wait, in_tags] = self;
     archive(entries, partners, crossings);
   }
   /// For one that was read in a world of this many bodies: true when contacts are mutual. `box` has the walls
@@ -167,12 +177,19 @@ class ContactBook {
   std::vector<PartnerList> partners_;  ///< of all bodies up to the last one that ever had one
   Crossings crossings_;
   bool fixed_wait_ = false;  ///< the lists of fixed bodies are brought up to date later
+  bool numbers_in_tags_ = false;
 };
 
 struct ContactBook::Kept {
   Entry entry;
   PartnerList partners;
   std::vector<Crossing> crossings;
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [last, touched, sensed] = self;
+    archive(last, touched, sensed);
+  }
 };
 
 }  // namespace kinesphere

@@ -27,7 +27,7 @@ bool Instant::take_effect(ContactBook& book, Event& event, const Sphere& first, 
   if (begins_now && !book.still_begins(event, first, second)) return false;
   if (begins_now && !is_of_sensor(event.kind)) book.note_contact(event);
   book.set_touching(event, begins_now);
-  changed_.emplace_back(first.id.index, second.id.index);
+  changed_.emplace_back(book.number_of(first.id), book.number_of(second.id));
   return true;
 }
 

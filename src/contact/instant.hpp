@@ -63,10 +63,10 @@ class Instant {
       event = pending_.take_first();
       const bool alone = event->second == no_body;
       if (is_there(event->first) && (alone || is_there(event->second))) {
-        const Sphere first = sphere(event->first.index);
+        const Sphere first = sphere(book.number_of(event->first));
         if (event->kind == EventKind::sensor_enter) event->senses = senses_in(*event);
         if (event->kind == EventKind::sensor_leave) event->senses = book.senses_of(*event);
-        if (take_effect(book, *event, first, alone ? first : sphere(event->second.index), box)) return event;
+        if (take_effect(book, *event, first, alone ? first : sphere(book.number_of(event->second)), box)) return event;
       } else if (!begins(event->kind) && event->kind != EventKind::zeno_guard) {
         return event;
       }

@@ -20,4 +20,7 @@ class Answerer {
   virtual void depart(BodyId body, const Departure& departure) = 0;
 };
 
+/// Tells the mover of all new velocities or, if it throws, of none.
+void turn(Mover& mover, const Event& event, const Answer& answer);
+
 }  // namespace kinesphere

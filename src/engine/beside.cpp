@@ -7,13 +7,14 @@
 
 namespace kinesphere {
 
-void Island::begin(Sea& sea, std::uint32_t own, double now, std::span<const HotPair> due) {
+void Island::begin(Sea& sea, std::uint32_t own, double now, const Beginning& with) {
   time_ = now;
   phase_end_ = sea.phase_end;
   agenda_.clear();
-  for (const HotPair& pair : due) agenda_.add(pair);
+  for (const HotPair& pair : with.due) agenda_.add(pair);
   instant_ = {};
-  dirty_.clear();
+  for (const Event& event : with.pending) instant_.announce(event);
+  dirty_ = with.unsettled;
   gathering_ = true;
   counters_ = {};
   kicks_ = {};
@@ -23,6 +24,7 @@ void Island::begin(Sea& sea, std::uint32_t own, double now, std::span<const HotP
 
 /// As World::Engine::advance(), but that no windows start.
 Result<void> Island::go_on(Answerer* answerer, std::vector<Told>& told) {
+  if (!beside_->sea->comes(time_)) return settle();
   std::uint32_t round = 0;
   for (;;) {
     if (gathering_) {
@@ -55,8 +57,9 @@ Result<void> Island::answer(const Event& event, Answerer& answerer) {
   note(event.first, answer->first_velocity);
   note(event.second, answer->second_velocity);
   answerer.turn(event, *answer);
-  if (answer->first_velocity) kick(event.first.index, *answer->first_velocity);
-  if (answer->second_velocity) kick(event.second.index, *answer->second_velocity);
+  const BodyTable& table = bodies().table();
+  if (answer->first_velocity) kick(table.number_of(event.first), *answer->first_velocity);
+  if (answer->second_velocity) kick(table.number_of(event.second), *answer->second_velocity);
   return {};
 }
 

@@ -15,6 +15,7 @@
 #include "kinesphere/bound.hpp"
 #include "kinesphere/event.hpp"
 #include "kinesphere/run.hpp"
+#include "window/agenda.hpp"
 #include "window/windows.hpp"
 
 namespace kinesphere {
@@ -27,11 +28,14 @@ struct Sea {
   struct Place {
     std::uint32_t island = nobody;
     std::uint32_t kick = none;  ///< the last one, among those of its island
+    std::uint32_t kept = none;  ///< where the island keeps it as it was when the part began
   };
   std::vector<Place> places;  ///< by body; an island changes those of its own
   double phase_end = 0.0;
   double stop = 0.0;   ///< islands go up to here,
   double until = 0.0;  ///< and no further than this
+  /// Of an island. More would take too long to go through where islands can be left to others.
+  std::size_t most_kicks = 512;
 
   bool comes(double time) const { return time < stop && time <= until; }
 };
@@ -47,9 +51,6 @@ struct BodyKick {
 
 /// What one island knows, and what it has done that others have to see.
 struct Beside {
-  /// More would take too long to go through.
-  static constexpr std::size_t most_kicks = 512;
-
   Sea* sea = nullptr;
   std::uint32_t own = Sea::nobody;
   std::vector<BodyKick> kicks;        ///< in the order of their times
@@ -67,7 +68,7 @@ struct Beside {
     turned.clear();
   }
   /// All has to be answered one by one then.
-  bool is_full() const { return kicks.size() > most_kicks; }
+  bool is_full() const { return kicks.size() > sea->most_kicks; }
   bool is_own(std::uint32_t number) const { return sea->places[number].island == own; }
   void add(const BodyKick& kick) {
     sea->places[kick.number].kick = static_cast<std::uint32_t>(kicks.size());
@@ -78,6 +79,25 @@ struct Beside {
   const BodyKick* last_kick(std::uint32_t number) const {
     const Sea::Place& place = sea->places[number];
     return place.island == own && place.kick != Sea::none ? &kicks[place.kick] : nullptr;
+  }
+};
+
+/// What an island begins with: pairs that are due, bodies that have to be settled before anything else, and
+/// events that are known already.
+struct Beginning {
+  std::vector<HotPair> due{};
+  std::vector<std::uint32_t> unsettled{};
+  std::vector<Event> pending{};
+
+  void clear() {
+    due.clear();
+    unsettled.clear();
+    pending.clear();
+  }
+  void add(const Beginning& more) {
+    due.insert(due.end(), more.due.begin(), more.due.end());
+    unsettled.insert(unsettled.end(), more.unsettled.begin(), more.unsettled.end());
+    pending.insert(pending.end(), more.pending.begin(), more.pending.end());
   }
 };
 

@@ -14,7 +14,14 @@ void Bodies::reserve(std::size_t bodies) {
 }
 
 std::uint32_t Bodies::add(const BodyDefinition& definition) {
-  const std::uint32_t number = table_.take();
+  return describe(table_.take(), definition);
+}
+
+std::uint32_t Bodies::add(const BodyDefinition& definition, std::uint32_t name) {
+  return describe(table_.take(name), definition);
+}
+
+std::uint32_t Bodies::describe(std::uint32_t number, const BodyDefinition& definition) {
   if (space_.repeats()) homes.resize(numbers());
   Body& body = table_[number];
   body.radius = definition.radius;

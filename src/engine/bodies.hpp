@@ -41,6 +41,8 @@ class Bodies {
   void reserve(std::size_t bodies);
   /// A body with all of its definition but its state and its promise: its number.
   std::uint32_t add(const BodyDefinition& definition);
+  /// The same with a name (BodyTable). Its definition may be that of one that has moved here.
+  std::uint32_t add(const BodyDefinition& definition, std::uint32_t name);
   /// The body never moves, and has this shape.
   void fix(std::uint32_t number, const Shape& shape);
   void remove(std::uint32_t number);
@@ -89,7 +91,7 @@ class Bodies {
   static void transfer(Self& self, Archive& archive) {
     auto& [changed, resting, filtered, at_home, fixed, sensing, definition, space, enclosure, numbered] =
         self;
-    auto& [bodies, live_count, free, tag] = numbered;
+    auto& [bodies, live_count, free, tag, names] = numbered;
     auto& [by_number, pair_filter, any] = filtered;
     archive(bodies, live_count, changed, resting, by_number, at_home, free, fixed, sensing, any);
     if constexpr (!std::is_const_v<Self>) tag = 0;
@@ -106,6 +108,7 @@ class Bodies {
   SensorTable sensors;
 
  private:
+  std::uint32_t describe(std::uint32_t number, const BodyDefinition& definition);
   bool bodies_are_sound(double now, const std::vector<std::uint32_t>& dirty) const;
   bool is_sound(std::uint32_t number, double now) const;
   bool is_sound_fixed(std::uint32_t number, double now) const;

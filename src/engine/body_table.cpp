@@ -34,6 +34,13 @@ std::uint32_t BodyTable::take() {
   return number;
 }
 
+std::uint32_t BodyTable::take(std::uint32_t name) {
+  const std::uint32_t number = take();
+  names_.resize(numbers());
+  names_[number] = name;
+  return number;
+}
+
 void BodyTable::give_back(std::uint32_t number) {
   Body& body = bodies_[number];
   const std::uint32_t generation = body.generation + 1;

@@ -110,15 +110,9 @@ class World::Engine {
  private:
   class Audit;
 
-  // starting.cpp: windows.
+  // phases.cpp
   Result<void> start_windows(Shift& shift, bool all, std::span<const std::uint32_t> joining = {});
   Result<void> start_with_arrivals(Shift& shift);
-  Result<void> refresh(std::span<const std::uint32_t> ending, Shift& shift);
-  std::vector<Windows::Starter> choose_windows(std::span<const std::uint32_t> numbers, bool most,
-                                               Tempo::Round& round, Shift& shift);
-  std::uint64_t find_pairs_of_started(Shift& shift);
-  void find_others_of(std::span<const Windows::Starter> starters, Shift& shift);
-  void choose_tempo(std::span<const std::uint32_t> round);
   Result<void> gather();
   Result<void> settle(Shift& shift);
 

@@ -15,13 +15,13 @@ std::optional<Window> Facts::window_of(std::uint32_t number) const {
 
 HotPair Facts::hot_pair(double time, std::uint32_t a, std::uint32_t b) const {
   if (b >= HotPair::renewal) return {time, a, b, bodies()[a].stamp, 0};
-  const auto [first, second] = std::minmax(a, b);
+  const auto [first, second] = bodies().table().comes_before(b, a) ? std::pair(b, a) : std::pair(a, b);
   return {time, first, second, bodies()[first].stamp, bodies()[second].stamp};
 }
 
 double Facts::apart_until(std::uint32_t a, std::uint32_t b) const {
   // The same, to the last bit, whoever has found whom.
-  if (b < a) std::swap(a, b);
+  if (bodies().table().comes_before(b, a)) std::swap(a, b);
   const Body& one = bodies()[a];
   const Body& other = bodies()[b];
   if (!bodies().may_meet(a, b)) return infinity;
@@ -76,7 +76,7 @@ void Facts::find_hot_pair(std::uint32_t a, std::uint32_t b, FoundPairs& found) c
 void Facts::find_known_pairs(std::uint32_t number, FoundPairs& found) const {
   const auto add = [&](std::uint32_t other) {
     // Of two in the round the first one finds it.
-    if (!tables_.windows.contains(other) || (bodies()[other].settled && other < number)) return;
+    if (!tables_.windows.contains(other) || (bodies()[other].settled && bodies().table().comes_before(other, number))) return;
     const double until = unchanged_until_by_thresholds(number, other);
     if (until < windows_end(number, other)) found.hot.push_back(hot_pair(until, number, other));
   };

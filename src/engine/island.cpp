@@ -32,8 +32,8 @@ Event Island::wall_contact(EventKind kind, std::uint32_t number, Wall wall) cons
 
 /// Who senses the other at the distance of this event now.
 Senses Island::senses_in(const Event& event) const {
-  const Sensing first = sensing_of(bodies(), event.first.index);
-  const Sensing second = sensing_of(bodies(), event.second.index);
+  const Sensing first = sensing_of(bodies(), bodies().table().number_of(event.first));
+  const Sensing second = sensing_of(bodies(), bodies().table().number_of(event.second));
   const bool by_first = bodies().sensors.senses_one_way(first, second, event.distance);
   const bool by_second = bodies().sensors.senses_one_way(second, first, event.distance);
   if (by_first && by_second) return Senses::both;
@@ -41,14 +41,17 @@ Senses Island::senses_in(const Event& event) const {
 }
 
 std::optional<Event> Island::deliver() {
+  const auto is_there = [this](BodyId id) {
+    const std::uint32_t number = bodies().table().number_of(id);
+    return id == bodies().id_of(number) && bodies()[number].present();
+  };
   std::optional<Event> event = instant_.deliver(
-      book(), [this](BodyId id) { return id == bodies().id_of(id.index) && bodies()[id.index].present(); },
+      book(), is_there,
       [this](std::uint32_t number) { return sphere(number); },
       [this](const Event& enter) { return senses_in(enter); }, bodies().walls());
   if (!event) return event;
-  // Of events that a snapshot held, ids have lost their tags.
-  event->first.world = bodies().table().tag();
-  if (event->second != no_body) event->second.world = bodies().table().tag();
+  event->first = bodies().table().tagged(event->first);
+  if (event->second != no_body) event->second = bodies().table().tagged(event->second);
   ++counters_.events[static_cast<std::size_t>(event->kind)];
   if (!bodies().rests.empty()) wake_by(*event);
   if (event->repeated) ++counters_.repeated_contacts;

@@ -46,6 +46,9 @@ class alignas(128) Island {
   /// Its world has another place now.
   void attach(Tables& tables) { tables_ = &tables; }
 
+  /// Of a world whose bodies have names; before anything is due.
+  void order_by_names() { agenda_.order_by(HotPairOrder(bodies().table().names())); }
+
   void reserve(std::size_t bodies) { dirty_.reserve(bodies); }
   double time() const { return time_; }
   const Counters& counters() const { return counters_; }
@@ -92,6 +95,13 @@ class alignas(128) Island {
   /// The next event of this instant.
   std::optional<Event> deliver();
 
+  /// What the island has to begin with is left to others.
+  void leave_unsettled() {
+    dirty_.clear();
+    instant_ = {};
+    gathering_ = false;
+  }
+
   // Discontinuities.
   /// The body must be settled before time moves on. Facts about it stay.
   void mark_dirty(std::uint32_t number);
@@ -132,9 +142,10 @@ class alignas(128) Island {
   Sphere sphere(std::uint32_t number) const { return sphere_at(bodies(), time_, number); }
 
   // Beside other islands (beside.cpp).
-  /// From now on the island is one of those of a phase, with these pairs that are due.
-  void begin(Sea& sea, std::uint32_t own, double now, std::span<const HotPair> due);
-  /// Goes on as far as islands go, or to where it claims a body that is not its own.
+  /// From now on the island is one of those of a phase.
+  void begin(Sea& sea, std::uint32_t own, double now, const Beginning& with);
+  /// Goes on as far as islands go, or to where it claims a body that is not its own. Where they go nowhere, it
+  /// settles what is unsettled.
   Result<void> go_on(Answerer* answerer, std::vector<Told>& told);
   Beside& beside() { return *beside_; }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <exception>
+#include <initializer_list>
 #include <utility>
 
 #include "bound/encounter.hpp"
@@ -28,24 +30,53 @@ bool Islands::run(double until, std::deque<Event>& events) {
   assert(everybody_.is_settled());
   // What these do reaches beyond an island, or asks the caller's own code in the middle of one.
   if (!bodies.rests.empty() || !bodies.changes.empty() || bodies.filters.has_pair_filter()) return false;
+  open(take_due(until, infinity));
+  const auto all = [](const Group&) { return true; };
+  const bool done = are_worth_it() && attempt_all(all);
+  if (done) {
+    for (const Told* one : finish(all)) events.push_back(one->event);
+  } else {
+    take_back();
+  }
+  close();
+  return done;
+}
+
+double Islands::take_due(double until, double latest) {
   begin_ = everybody_.time();
   sea_.phase_end = everybody_.phase_end();
   sea_.until = until;
-  if (most_due_ == 0) most_due_ = std::max(least_due, bodies.table().live_count() / 16);
-  std::vector<HotPair> due;
-  sea_.stop = everybody_.agenda().take_until(
-      until, sea_.phase_end, most_due_, due,
+  if (most_due_ == 0) most_due_ = std::max(least_due, tables_.bodies.table().live_count() / 16);
+  due_.clear();
+  return everybody_.agenda().take_until(
+      until, std::min(sea_.phase_end, latest), most_due_, due_,
       [facts = everybody_.facts()](const HotPair& pair) { return facts.is_void(pair); });
-  form(due);
-  const bool done = are_worth_it() && attempt_all();
-  if (done) {
-    finish(events);
-    choose_part();
-  } else {
-    everybody_.agenda().add_all(due);
-  }
-  leave();
-  return done;
+}
+
+void Islands::open(double stop) {
+  sea_.stop = stop;
+  // Those that are due later were taken for a longer part.
+  const auto later = std::partition_point(due_.begin(), due_.end(),
+                                          [=](const HotPair& pair) { return pair.time < stop; });
+  std::for_each(later, due_.end(), [this](const HotPair& pair) { everybody_.agenda().add(pair); });
+  due_.erase(later, due_.end());
+  attempts_ = 0;
+  failure_.reset();
+  foreign_kicks_.clear();
+  has_new_foreign_kicks_ = false;
+  meetings_.clear();
+  form(due_);
+  Beginning unsettled;
+  for (const std::uint32_t number : everybody_.dirty())
+    if (tables_.bodies[number].dirty) unsettled.unsettled.push_back(number);
+  everybody_.instant().pending().for_each([&](const Event& event) { unsettled.pending.push_back(event); });
+  add(unsettled);
+  tables_.book.start_side_by_side(tables_.bodies.sensors.any());
+}
+
+void Islands::close() {
+  for (const Kept& kept : kept_) sea_.places[kept.number] = {};
+  tables_.book.stop_side_by_side();
 }
 
 /// In a short part few kicked bodies meet others; in a long one each body is copied once for many pairs.
@@ -69,6 +100,7 @@ void Islands::form(std::span<const HotPair> due) {
     if (place == Sea::nobody) {
       place = static_cast<std::uint32_t>(up.size());
       up.push_back(place);
+      sea_.places[number].kept = place;
       kept_.emplace_back().number = number;
     }
     return place;
@@ -92,25 +124,83 @@ void Islands::form(std::span<const HotPair> due) {
       group_of[place] = static_cast<std::uint32_t>(count_);
       new_group();
     }
-    groups_[group_of[top]].members.push_back(place);
+    groups_[group_of[top]].members.push_back(kept_[place].number);
     sea_.places[kept_[place].number].island = group_of[top];
   }
-  for (const HotPair& pair : due) groups_[sea_.places[mover_of(pair)].island].due.push_back(pair);
+  for (const HotPair& pair : due) groups_[sea_.places[mover_of(pair)].island].with.due.push_back(pair);
 }
 
 Islands::Group& Islands::new_group() {
   if (groups_.size() == count_) groups_.emplace_back();
   Group& group = groups_[count_];
   group.members.clear();
-  group.due.clear();
+  group.with.clear();
   group.own = group.joined_to = static_cast<std::uint32_t>(count_++);
   group.attempted = group.failed = false;
-  group.again = true;
+  group.again = group.is_news = true;
   group.kicks.clear();
   group.claims.clear();
   group.counted_on.clear();
   group.turned.clear();
   return group;
+}
+
+void Islands::add_member(Group& group, std::uint32_t number) {
+  sea_.places[number].island = group.own;
+  sea_.places[number].kept = static_cast<std::uint32_t>(kept_.size());
+  kept_.emplace_back().number = number;
+  group.members.push_back(number);
+  group.is_news = true;
+}
+
+Islands::Group* Islands::group_of(std::uint32_t number) {
+  const std::uint32_t own = number < sea_.places.size() ? sea_.places[number].island : Sea::nobody;
+  return own == Sea::nobody ? nullptr : &groups_[root_of(own)];
+}
+
+void Islands::join_bodies(std::span<const std::uint32_t> numbers) {
+  sea_.places.resize(tables_.bodies.numbers());
+  Group* group = nullptr;
+  for (const std::uint32_t number : numbers) {
+    Group* const theirs = group_of(number);
+    if (theirs == nullptr || theirs == group) continue;
+    if (group != nullptr) join(group->own, theirs->own);
+    group = group_of(number);
+  }
+  if (group == nullptr) group = &new_group();
+  for (const std::uint32_t number : numbers) {
+    if (group_of(number) != nullptr) continue;
+    take_back(*group);
+    group->again = true;
+    add_member(*group, number);
+  }
+}
+
+void Islands::add(const Beginning& more) {
+  const auto group_with = [this](std::initializer_list<std::uint32_t> numbers) -> Group& {
+    join_bodies(numbers);
+    Group& group = *group_of(*numbers.begin());
+    take_back(group);
+    group.again = group.is_news = true;
+    return group;
+  };
+  for (const HotPair& pair : more.due) {
+    Group& group = pair.has_second() ? group_with({pair.first, pair.second}) : group_with({pair.first});
+    group.with.due.push_back(pair);
+  }
+  for (const std::uint32_t number : more.unsettled) group_with({number}).with.unsettled.push_back(number);
+  for (const Event& event : more.pending)
+    group_with({tables_.bodies.table().number_of(event.first)}).with.pending.push_back(event);
+}
+
+void Islands::add_foreign_kick(const BodyKick& kick) {
+  foreign_kicks_.push_back(kick);
+  has_new_foreign_kicks_ = true;
+}
+
+const Islands::Kept* Islands::kept(std::uint32_t number) const {
+  const std::uint32_t place = number < sea_.places.size() ? sea_.places[number].kept : Sea::none;
+  return place != Sea::none && kept_[place].is_kept ? &kept_[place] : nullptr;
 }
 
 /// There are enough, and most of the work is not in one of them.
@@ -119,66 +209,64 @@ bool Islands::are_worth_it() const {
   std::size_t all = 0;
   std::size_t largest = 0;
   for (std::size_t k = 0; k < count_; ++k) {
-    all += groups_[k].due.size();
-    largest = std::max(largest, groups_[k].due.size());
+    all += groups_[k].with.due.size();
+    largest = std::max(largest, groups_[k].with.due.size());
   }
   return count_ >= few && 2 * largest < all;
 }
 
-/// False, and everything is as it was, when one of them has failed.
-bool Islands::attempt_all() {
-  attempts_ = 0;
-  tables_.book.start_side_by_side(tables_.bodies.sensors.any());
-  bool failed = false;
+/// False when one of them has failed.
+bool Islands::attempt_found() {
+  // The large ones first, so that nobody waits for them in the end.
+  std::sort(again_.begin(), again_.end(), [this](std::uint32_t a, std::uint32_t b) {
+    const std::size_t of_a = groups_[a].with.due.size();
+    const std::size_t of_b = groups_[b].with.due.size();
+    return of_a != of_b ? of_a > of_b : a < b;
+  });
+  attempts_ += again_.size();
+  constexpr std::size_t islands_at_once = 8;
   try {
-    do {
-      again_.clear();
-      for (std::uint32_t own = 0; own < count_; ++own)
-        if (groups_[own].again) again_.push_back(own);
-      // The large ones first, so that nobody waits for them in the end.
-      std::sort(again_.begin(), again_.end(), [this](std::uint32_t a, std::uint32_t b) {
-        const std::size_t of_a = groups_[a].due.size();
-        const std::size_t of_b = groups_[b].due.size();
-        return of_a != of_b ? of_a > of_b : a < b;
-      });
-      attempts_ += again_.size();
-      constexpr std::size_t islands_at_once = 8;
-      shift_.for_each(again_.size(), islands_at_once,
-                      [this](std::size_t begin, std::size_t end, std::size_t worker) {
-                        for (std::size_t k = begin; k < end; ++k) attempt(again_[k], crew_[worker]);
-                      });
-      for (const std::uint32_t own : again_) failed = failed || groups_[own].failed;
-    } while (!failed && (join_claims() || join_kicks()));
-  } catch (...) {
+    shift_.for_each(again_.size(), islands_at_once,
+                    [this](std::size_t begin, std::size_t end, std::size_t worker) {
+                      for (std::size_t k = begin; k < end; ++k) attempt(again_[k], crew_[worker]);
+                    });
+  } catch (const std::exception& thrown) {
     // It comes again where events are answered one by one, if it comes again.
-    failed = true;
+    failure_ = Error{ErrorCode::callback_threw, "callback", no_body, thrown.what()};
+    return false;
+  } catch (...) {
+    failure_ = Error{ErrorCode::callback_threw, "callback", no_body, "something that is no std::exception"};
+    return false;
   }
-  if (failed) {
-    for (std::size_t k = 0; k < count_; ++k) take_back(groups_[k]);
+  for (const std::uint32_t own : again_) {
+    if (!groups_[own].failed) continue;
+    failure_ = groups_[own].failure;
+    return false;
   }
-  tables_.book.stop_side_by_side();
-  return !failed;
+  return true;
 }
 
 void Islands::attempt(std::uint32_t own, Island& island) {
   Group& group = groups_[own];
-  for (const std::uint32_t place : group.members) {
-    Kept& kept = kept_[place];
+  for (const std::uint32_t number : group.members) {
+    Kept& kept = kept_[sea_.places[number].kept];
     if (kept.is_kept) continue;
     kept.body = tables_.bodies.keep(kept.number);
     kept.contacts = tables_.book.keep(kept.number);
     kept.is_kept = true;
   }
   group.again = false;
-  group.attempted = true;
-  island.begin(sea_, own, begin_, group.due);
+  group.attempted = group.is_news = true;
+  island.begin(sea_, own, begin_, group.with);
   Beside& beside = island.beside();
   std::swap(beside.turned, group.turned);
   beside.turned.clear();
   group.told.clear();
   group.failed = true;
   try {
-    group.failed = !island.go_on(answerer_, group.told) || beside.is_full();
+    const auto gone = island.go_on(answerer_, group.told);
+    if (!gone) group.failure = gone.error();
+    group.failed = !gone || beside.is_full();
   } catch (...) {
     std::swap(beside.turned, group.turned);
     throw;
@@ -192,11 +280,18 @@ void Islands::attempt(std::uint32_t own, Island& island) {
   group.left = island.hot_pairs();
 }
 
+void Islands::take_back() {
+  for (Group& group : groups()) {
+    take_back(group);
+    if (!group.joined()) everybody_.agenda().add_all(group.with.due);
+  }
+}
+
 /// As if the group had never been attempted.
 void Islands::take_back(Group& group) {
   if (!group.attempted) return;
-  for (const std::uint32_t place : group.members) {
-    const Kept& kept = kept_[place];
+  for (const std::uint32_t number : group.members) {
+    const Kept& kept = kept_[sea_.places[number].kept];
     if (!kept.is_kept) continue;
     tables_.bodies.put_back(kept.number, kept.body);
     tables_.book.put_back(kept.number, kept.contacts);
@@ -219,15 +314,13 @@ bool Islands::join_claims() {
     for (const std::uint32_t number : claims) {
       any = true;
       const std::uint32_t ours = root_of(own);
-      std::uint32_t& theirs = sea_.places[number].island;
+      const std::uint32_t theirs = sea_.places[number].island;
       if (theirs != Sea::nobody) {
         join(ours, root_of(theirs));
       } else {
-        theirs = ours;
         take_back(groups_[ours]);
         groups_[ours].again = true;
-        groups_[ours].members.push_back(static_cast<std::uint32_t>(kept_.size()));
-        kept_.emplace_back().number = number;
+        add_member(groups_[ours], number);
       }
     }
   }
@@ -250,6 +343,7 @@ std::vector<Islands::OwnKick> Islands::kicks() const {
     if (groups_[own].joined()) continue;
     for (const BodyKick& kick : groups_[own].kicks) all.push_back({own, &kick});
   }
+  for (const BodyKick& kick : foreign_kicks_) all.push_back({Sea::nobody, &kick});
   return all;
 }
 
@@ -261,6 +355,7 @@ RoomyBound Islands::bound_of(const BodyKick& kick) const {
 /// own, as if each had been there from the begin of the part on.
 bool Islands::join_kicks() {
   const std::vector<OwnKick> kicks = this->kicks();
+  has_new_foreign_kicks_ = false;
   if (kicks.empty()) return false;
   const auto bound_at_begin = [&](std::uint32_t k) {
     const BodyKick& kick = *kicks[k].kick;
@@ -276,12 +371,20 @@ bool Islands::join_kicks() {
   });
   Windows windows(tables_.bodies.space());
   windows.start(starters, begin_, bound_at_begin, shift_);
+  // Of a kick that is another process's, the body stands for its group, which is not here.
   std::vector<std::vector<Windows::Pair>> meeting(shift_.count());
+  std::vector<std::vector<Windows::Pair>> meeting_foreign(shift_.count());
   shift_.for_each(kicks.size(), kicks_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
     Windows::Scratch scratch;
-    for (const auto& [a, b] : windows.near_started(from, to, begin_, bound_at_begin, scratch))
-      if (kicks[a].own != kicks[b].own && may_meet(*kicks[a].kick, *kicks[b].kick))
-        meeting[worker].push_back({kicks[a].own, kicks[b].own});
+    for (auto [a, b] : windows.near_started(from, to, begin_, bound_at_begin, scratch)) {
+      if (kicks[a].own == kicks[b].own) continue;
+      if (kicks[a].own == Sea::nobody) std::swap(a, b);
+      const bool is_foreign = kicks[b].own == Sea::nobody;
+      if (is_foreign && sea_.places[kicks[b].kick->number].island == kicks[a].own) continue;
+      if (!may_meet(*kicks[a].kick, *kicks[b].kick)) continue;
+      (is_foreign ? meeting_foreign : meeting)[worker].push_back(
+          {kicks[a].own, is_foreign ? kicks[b].kick->number : kicks[b].own});
+    }
   });
   bool any = false;
   for (const std::vector<Windows::Pair>& pairs : meeting) {
@@ -293,6 +396,8 @@ bool Islands::join_kicks() {
       any = true;
     }
   }
+  for (const std::vector<Windows::Pair>& pairs : meeting_foreign)
+    for (const auto& [own, number] : pairs) meetings_.emplace_back(own, number);
   return any;
 }
 
@@ -326,48 +431,48 @@ void Islands::join(std::uint32_t one, std::uint32_t other) {
   Group& gone = groups_[from];
   take_back(into);
   take_back(gone);
-  for (const std::uint32_t place : gone.members) sea_.places[kept_[place].number].island = to;
+  for (const std::uint32_t number : gone.members) sea_.places[number].island = to;
   into.members.insert(into.members.end(), gone.members.begin(), gone.members.end());
-  into.due.insert(into.due.end(), gone.due.begin(), gone.due.end());
-  into.again = true;
+  into.with.add(gone.with);
+  into.again = into.is_news = true;
   gone.again = false;
   gone.joined_to = to;
 }
 
-/// What came of the groups becomes what came of everybody.
-void Islands::finish(std::deque<Event>& events) {
-  register_kicks();
-  std::vector<HotPair> left;
-  std::vector<const Told*> told;
-  for (std::uint32_t own = 0; own < count_; ++own) {
-    const Group& group = groups_[own];
-    if (group.joined()) continue;
+void Islands::finish(const Group& group, bool is_counted, std::vector<const Told*>& told) {
+  if (is_counted) {
     everybody_.counters() += group.counters;
     everybody_.add_kicks(group.settled);
-    left.insert(left.end(), group.left.begin(), group.left.end());
-    for (const Told& one : group.told) told.push_back(&one);
-    if (tables_.bodies.shapes.any()) {
-      for (const std::uint32_t place : group.members)
-        tables_.book.tell_fixed(kept_[place].number, kept_[place].contacts);
-    }
   }
-  everybody_.agenda().add_all(left);
+  left_.insert(left_.end(), group.left.begin(), group.left.end());
+  for (const Told& one : group.told) told.push_back(&one);
+  if (!tables_.bodies.shapes.any()) return;
+  for (const std::uint32_t number : group.members)
+    tables_.book.tell_fixed(number, kept_[sea_.places[number].kept].contacts);
+}
+
+void Islands::finish(std::vector<const Told*>& told) {
+  register_kicks();
+  everybody_.leave_unsettled();
+  everybody_.agenda().add_all(left_);
   std::sort(told.begin(), told.end(), [](const Told* a, const Told* b) {
     if (a->event.time != b->event.time) return a->event.time < b->event.time;
     return a->round != b->round ? a->round < b->round : delivered_before(a->event, b->event);
   });
-  for (const Told* one : told) events.push_back(one->event);
   everybody_.move_on_to(std::min(sea_.until, sea_.stop));
+  choose_part();
 }
 
 /// Bodies have the capsules that they got, unless they start anew in any case when the part is over.
 void Islands::register_kicks() {
   Windows& windows = tables_.windows;
   std::vector<OwnKick> all = kicks();
+  std::erase_if(all, [](const OwnKick& one) { return one.own == Sea::nobody; });
   const double end = sea_.phase_end;
   if (sea_.until >= end && sea_.stop == end) {
     std::erase_if(all, [&](const OwnKick& one) {
-      return one.kick->window.end == end && windows.end_of(one.kick->number) == end;
+      const std::uint32_t number = one.kick->number;
+      return one.kick->window.end == end && windows.contains(number) && windows.end_of(number) == end;
     });
   }
   std::vector<Windows::Entry> entries(all.size());
@@ -382,10 +487,6 @@ void Islands::register_kicks() {
     windows.enter(kick.number, bound_of(kick), kick.time, kick.window, entries[k]);
   }
   windows.tidy();
-}
-
-void Islands::leave() {
-  for (const Kept& kept : kept_) sea_.places[kept.number] = {};
 }
 
 }  // namespace kinesphere

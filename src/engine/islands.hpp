@@ -18,6 +18,8 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/island.hpp"
@@ -36,16 +38,21 @@ class Islands {
   /// Needs a world in which nothing is left to be settled.
   bool run(double until, std::deque<Event>& events);
 
- private:
+  // The same in steps, for a process that has a part of the bodies and learns from others in between which
+  // islands are to be joined. The part begins with what everybody() has not settled, too, and what is to be
+  // told.
+
   /// Some bodies, and what came of them in the last attempt.
   struct Group {
-    std::vector<std::uint32_t> members;  ///< their places in kept_
-    std::vector<HotPair> due;
+    std::vector<std::uint32_t> members;
+    Beginning with;
     std::uint32_t own = 0;        ///< its place
     std::uint32_t joined_to = 0;  ///< the same, unless it has been joined to another one
     bool again = true;            ///< it has to run, or run again
     bool attempted = false;
     bool failed = false;
+    std::optional<Error> failure{};
+    bool is_news = true;  ///< of it, for whoever sets this to false
     Counters counters{};
     Kicks settled{};
     std::vector<HotPair> left{};
@@ -57,10 +64,6 @@ class Islands {
 
     bool joined() const { return joined_to != own; }
   };
-  struct OwnKick {
-    std::uint32_t own;  ///< the group whose it is
-    const BodyKick* kick;
-  };
   /// A body as it was when the part began.
   struct Kept {
     std::uint32_t number = 0;
@@ -69,23 +72,88 @@ class Islands {
     ContactBook::Kept contacts{};
   };
 
+  /// Takes what is due from now to `until`, or to the end of a part of the phase, or to `latest`: where that
+  /// is.
+  double take_due(double until, double latest);
+  /// The part ends at `stop`, no later than take_due() said. Forms islands.
+  void open(double stop);
+  /// Runs those islands that have to run and of which is_ready(group) is true; joins those that claim bodies
+  /// or meet, and runs them again, until no more have to. False when one has failed.
+  template <class IsReady>
+  bool attempt_all(IsReady is_ready) {
+    return go_through([&] {
+      for (std::uint32_t own = 0; own < count_; ++own)
+        if (groups_[own].again && is_ready(std::as_const(groups_[own]))) again_.push_back(own);
+    });
+  }
+  /// Of the attempt that has failed.
+  const std::optional<Error>& failure() const { return failure_; }
+  /// Groups are joined only to others with smaller places.
+  std::span<Group> groups() { return std::span(groups_).first(count_); }
+  /// Nobody's bodies have none.
+  Group* group_of(std::uint32_t number);
+  /// These bodies have to be in one island.
+  void join_bodies(std::span<const std::uint32_t> numbers);
+  /// Bodies that have become known meanwhile bring these along.
+  void add(const Beginning& more);
+  /// A body that another process kicks: islands here that it may meet are in meetings().
+  void add_foreign_kick(const BodyKick& kick);
+  /// Groups, and kicked bodies of others that they may meet.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> take_meetings() {
+    return std::exchange(meetings_, {});
+  }
+  /// The island has to run again, from where the part began.
+  void run_again(std::uint32_t own) {
+    take_back(groups_[own]);
+    groups_[own].again = true;
+  }
+  /// Whether that is before the part ends.
+  bool comes(double time) const { return sea_.comes(time); }
+  /// Null for a body that is as it was when the part began.
+  const Kept* kept(std::uint32_t number) const;
+  /// All islands have run: what came of the groups becomes what came of everybody. Of those of which
+  /// is_counted(group) is true, events are returned, in their order, and work is counted.
+  template <class IsCounted>
+  std::vector<const Told*> finish(IsCounted is_counted) {
+    std::vector<const Told*> told;
+    for (const Group& group : groups())
+      if (!group.joined() && group.attempted) finish(group, is_counted(group), told);
+    finish(told);
+    return told;
+  }
+  /// Nothing has happened.
+  void take_back();
+  /// Ends the part.
+  void close();
+  /// Of an island, from now on.
+  void limit_kicks(std::size_t most) { sea_.most_kicks = most; }
+
+ private:
+  struct OwnKick {
+    std::uint32_t own;  ///< the group whose it is; Sea::nobody if it is another process's
+    const BodyKick* kick;
+  };
+
   void form(std::span<const HotPair> due);
   Group& new_group();
+  void add_member(Group& group, std::uint32_t number);
   bool are_worth_it() const;
-  bool attempt_all();
+  template <class FindAgain>
+  bool go_through(FindAgain find_again);
+  bool attempt_found();
   void choose_part();
   void attempt(std::uint32_t own, Island& island);
   void take_back(Group& group);
   bool join_claims();
   bool join_kicks();
+  void finish(const Group& group, bool is_counted, std::vector<const Told*>& told);
+  void finish(std::vector<const Told*>& told);
   std::vector<OwnKick> kicks() const;
   RoomyBound bound_of(const BodyKick& kick) const;
   bool may_meet(const BodyKick& a, const BodyKick& b) const;
   std::uint32_t root_of(std::uint32_t own) const;
   void join(std::uint32_t one, std::uint32_t other);
-  void finish(std::deque<Event>& events);
   void register_kicks();
-  void leave();
 
   Tables& tables_;
   Island& everybody_;
@@ -100,6 +168,23 @@ class Islands {
   std::size_t count_ = 0;      ///< of those that there are
   std::vector<std::uint32_t> again_;
   std::vector<Kept> kept_;
+  std::vector<HotPair> due_;
+  std::vector<HotPair> left_;
+  std::optional<Error> failure_;
+  std::vector<BodyKick> foreign_kicks_;
+  bool has_new_foreign_kicks_ = false;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> meetings_;
 };
+
+template <class FindAgain>
+bool Islands::go_through(FindAgain find_again) {
+  for (;;) {
+    again_.clear();
+    find_again();
+    if (again_.empty() && !has_new_foreign_kicks_) return true;
+    if (!attempt_found()) return false;
+    if (!join_claims()) join_kicks();
+  }
+}
 
 }  // namespace kinesphere

@@ -89,7 +89,7 @@ void Reports::apply(Bodies& bodies, double time, std::size_t from, std::size_t t
                     std::vector<Broken>& broken) const {
   const Space& space = bodies.space();
   for (std::size_t k = from; k < to; ++k) {
-    const std::uint32_t number = ids_[k].index;
+    const std::uint32_t number = bodies.table().number_of(ids_[k]);
     Body& body = bodies[number];
     State state = states_[k];
     if (space.repeats()) state.position += space.shift_to_nearest(state.position, body.bound.centre_at(time));

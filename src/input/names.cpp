@@ -40,6 +40,10 @@ std::string_view name_of(ErrorCode code) {
       return "filter_in_progress";
     case ErrorCode::run_in_progress:
       return "run_in_progress";
+    case ErrorCode::callback_threw:
+      return "callback_threw";
+    case ErrorCode::rank_failed:
+      return "rank_failed";
     case ErrorCode::workers_busy:
       return "workers_busy";
     case ErrorCode::no_threads:

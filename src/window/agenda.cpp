@@ -7,8 +7,10 @@
 namespace kinesphere {
 namespace {
 
-/// Not a function, so that it is compiled into what sorts by it.
-constexpr auto later = [](const HotPair& a, const HotPair& b) { return b < a; };
+/// The order of a heap.
+auto later_by(const HotPairOrder& order) {
+  return [order](const HotPair& a, const HotPair& b) { return order(b, a); };
+}
 
 }  // namespace
 
@@ -35,7 +37,7 @@ void Agenda::wait(const HotPair& pair) {
 
 void Agenda::drop_first() {
   if (heap_comes_first()) {
-    std::pop_heap(heap_.begin(), heap_.end(), later);
+    std::pop_heap(heap_.begin(), heap_.end(), later_by(order_));
     heap_.pop_back();
   } else {
     assert(next_ < sorted_.size());
@@ -46,7 +48,7 @@ void Agenda::drop_first() {
 void Agenda::add(const HotPair& pair) {
   if (!heads_.empty() && slice_of(pair.time) > slice_) return wait(pair);
   heap_.push_back(pair);
-  std::push_heap(heap_.begin(), heap_.end(), later);
+  std::push_heap(heap_.begin(), heap_.end(), later_by(order_));
 }
 
 void Agenda::clear() {
@@ -94,7 +96,7 @@ void Agenda::add_all(std::vector<HotPair>& pairs) {
         sorted_.push_back(pair);
       }
     }
-    std::sort(sorted_.begin(), sorted_.end());
+    std::sort(sorted_.begin(), sorted_.end(), order_);
   }
   pairs.clear();
 }

@@ -38,12 +38,35 @@ struct HotPair {
   }
 };
 
-/// In the order of their times, then of their numbers. Most pairs become void before they are due, so those
+/// The order of hot pairs that are due at the same time is that of their bodies: by their numbers or, where
+/// bodies have names, by these.
+class HotPairOrder {
+ public:
+  HotPairOrder() = default;
+  /// Names by number, which must outlive this.
+  explicit HotPairOrder(const std::vector<std::uint32_t>& names) : names_(&names) {}
+
+  bool operator()(const HotPair& a, const HotPair& b) const {
+    if (names_ == nullptr || a.time != b.time) return a < b;
+    return a.first != b.first ? of(a.first) < of(b.first) : of(a.second) < of(b.second);
+  }
+
+ private:
+  std::uint32_t of(std::uint32_t number) const {
+    return number < HotPair::renewal ? (*names_)[number] : number;
+  }
+
+  const std::vector<std::uint32_t>* names_ = nullptr;
+};
+
+/// In the order of their times, then of their bodies. Most pairs become void before they are due, so those
 /// that are not due soon are kept in slices of time, in no order; a slice is sorted when it begins, without
 /// those that have become void. Cost: O(1) for each pair and, for those that come to be due, O(log of the
 /// size of a slice).
 class Agenda {
  public:
+  /// Of an agenda that is empty.
+  void order_by(const HotPairOrder& order) { order_ = order; }
   std::size_t size() const { return (sorted_.size() - next_) + heap_.size() + waiting_; }
   /// Needed before next_time() and first(), after each change: goes on to the next slice that holds a pair,
   /// if nothing is left of this one.
@@ -100,7 +123,7 @@ class Agenda {
   };
 
   bool heap_comes_first() const {
-    return !heap_.empty() && (next_ == sorted_.size() || heap_.front() < sorted_[next_]);
+    return !heap_.empty() && (next_ == sorted_.size() || order_(heap_.front(), sorted_[next_]));
   }
   std::size_t slice_of(double time) const;
   void wait(const HotPair& pair);
@@ -121,9 +144,10 @@ class Agenda {
       --waiting_;
     }
     heads_[slice_] = none;
-    std::sort(sorted_.begin(), sorted_.end());
+    std::sort(sorted_.begin(), sorted_.end(), order_);
   }
 
+  HotPairOrder order_;
   std::vector<HotPair> sorted_;  ///< of the present slice
   std::size_t next_ = 0;
   std::vector<HotPair> heap_;  ///< that have been added to it since

@@ -3,9 +3,11 @@
 // where capsules are kept, so that it is the same wherever they are.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "kinesphere/vec3.hpp"
@@ -48,6 +50,17 @@ class Survey {
   double spacing() const;
   /// The speed of the body in the middle, and the mean acceleration, each to within a factor of two.
   Pace typical() const;
+  /// Of a part of the bodies becomes that of all: sum(numbers) and least(numbers) put in the place of each
+  /// number the sum, or the least, of those of all parts.
+  template <class Sum, class Least>
+  void reduce(Sum sum, Least least) {
+    sum(std::span(&bodies_, 1));
+    for (Magnitudes* magnitudes : {&speeds_, &accelerations_}) magnitudes->reduce(sum);
+    std::array<double, 6> ends{lower_.x, lower_.y, lower_.z, -upper_.x, -upper_.y, -upper_.z};
+    least(std::span<double>(ends));
+    lower_ = {ends[0], ends[1], ends[2]};
+    upper_ = {-ends[3], -ends[4], -ends[5]};
+  }
 
  private:
   /// How many numbers there are of each power of two.
@@ -56,6 +69,11 @@ class Survey {
     void note(double value);
     double median() const;
     double mean() const;
+    template <class Sum>
+    void reduce(Sum sum) {
+      sum(std::span(&all_, 1));
+      sum(std::span<std::uint64_t>(counts_));
+    }
 
    private:
     static constexpr int least = -512;
@@ -179,6 +197,19 @@ class Tempo::Round {
   /// A body starts in a window; `width` is that of its capsule without its way.
   void note(const Pace& pace, double width, int tier);
   Round& operator+=(const Round& more);
+  /// Of a part of the bodies becomes that of all, as Survey::reduce() has it.
+  template <class Sum>
+  void reduce(Sum sum) {
+    std::vector<std::uint64_t> all{bodies_, in_main_, widths_, ways_, growths_};
+    all.insert(all.end(), ways_gone_.begin(), ways_gone_.end());
+    sum(std::span<std::uint64_t>(all));
+    bodies_ = all[0];
+    in_main_ = all[1];
+    widths_ = all[2];
+    ways_ = all[3];
+    growths_ = all[4];
+    std::copy(all.begin() + 5, all.end(), ways_gone_.begin());
+  }
 
  private:
   friend class Tempo;

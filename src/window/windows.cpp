@@ -373,21 +373,21 @@ void Windows::end_windows(double now, bool all) {
   }
 }
 
-Window Windows::free_window(double now, int tier) const {
+std::vector<int> Windows::held_tiers() const {
+  std::vector<int> held;
+  for (const Member& member : layers_)
+    if (!member.fresh && member.layer.size() > 0) held.push_back(member.tier);
+  return held;
+}
+
+Window Windows::free_window(double now, int tier, std::span<const int> held) {
   Window window = window_at(now, tier);
-  while (!is_free(window)) {
+  while (std::find(held.begin(), held.end(), window.tier) != held.end()) {
     const Window shorter = window_at(now, window.tier - Tempo::powers_between_tiers);
     if (shorter.tier == window.tier) return {window.tier, now};
     window = shorter;
   }
   return window;
-}
-
-/// Nobody is in it, but for those who start now.
-bool Windows::is_free(const Window& window) const {
-  return std::none_of(layers_.begin(), layers_.end(), [&](const Member& member) {
-    return member.tier == window.tier && !member.fresh && member.layer.size() > 0;
-  });
 }
 
 /// Gives each its place in what is to become a layer.

@@ -114,10 +114,12 @@ class Windows {
   std::vector<std::uint32_t> ended(double now, bool all) const;
   /// Those bodies are registered nowhere any more, and wait for start().
   void end_windows(double now, bool all);
-  /// The longest window, no longer than 2^tier, in which nobody is yet: a layer in which others are already
-  /// would have to be sorted anew. Windows that are 8, 64, ... times shorter are tried. Where there is none,
-  /// it ends now.
-  Window free_window(double now, int tier) const;
+  /// The tiers of windows that hold bodies whose windows have not been ended.
+  std::vector<int> held_tiers() const;
+  /// The longest window, no longer than 2^tier, whose tier is none of these: a layer in which others are
+  /// already would have to be sorted anew. Windows that are 8, 64, ... times shorter are tried. Where there
+  /// is none, it ends now.
+  static Window free_window(double now, int tier, std::span<const int> held);
   /// A body that starts, in which window, and of what size its capsule is.
   struct Starter {
     std::uint32_t number;
@@ -282,7 +284,6 @@ class Windows {
     std::size_t bodies;
   };
 
-  bool is_free(const Window& window) const;
   void merge_levels(const Sizes& sizes);
   int level_to_start(int level) const;
   int level_to_enter(int level) const;

@@ -47,7 +47,7 @@ class World::Run final : private Answerer {
   Result<std::optional<Event>> next();
   Result<void> answer_one(const Event& event);
   Result<Answer> answer(const Event& event) override;
-  void turn(const Event& event, const Answer& answer) override;
+  void turn(const Event& event, const Answer& answer) override { kinesphere::turn(*mover_, event, answer); }
   Departure departure(BodyId body) override { return mover_->departure(body); }
   void depart(BodyId body, const Departure& departure) override { mover_->depart(body, departure); }
   Result<void> check(const Event& event, const Answer& answer) const;

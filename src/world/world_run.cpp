@@ -175,27 +175,4 @@ Result<void> World::Run::check_kick(const Event& event, BodyId body, const std::
   return error;
 }
 
-/// Tells the mover of all new velocities or, if it throws, of none.
-void World::Run::turn(const Event& event, const Answer& answer) {
-  const auto turned = [&](BodyId body, const Vec3& velocity) {
-    State state;
-    mover_->states(std::span(&body, 1), event.time, std::span(&state, 1));
-    return Departure{event.time, {state.position, velocity}};
-  };
-  if (!answer.first_velocity || !answer.second_velocity) {
-    if (answer.first_velocity) mover_->depart(event.first, turned(event.first, *answer.first_velocity));
-    if (answer.second_velocity) mover_->depart(event.second, turned(event.second, *answer.second_velocity));
-    return;
-  }
-  const Departure second = turned(event.second, *answer.second_velocity);
-  const Departure before = mover_->departure(event.first);
-  mover_->depart(event.first, turned(event.first, *answer.first_velocity));
-  try {
-    mover_->depart(event.second, second);
-  } catch (...) {
-    mover_->depart(event.first, before);
-    throw;
-  }
-}
-
 }  // namespace kinesphere

@@ -268,7 +268,7 @@ class Playground {
       registered_[number] = false;
       const Window suits = window_to_start(number);
       if (suits.end == infinity) continue;
-      const Window window = windows_.free_window(now_, suits.tier);
+      const Window window = Windows::free_window(now_, suits.tier, windows_.held_tiers());
       bring_home(number, window.end - now_);
       starters.push_back({number, Windows::level_of(roomy(number), window), window});
       registered_[number] = true;
@@ -447,13 +447,13 @@ TEST(Windows, AreFreeWhereNobodyIs) {
   const Window shortest = Windows::window_at(now, Windows::shortest);
   int tier = 5;
   for (std::uint32_t number = 0;; ++number) {
-    const Window free = windows.free_window(now, 5);
+    const Window free = Windows::free_window(now, 5, windows.held_tiers());
     EXPECT_EQ(free.tier, std::max(tier, shortest.tier));
     if (free.end == now) break;
     EXPECT_EQ(free.end, Windows::window_at(now, tier).end);
     ASSERT_LT(number, 100u);
     windows.enter(number, bound, now, free);
-    EXPECT_EQ(windows.free_window(now, 6).tier, 6) << "nobody is in windows of that length";
+    EXPECT_EQ(Windows::free_window(now, 6, windows.held_tiers()).tier, 6) << "nobody is in windows of that length";
     tier -= Tempo::powers_between_tiers;
   }
   EXPECT_LE(tier, shortest.tier);

@@ -1,0 +1,285 @@
+// Bodies come to a rank and go from it.
+#include <algorithm>
+#include <utility>
+
+#include "distributed/domain.hpp"
+#include "engine/validation.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// A departure for as long as this lives.
+class As {
+ public:
+  As(Motion& motion, std::uint32_t number, const std::optional<Departure>& departure)
+      : motion_(motion), number_(number) {
+    if (!departure) return;
+    before_ = motion.departure(number);
+    motion.depart(number, *departure).value();
+  }
+  As(const As&) = delete;
+  As& operator=(const As&) = delete;
+  ~As() {
+    if (before_) (void)motion_.depart(number_, *before_);
+  }
+
+ private:
+  Motion& motion_;
+  std::uint32_t number_;
+  std::optional<Departure> before_;
+};
+
+}  // namespace
+
+std::optional<std::uint32_t> DistributedWorld::Domain::find(std::uint32_t name) const {
+  const auto found = roster_.find(name);
+  if (found == roster_.end()) return std::nullopt;
+  return found->second;
+}
+
+/// The body as it is now, but for hot pairs.
+Parcel DistributedWorld::Domain::pack(std::uint32_t number) const {
+  Parcel parcel;
+  parcel.name = name_of(number);
+  parcel.owner = entries_[number].owner;
+  const auto [body, home] = bodies().keep(number);
+  parcel.body = body;
+  parcel.home = home;
+  parcel.filter = bodies().filters.of(number);
+  parcel.contacts = tables_.book.keep(number);
+  const Windows& windows = tables_.windows;
+  parcel.is_registered = windows.contains(number);
+  if (parcel.is_registered) {
+    parcel.tier = windows.window_of(number).tier;
+    parcel.end = windows.end_of(number);
+  }
+  motion_.write_body(entries_[number].in_motion, parcel.motion).value();
+  const auto named = [&](std::vector<std::uint32_t> numbers) {
+    PartnerList names;
+    for (const std::uint32_t other : numbers) names.add(name_of(other));
+    return names;
+  };
+  const auto touched = parcel.contacts.partners.all();
+  parcel.contacts.partners = named({touched.begin(), touched.end()});
+  for (Crossing& crossing : parcel.contacts.crossings) crossing.partner = name_of(crossing.partner);
+  if (const auto links = dangling_.find(parcel.name); links != dangling_.end()) {
+    for (const std::uint32_t partner : links->second.partners) parcel.contacts.partners.add(partner);
+    parcel.contacts.crossings.insert(parcel.contacts.crossings.end(), links->second.crossings.begin(),
+                                     links->second.crossings.end());
+  }
+  return parcel;
+}
+
+/// The body as it was when the part of the phase began, which islands may have changed since.
+Parcel DistributedWorld::Domain::pack_as_it_began(std::uint32_t number) {
+  const Islands::Group* group = islands_->group_of(number);
+  const Islands::Kept* kept = group != nullptr ? islands_->kept(number) : nullptr;
+  if (kept == nullptr || !group->attempted) {
+    Parcel parcel = pack(number);
+    if (group != nullptr) {
+      for (const Event& event : group->with.pending)
+        if (event.first.index == parcel.name) parcel.pending.push_back(event);
+    }
+    return parcel;
+  }
+  std::optional<Departure> before;
+  for (const auto& [body, departure] : group->turned)
+    if (!before && body.index == name_of(number)) before = departure;
+  const As as(motion_, entries_[number].in_motion, before);
+  const Bodies::Kept now = bodies().keep(number);
+  const ContactBook::Kept contacts = tables_.book.keep(number);
+  bodies().put_back(number, kept->body);
+  tables_.book.put_back(number, kept->contacts);
+  Parcel parcel = pack(number);
+  bodies().put_back(number, now);
+  tables_.book.put_back(number, contacts);
+  for (const Event& event : group->with.pending)
+    if (event.first.index == parcel.name) parcel.pending.push_back(event);
+  return parcel;
+}
+
+Parcel::Due DistributedWorld::Domain::due_of(const HotPair& pair, std::uint32_t number) const {
+  if (!pair.has_second()) return {pair.time, pair.second};
+  return {pair.time, name_of(pair.first == number ? pair.second : pair.first)};
+}
+
+/// The hot pairs of some bodies, of which these are the parcels: as they were when the part of the phase
+/// began, if there is one.
+void DistributedWorld::Domain::add_due(std::vector<Parcel>& parcels, std::span<const std::uint32_t> numbers) {
+  if (numbers.empty()) return;
+  std::unordered_map<std::uint32_t, std::size_t> places;
+  for (std::size_t k = 0; k < numbers.size(); ++k) places.emplace(numbers[k], k);
+  const auto stamp_of = [this](std::uint32_t number) {
+    const Islands::Kept* kept = islands_ != nullptr ? islands_->kept(number) : nullptr;
+    return kept != nullptr ? kept->body.body.stamp : bodies()[number].stamp;
+  };
+  const auto note = [&](const HotPair& pair) {
+    if (stamp_of(pair.first) != pair.first_stamp) return;
+    if (pair.has_second() && stamp_of(pair.second) != pair.second_stamp) return;
+    if (const auto first = places.find(pair.first); first != places.end())
+      parcels[first->second].due.push_back(due_of(pair, pair.first));
+    if (!pair.has_second()) return;
+    if (const auto second = places.find(pair.second); second != places.end())
+      parcels[second->second].due.push_back(due_of(pair, pair.second));
+  };
+  everybody_.agenda().for_each(note);
+  if (islands_ == nullptr) return;
+  for (const Islands::Group& group : islands_->groups()) {
+    if (group.joined()) continue;
+    for (const HotPair& pair : group.with.due) note(pair);
+  }
+}
+
+Result<Beginning> DistributedWorld::Domain::install(std::vector<Parcel>& parcels) {
+  Beginning beginning;
+  std::vector<std::uint32_t> numbers;
+  for (Parcel& parcel : parcels) {
+    const auto number = install(parcel);
+    if (!number) return number.error();
+    numbers.push_back(*number);
+    if (parcel.body.dirty) beginning.unsettled.push_back(*number);
+  }
+  for (const Parcel& parcel : parcels) link(parcel);
+  const Facts facts = everybody_.facts();
+  for (std::size_t k = 0; k < parcels.size(); ++k) {
+    Parcel& parcel = parcels[k];
+    const std::uint32_t number = numbers[k];
+    if (parcel.enters && parcel.is_registered)
+      tables_.windows.enter(number, roomy_bound(bodies(), number, time()), time(), parcel.window());
+    for (const Parcel::Due& due : parcel.due) {
+      if (due.other >= HotPair::renewal) {
+        beginning.due.push_back(facts.hot_pair(due.time, number, due.other));
+      } else if (const auto other = find(due.other)) {
+        beginning.due.push_back(facts.hot_pair(due.time, number, *other));
+      }
+    }
+    for (Event& event : parcel.pending) {
+      event.first = bodies().id_of(number);
+      beginning.pending.push_back(event);
+    }
+  }
+  // Of two bodies that have come together, each has brought their pair.
+  std::sort(beginning.due.begin(), beginning.due.end());
+  const auto same = [](const HotPair& a, const HotPair& b) { return !(a < b) && !(b < a); };
+  beginning.due.erase(std::unique(beginning.due.begin(), beginning.due.end(), same), beginning.due.end());
+  tables_.windows.tidy();
+  return beginning;
+}
+
+/// The body itself: whom it touches, and where it is registered, comes later.
+Result<std::uint32_t> DistributedWorld::Domain::install(Parcel& parcel) {
+  std::span<const std::byte> bytes(parcel.motion);
+  const auto known = find(parcel.name);
+  if (known) {
+    if (auto removed = motion_.remove(entries_[*known].in_motion); !removed) return removed.error();
+  }
+  const auto in_motion = motion_.read_body(bytes);
+  if (!in_motion) return in_motion.error();
+  const std::uint32_t number = known ? *known : bodies().add(BodyDefinition{}, parcel.name);
+  Body& body = bodies()[number];
+  const std::uint32_t generation = body.generation;
+  const std::uint32_t stamp = parcel.is_void || !known ? body.stamp + 1 : body.stamp;
+  body = parcel.body;
+  body.generation = generation;
+  body.stamp = stamp;
+  body.shape_number = body.change_number = body.rest_number = Body::none;
+  bodies().filters.keep(number, parcel.filter);
+  bodies().set_solid(number, body.solid);
+  if (bodies().space().repeats()) bodies().homes[number] = parcel.home;
+  if (!known) {
+    tables_.book.add(number, 0.0);
+    roster_.emplace(parcel.name, number);
+    entries_.resize(bodies().numbers());
+    is_copy_.resize(bodies().numbers());
+    entries_[number] = {};
+    is_copy_[number] = parcel.owner == rank() ? 0 : 1;
+    if (parcel.owner != rank()) copies_.push_back(number);
+  }
+  entries_[number].owner = parcel.owner;
+  entries_[number].in_motion = *in_motion;
+  tables_.book.put_back_alone(number, parcel.contacts);
+  if (body.dirty) {
+    body.dirty = false;
+    everybody_.mark_dirty(number);
+  }
+  return number;
+}
+
+void DistributedWorld::Domain::link(const Parcel& parcel) {
+  const std::uint32_t number = *find(parcel.name);
+  std::vector<std::uint32_t> partners;
+  std::vector<Crossing> crossings;
+  Links missing;
+  // Of one that is known, the link is no longer missing.
+  const auto found = [&](std::uint32_t name) {
+    const auto links = dangling_.find(name);
+    if (links == dangling_.end()) return;
+    std::erase(links->second.partners, parcel.name);
+    std::erase_if(links->second.crossings, [&](const Crossing& c) { return c.partner == parcel.name; });
+    if (links->second.partners.empty() && links->second.crossings.empty()) dangling_.erase(links);
+  };
+  for (const std::uint32_t name : parcel.contacts.partners.all()) {
+    const auto partner = find(name);
+    if (partner) {
+      partners.push_back(*partner);
+      found(name);
+    } else {
+      missing.partners.push_back(name);
+    }
+  }
+  for (const Crossing& crossing : parcel.contacts.crossings) {
+    const auto partner = find(crossing.partner);
+    if (partner) {
+      crossings.push_back({*partner, crossing.distance, crossing.senses});
+      found(crossing.partner);
+    } else {
+      missing.crossings.push_back(crossing);
+    }
+  }
+  tables_.book.set_links(number, partners, std::move(crossings));
+  if (missing.partners.empty() && missing.crossings.empty()) {
+    dangling_.erase(parcel.name);
+  } else {
+    dangling_[parcel.name] = std::move(missing);
+  }
+}
+
+/// The body is not known here any more.
+void DistributedWorld::Domain::drop(std::uint32_t number) {
+  const std::uint32_t name = name_of(number);
+  const auto partners = tables_.book.partners_of(number);
+  for (const std::uint32_t partner : partners) dangling_[name_of(partner)].partners.push_back(name);
+  for (const Crossing& crossing : tables_.book.crossings_of(number))
+    dangling_[name_of(crossing.partner)].crossings.push_back({name, crossing.distance, crossing.senses});
+  tables_.book.set_links(number, {}, {});
+  dangling_.erase(name);
+  if (tables_.windows.contains(number)) tables_.windows.leave(number);
+  (void)motion_.remove(entries_[number].in_motion);
+  roster_.erase(name);
+  entries_[number] = {};
+  if (!is_own(number)) std::erase(copies_, number);
+  is_copy_[number] = 0;
+  bodies().remove(number);
+}
+
+/// Around the way of a kicked body until its window ends.
+Box DistributedWorld::Domain::box_of(const BodyKick& kick) const {
+  const RoomyBound bound = room_for(bodies(), kick.number, MovedBound(kick.bound, kick.time));
+  return bodies().space().within(
+      bound.box_of_way(kick.window.end < infinity ? kick.window.end - kick.time : 0.0));
+}
+
+void DistributedWorld::Domain::states(std::span<const BodyId> ids, double time, std::span<State> states) {
+  for (std::size_t k = 0; k < ids.size(); ++k)
+    states[k] = motion_.state(entries_[ids[k].world].in_motion, time);
+}
+
+Departure DistributedWorld::Domain::departure(BodyId body) const {
+  return motion_.departure(entries_[body.world].in_motion);
+}
+
+void DistributedWorld::Domain::depart(BodyId body, const Departure& departure) {
+  motion_.depart(entries_[body.world].in_motion, departure).value();
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,83 @@
+#include "kinesphere/distributed/distributed_world.hpp"
+
+#include <string>
+#include <utility>
+
+#include "archive/archive.hpp"
+#include "distributed/domain.hpp"
+#include "engine/validation.hpp"
+
+namespace kinesphere {
+
+bool operator<(const OrderedEvent& a, const OrderedEvent& b) {
+  if (a.event.time != b.event.time) return a.event.time < b.event.time;
+  return a.round != b.round ? a.round < b.round : delivered_before(a.event, b.event);
+}
+
+DistributedWorld::DistributedWorld(std::unique_ptr<Domain> domain) : domain_(std::move(domain)) {}
+DistributedWorld::DistributedWorld(DistributedWorld&&) noexcept = default;
+DistributedWorld& DistributedWorld::operator=(DistributedWorld&&) noexcept = default;
+DistributedWorld::~DistributedWorld() = default;
+
+Result<DistributedWorld> DistributedWorld::create(const WorldDefinition& definition, Motion& motion) {
+  const auto valid = [&]() -> Result<void> {
+    if (auto checked = check_world(definition); !checked) return checked;
+    if (!definition.allow_overlap)
+      return Error{ErrorCode::unsupported, "allow_overlap", no_body,
+                   "create: allow_overlap must be true in a distributed world, but is false"};
+    return {};
+  };
+  const auto checked = valid();
+  // A world that cannot be has none of these, but all ranks have to hear of it.
+  auto domain = std::make_unique<Domain>(checked ? definition : WorldDefinition{}, motion);
+  if (auto agreed = domain->agree(checked); !agreed) return agreed.error();
+  return DistributedWorld(std::move(domain));
+}
+
+Result<void> DistributedWorld::add(std::uint32_t index, const BodyDefinition& body,
+                                   std::uint32_t number_in_motion) {
+  return domain_->add(index, body, number_in_motion);
+}
+
+Result<void> DistributedWorld::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
+  return domain_->set_sensor(sensor_class, sensor);
+}
+
+Result<void> DistributedWorld::run(double until, const Respond& respond, const OrderedSink& sink,
+                                   Workers* workers) {
+  return domain_->run(until, &respond, sink, workers);
+}
+
+Result<void> DistributedWorld::run(double until, const OrderedSink& sink, Workers* workers) {
+  return domain_->run(until, nullptr, sink, workers);
+}
+
+double DistributedWorld::time() const { return domain_->time(); }
+int DistributedWorld::rank() const { return domain_->communicator().rank(); }
+int DistributedWorld::ranks() const { return domain_->communicator().ranks(); }
+const WorldDefinition& DistributedWorld::definition() const { return domain_->tables().bodies.definition(); }
+
+std::uint64_t DistributedWorld::size() const { return domain_->communicator().sum(domain_->own_bodies()); }
+
+Counters DistributedWorld::counters() const {
+  ByteWriter writer;
+  writer(domain_->counters());
+  Counters all;
+  for (const auto& bytes : domain_->communicator().gather(writer.bytes())) {
+    Counters some;
+    ByteReader reader(bytes);
+    reader(some);
+    all += some;
+  }
+  return all;
+}
+
+EventHash DistributedWorld::hash() const {
+  auto parts = domain_->hash().parts();
+  domain_->communicator().sum(parts);
+  return EventHash::of(parts);
+}
+
+RankFigures DistributedWorld::figures() const { return domain_->figures(); }
+
+}  // namespace kinesphere

@@ -1,0 +1,39 @@
+#include "kinesphere/distributed/mpi_session.hpp"
+
+#include <mpi.h>
+
+#include <cstdlib>
+
+namespace kinesphere {
+
+MpiSession::MpiSession(int& argc, char**& argv) {
+  int is_initialised = 0;
+  MPI_Initialized(&is_initialised);
+  if (is_initialised != 0) return;
+  int given = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &given);
+  is_ours_ = true;
+}
+
+MpiSession::~MpiSession() {
+  if (is_ours_) MPI_Finalize();
+}
+
+int MpiSession::rank() const {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return rank;
+}
+
+int MpiSession::ranks() const {
+  int ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  return ranks;
+}
+
+void MpiSession::abort(int exit_code) const {
+  MPI_Abort(MPI_COMM_WORLD, exit_code);
+  std::abort();
+}
+
+}  // namespace kinesphere
