@@ -60,7 +60,7 @@ void Islands::open(double stop) {
                                           [=](const HotPair& pair) { return pair.time < stop; });
   std::for_each(later, due_.end(), [this](const HotPair& pair) { everybody_.agenda().add(pair); });
   due_.erase(later, due_.end());
-  attempts_ = 0;
+  first_runs_ = repeats_ = 0;
   failure_.reset();
   foreign_kicks_.clear();
   has_new_foreign_kicks_ = false;
@@ -81,10 +81,9 @@ void Islands::close() {
 
 /// In a short part few kicked bodies meet others; in a long one each body is copied once for many pairs.
 void Islands::choose_part() {
-  const std::size_t again = attempts_ - count_;
-  if (16 * again < count_) {
+  if (16 * repeats_ < first_runs_) {
     most_due_ = std::min(2 * most_due_, std::max(least_due, tables_.bodies.table().live_count()));
-  } else if (6 * again > count_) {
+  } else if (6 * repeats_ > first_runs_) {
     most_due_ = std::max(most_due_ / 2, least_due);
   }
 }
@@ -136,7 +135,8 @@ Islands::Group& Islands::new_group() {
   group.members.clear();
   group.with.clear();
   group.own = group.joined_to = static_cast<std::uint32_t>(count_++);
-  group.attempted = group.failed = false;
+  group.attempted = group.has_run = group.failed = false;
+  group.failure.reset();
   group.again = group.is_news = true;
   group.kicks.clear();
   group.claims.clear();
@@ -223,7 +223,8 @@ bool Islands::attempt_found() {
     const std::size_t of_b = groups_[b].with.due.size();
     return of_a != of_b ? of_a > of_b : a < b;
   });
-  attempts_ += again_.size();
+  for (const std::uint32_t own : again_)
+    ++(std::exchange(groups_[own].has_run, true) ? repeats_ : first_runs_);
   constexpr std::size_t islands_at_once = 8;
   try {
     shift_.for_each(again_.size(), islands_at_once,

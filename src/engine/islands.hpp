@@ -49,7 +49,8 @@ class Islands {
     std::uint32_t own = 0;        ///< its place
     std::uint32_t joined_to = 0;  ///< the same, unless it has been joined to another one
     bool again = true;            ///< it has to run, or run again
-    bool attempted = false;
+    bool attempted = false;  ///< and not taken back
+    bool has_run = false;
     bool failed = false;
     std::optional<Error> failure{};
     bool is_news = true;  ///< of it, for whoever sets this to false
@@ -163,7 +164,8 @@ class Islands {
   Sea sea_;
   double begin_ = 0.0;
   std::size_t most_due_ = 0;   ///< in a part
-  std::size_t attempts_ = 0;   ///< of groups in this part
+  std::size_t first_runs_ = 0;  ///< of groups in this part
+  std::size_t repeats_ = 0;     ///< of those that had to run again
   std::vector<Group> groups_;  ///< more than there are in this part, perhaps
   std::size_t count_ = 0;      ///< of those that there are
   std::vector<std::uint32_t> again_;
