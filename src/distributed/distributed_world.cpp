@@ -52,6 +52,15 @@ Result<void> DistributedWorld::run(double until, const OrderedSink& sink, Worker
   return domain_->run(until, nullptr, sink, workers);
 }
 
+Result<std::vector<std::byte>> DistributedWorld::save() { return domain_->save(); }
+
+Result<DistributedWorld> DistributedWorld::restore(std::span<const std::vector<std::byte>> parts,
+                                                   Motion& motion) {
+  auto domain = Domain::restore(parts, motion);
+  if (!domain) return domain.error();
+  return DistributedWorld(std::move(*domain));
+}
+
 double DistributedWorld::time() const { return domain_->time(); }
 int DistributedWorld::rank() const { return domain_->communicator().rank(); }
 int DistributedWorld::ranks() const { return domain_->communicator().ranks(); }

@@ -19,6 +19,7 @@ DistributedWorld::Domain::Domain(const WorldDefinition& definition, Motion& moti
       partition_(communicator_.ranks()),
       known_(ranks()) {
   tables_.book.find_numbers_in_tags();
+  everybody_.order_by_names();
   for (int rank = 0; rank < communicator_.ranks(); ++rank)
     known_[static_cast<std::size_t>(rank)].begin(partition_.region_of(rank));
 }
@@ -60,7 +61,6 @@ Result<void> DistributedWorld::Domain::add(std::uint32_t name, const BodyDefinit
   Body& added = bodies()[number];
   added.bound = bound_of(body, {body.position, body.velocity}, time());
   added.arrived = true;
-  everybody_.order_by_names();
   everybody_.void_facts(number);
   tables_.book.add(number, added.largest_acceleration());
   return {};
@@ -107,7 +107,6 @@ Result<void> DistributedWorld::Domain::run(double until, const Respond* respond,
     this->states(ids, time, states);
   };
   everybody_.reports().ask(probe, "run");
-  everybody_.order_by_names();
   Islands islands(tables_, everybody_, shift, probe, respond != nullptr ? this : nullptr);
   islands.limit_kicks(std::numeric_limits<std::size_t>::max());
   islands_of_run_ = &islands;

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -43,12 +44,17 @@ class DistributedWorld::Domain final : private Answerer, private Mover {
   Result<void> set_sensor(SensorClass sensor_class, const Sensor& sensor);
   Result<void> run(double until, const Respond* respond, const OrderedSink& sink, Workers* workers);
 
+  // checkpoint.cpp: the whole of it as bytes.
+  Result<std::vector<std::byte>> save();
+  static Result<std::unique_ptr<Domain>> restore(std::span<const std::vector<std::byte>> parts, Motion& motion);
+
   std::uint64_t own_bodies() const { return roster_.size() - copies_.size(); }
   const Counters& counters() const { return everybody_.counters(); }
   const EventHash& hash() const { return hash_; }
   RankFigures figures() const;
 
  private:
+  class Checkpoint;
   using Bytes = Communicator::Bytes;
   /// Of a body, where it has been added or has come to.
   struct Entry {
@@ -103,6 +109,8 @@ class DistributedWorld::Domain final : private Answerer, private Mover {
   Result<Answer> answer(const Event& event) override;
   void turn(const Event& event, const Answer& answer) override { kinesphere::turn(*this, event, answer); }
   Departure departure(BodyId body) override { return std::as_const(*this).departure(body); }
+
+  Result<void> resume(const Checkpoint& common, std::vector<Checkpoint>& parts);
 
   // bodies.cpp: bodies come and go.
   Parcel pack(std::uint32_t number) const;

@@ -2,11 +2,11 @@
 // them to all that have to know of them.
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <string>
 
 #include "archive/archive.hpp"
 #include "distributed/domain.hpp"
+#include "distributed/guarded.hpp"
 #include "input/input_check.hpp"
 #include "number/infinity.hpp"
 
@@ -17,20 +17,6 @@ namespace {
 constexpr double margin_in_widths = 2.0;
 /// Space is divided anew where a rank has so many times the work that it should have.
 constexpr double most_imbalance = 1.2;
-
-/// What a callback throws becomes an error.
-template <class F>
-Result<void> guarded(F f) {
-  try {
-    return f();
-  } catch (const BadResult& thrown) {
-    return Error{ErrorCode::callback_threw, thrown.error().argument, thrown.error().body, thrown.what()};
-  } catch (const std::exception& thrown) {
-    return Error{ErrorCode::callback_threw, "callback", no_body, thrown.what()};
-  } catch (...) {
-    return Error{ErrorCode::callback_threw, "callback", no_body, "something that is no std::exception"};
-  }
-}
 
 Box grown(Box box, double by) {
   const Vec3 room{by, by, by};
@@ -271,8 +257,11 @@ Result<void> DistributedWorld::Domain::spread(std::vector<Windows::Starter>& sta
   }
   std::vector<std::uint32_t> others;  // own bodies whose windows go on
   if (anew) {
-    double widths[] = {0.0, static_cast<double>(ways.size())};
+    for (std::uint32_t number = 0; number < bodies().numbers(); ++number)
+      if (tables_.windows.contains(number) && is_own(number)) others.push_back(number);
+    double widths[] = {0.0, static_cast<double>(ways.size() + others.size())};
     for (const Box& way : ways) widths[0] += width_of(way);
+    for (const std::uint32_t number : others) widths[0] += width_of(box_of(number));
     communicator_.sum(widths);
     Box core = partition_.region_of(rank());
     for (int axis = 0; axis < 3; ++axis) {
@@ -282,8 +271,6 @@ Result<void> DistributedWorld::Domain::spread(std::vector<Windows::Starter>& sta
     }
     if (widths[1] > 0.0) core = grown(core, margin_in_widths * widths[0] / widths[1]);
     known_[here].begin(core);
-    for (std::uint32_t number = 0; number < bodies().numbers(); ++number)
-      if (tables_.windows.contains(number) && is_own(number)) others.push_back(number);
   }
   const std::size_t before = anew ? 0 : known_[here].boxes().size();
   const auto cover = [&](const Box& way) {

@@ -46,7 +46,7 @@ class alignas(128) Island {
   /// Its world has another place now.
   void attach(Tables& tables) { tables_ = &tables; }
 
-  /// Of a world whose bodies have names; before anything is due.
+  /// For a world whose bodies will have names; before anything is due.
   void order_by_names() { agenda_.order_by(HotPairOrder(bodies().table().names())); }
 
   void reserve(std::size_t bodies) { dirty_.reserve(bodies); }

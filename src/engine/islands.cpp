@@ -21,6 +21,7 @@ Islands::Islands(Tables& tables, Island& everybody, Shift& shift, const Probe& p
     : tables_(tables), everybody_(everybody), shift_(shift), answerer_(answerer) {
   for (std::size_t worker = 0; worker < shift.count(); ++worker) {
     crew_.emplace_back(tables, everybody.time());
+    crew_.back().agenda().order_by(everybody.agenda().order());
     crew_.back().reports().ask(probe, "run");
   }
 }

@@ -67,6 +67,7 @@ class Agenda {
  public:
   /// Of an agenda that is empty.
   void order_by(const HotPairOrder& order) { order_ = order; }
+  const HotPairOrder& order() const { return order_; }
   std::size_t size() const { return (sorted_.size() - next_) + heap_.size() + waiting_; }
   /// Needed before next_time() and first(), after each change: goes on to the next slice that holds a pair,
   /// if nothing is left of this one.

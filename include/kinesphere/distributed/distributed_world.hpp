@@ -15,6 +15,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "kinesphere/callback.hpp"
 #include "kinesphere/counters.hpp"
@@ -86,6 +88,17 @@ class DistributedWorld {
   /// out_of_range (index) where two ranks have added bodies with the same index.
   Result<void> run(double until, const Respond& respond, const OrderedSink& sink, Workers* workers = nullptr);
   Result<void> run(double until, const OrderedSink& sink, Workers* workers = nullptr);
+
+  /// Collective. This rank's part of all that the world is, as bytes for a file; with all parts restore() goes
+  /// on, on any number of ranks, as this world would have: what comes is the same, to the last bit. Errors:
+  /// rank_failed; those of Motion::write_body.
+  Result<std::vector<std::byte>> save();
+  /// Collective. The world that save() has written. Each of its parts is handed in on one rank, whichever;
+  /// ranks may hand in several, or none. `motion` has no bodies, and the definition of those that moved them
+  /// before. Errors: bad_snapshot for parts that are damaged, missing, there twice or of different worlds;
+  /// those of Motion::read_body.
+  [[nodiscard]] static Result<DistributedWorld> restore(std::span<const std::vector<std::byte>> parts,
+                                                        Motion& motion);
 
   double time() const;
   int rank() const;

@@ -1,0 +1,24 @@
+// What the caller's functions throw: other ranks have to hear of it, so it becomes an error.
+#pragma once
+
+#include <exception>
+
+#include "kinesphere/result.hpp"
+
+namespace kinesphere {
+
+/// The result of f(), or what it throws.
+template <class F>
+Result<void> guarded(F f) {
+  try {
+    return f();
+  } catch (const BadResult& thrown) {
+    return Error{ErrorCode::callback_threw, thrown.error().argument, thrown.error().body, thrown.what()};
+  } catch (const std::exception& thrown) {
+    return Error{ErrorCode::callback_threw, "callback", no_body, thrown.what()};
+  } catch (...) {
+    return Error{ErrorCode::callback_threw, "callback", no_body, "something that is no std::exception"};
+  }
+}
+
+}  // namespace kinesphere
