@@ -66,7 +66,8 @@ class Instant {
         const Sphere first = sphere(book.number_of(event->first));
         if (event->kind == EventKind::sensor_enter) event->senses = senses_in(*event);
         if (event->kind == EventKind::sensor_leave) event->senses = book.senses_of(*event);
-        if (take_effect(book, *event, first, alone ? first : sphere(book.number_of(event->second)), box)) return event;
+        if (take_effect(book, *event, first, alone ? first : sphere(book.number_of(event->second)), box))
+          return event;
       } else if (!begins(event->kind) && event->kind != EventKind::zeno_guard) {
         return event;
       }

@@ -122,6 +122,9 @@ void DistributedWorld::Domain::add_due(std::vector<Parcel>& parcels, std::span<c
     if (const auto second = places.find(pair.second); second != places.end())
       parcels[second->second].due.push_back(due_of(pair, pair.second));
   };
+  for (const auto& [number, loose] : loose_)
+    if (const auto at = places.find(number); at != places.end())
+      parcels[at->second].due.insert(parcels[at->second].due.end(), loose.begin(), loose.end());
   everybody_.agenda().for_each(note);
   if (islands_ == nullptr) return;
   for (const Islands::Group& group : islands_->groups()) {
@@ -151,6 +154,8 @@ Result<Beginning> DistributedWorld::Domain::install(std::vector<Parcel>& parcels
         beginning.due.push_back(facts.hot_pair(due.time, number, due.other));
       } else if (const auto other = find(due.other)) {
         beginning.due.push_back(facts.hot_pair(due.time, number, *other));
+      } else if (resuming_) {
+        loose_[number].push_back(due);
       }
     }
     for (Event& event : parcel.pending) {

@@ -152,13 +152,14 @@ Result<std::unique_ptr<DistributedWorld::Domain>> DistributedWorld::Domain::rest
     reader(common.definition, common.tempo, common.sensors, common.phase_end);
   }
   std::sort(found.begin(), found.end());
+  const bool once = std::adjacent_find(found.begin(), found.end()) == found.end();
+  if (valid && (!of_one_world || !once || found.empty()))
+    valid = refusal("must be all of one world, each of them once, but are not");
   for (std::uint64_t part = 0; part < common.stamp.parts && valid; ++part) {
     if (part < found.size() && found[part] == part) continue;
     valid = refusal("must be all of one world, but of " + std::to_string(common.stamp.parts) + " part " +
                     std::to_string(part) + " is missing");
   }
-  if (valid && (!of_one_world || found.size() != common.stamp.parts || found.empty()))
-    valid = refusal("must be all of one world, each of them once, but are not");
   auto domain = std::make_unique<Domain>(common.definition, motion);
   if (auto agreed = domain->agree(valid); !agreed) return agreed.error();
   if (auto resumed = domain->resume(common, here); !resumed) return resumed.error();
@@ -172,7 +173,8 @@ Result<void> DistributedWorld::Domain::resume(const Checkpoint& common, std::vec
   ByteReader tempo(common.tempo);
   tempo(tables_.tempo);
   const bool is_sound = !tempo.failed() && tables_.tempo.is_sound();
-  auto valid = is_sound ? Result<void>() : refusal("must hold parts of a world that can be, but have no tempo");
+  auto valid =
+      is_sound ? Result<void>() : refusal("must hold parts of a world that can be, but have no tempo");
   bodies().sensors = common.sensors;
   std::vector<Parcel> parcels;
   for (Checkpoint& part : parts) {
@@ -194,11 +196,15 @@ Result<void> DistributedWorld::Domain::resume(const Checkpoint& common, std::vec
   }
   parcels.clear();
   std::vector<Windows::Starter> none;
+  resuming_ = true;
   const auto installed = receive(writers, none);
+  resuming_ = false;
   if (valid) valid = installed;
   if (auto agreed = agree(valid); !agreed) return agreed;
   for (const auto& [name, number] : roster_) new_names_.push_back(name);
-  return spread(none, true);
+  auto spread_out = spread(none, true);
+  loose_.clear();
+  return spread_out;
 }
 
 }  // namespace kinesphere

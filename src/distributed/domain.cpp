@@ -51,6 +51,24 @@ Result<void> DistributedWorld::Domain::agree(const Result<void>& here) {
 
 Result<void> DistributedWorld::Domain::add(std::uint32_t name, const BodyDefinition& body,
                                            std::uint32_t number_in_motion) {
+  if (failed_)
+    return Error{ErrorCode::rank_failed, "world", no_body, "add: the world cannot go on after an error"};
+  auto valid = check_body(body, bodies().definition(), "add");
+  if (valid)
+    valid = check_reach(bodies().sensors.reach(body.sensor_class), body, no_body, "sensor_class",
+                        bodies().definition(), "add");
+  if (!valid) return valid;
+  if (find(name) || name == no_body.index)
+    return Error{ErrorCode::out_of_range,
+                 "index",
+                 {name, 0, 0},
+                 "add: index must be that of no other body, but is " + std::to_string(name)};
+  if (!motion_.contains(number_in_motion))
+    return Error{ErrorCode::unknown_body,
+                 "number_in_motion",
+                 {name, 0, 0},
+                 "add: number_in_motion must be that of a body of the motion, but is " +
+                     std::to_string(number_in_motion)};
   const std::uint32_t number = bodies().add(body, name);
   tables_.book.add(number, 0.0);
   roster_.emplace(name, number);
@@ -149,7 +167,8 @@ Result<Answer> DistributedWorld::Domain::answer(const Event& event) {
   const auto check = [&](BodyId body, const std::optional<Vec3>& velocity,
                          std::string_view argument) -> Result<void> {
     if (!velocity) return {};
-    const std::string call = "run: respond: " + std::string(argument) + " at " + std::string(kinesphere::name_of(event.kind));
+    const std::string call =
+        "run: respond: " + std::string(argument) + " at " + std::string(kinesphere::name_of(event.kind));
     if (body == no_body)
       return Error{ErrorCode::unknown_body, std::string(argument), no_body,
                    call + ": there is no such body in this event"};

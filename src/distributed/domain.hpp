@@ -18,11 +18,11 @@
 #include <unordered_set>
 #include <vector>
 
+#include "archive/archive.hpp"
 #include "distributed/communicator.hpp"
 #include "distributed/known_space.hpp"
 #include "distributed/parcel.hpp"
 #include "distributed/partition.hpp"
-#include "archive/archive.hpp"
 #include "engine/islands.hpp"
 #include "engine/starting.hpp"
 #include "kinesphere/distributed/distributed_world.hpp"
@@ -46,7 +46,8 @@ class DistributedWorld::Domain final : private Answerer, private Mover {
 
   // checkpoint.cpp: the whole of it as bytes.
   Result<std::vector<std::byte>> save();
-  static Result<std::unique_ptr<Domain>> restore(std::span<const std::vector<std::byte>> parts, Motion& motion);
+  static Result<std::unique_ptr<Domain>> restore(std::span<const std::vector<std::byte>> parts,
+                                                 Motion& motion);
 
   std::uint64_t own_bodies() const { return roster_.size() - copies_.size(); }
   const Counters& counters() const { return everybody_.counters(); }
@@ -117,15 +118,17 @@ class DistributedWorld::Domain final : private Answerer, private Mover {
   Parcel pack_as_it_began(std::uint32_t number);
   Parcel::Due due_of(const HotPair& pair, std::uint32_t number) const;
   void add_due(std::vector<Parcel>& parcels, std::span<const std::uint32_t> numbers);
-  /// The bodies are known from now on, or as the parcels have them; returns what has to be begun with, of which
-  /// the pairs may be due at any time.
+  /// The bodies are known from now on, or as the parcels have them; returns what has to be begun with, of
+  /// which the pairs may be due at any time.
   Result<Beginning> install(std::vector<Parcel>& parcels);
   Result<std::uint32_t> install(Parcel& parcel);
   void link(const Parcel& parcel);
   void drop(std::uint32_t number);
   Box box_of(std::uint32_t number) const { return tables_.windows.box_of(number, time()); }
   Box box_of(const BodyKick& kick) const;
-  bool covers(const Box& box) const { return known_[static_cast<std::size_t>(rank())].covers(box, bodies().space()); }
+  bool covers(const Box& box) const {
+    return known_[static_cast<std::size_t>(rank())].covers(box, bodies().space());
+  }
 
   // start.cpp: windows start.
   Result<void> check_names();
@@ -155,8 +158,8 @@ class DistributedWorld::Domain final : private Answerer, private Mover {
   void note_asks(const Islands::Group& group, Round& round);
   void note_list(const Islands::Group& group, std::optional<std::uint32_t> met, Round& round);
   void note_kicks(const Islands::Group& group, Round& round);
-  Result<void> finish_part(double stop);
-  Result<void> push(double stop);
+  Result<void> finish_part();
+  Result<void> push();
 
   // domain.cpp: runs.
   Result<void> go(double until, const OrderedSink& sink, Shift& shift);
@@ -175,7 +178,8 @@ class DistributedWorld::Domain final : private Answerer, private Mover {
   std::vector<std::uint8_t> is_copy_;                        ///< by number
   std::vector<std::uint32_t> copies_;                        ///< of others, in no order
   std::unordered_map<std::uint32_t, Links> dangling_;        ///< by name
-  std::vector<std::uint32_t> new_names_;  ///< of bodies that were added, not compared yet with those of others
+  std::vector<std::uint32_t>
+      new_names_;  ///< of bodies that were added, not compared yet with those of others
   std::unordered_set<std::uint32_t> compared_names_;
 
   // During a run.
@@ -186,6 +190,9 @@ class DistributedWorld::Domain final : private Answerer, private Mover {
   Islands* islands_ = nullptr;
   std::vector<JoinList> lists_;        ///< that wait for bodies to become known, or to be in an island
   std::vector<std::uint32_t> asking_;  ///< groups that have asked for space
+  /// While a checkpoint is read: hot pairs of own bodies with those of others, which have yet to come.
+  std::unordered_map<std::uint32_t, std::vector<Parcel::Due>> loose_;
+  bool resuming_ = false;
   // What is to be said in the next round: space to be asked for; names to be asked for, of these ranks, and
   // those that have been asked for.
   std::vector<Box> asks_;

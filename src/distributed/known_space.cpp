@@ -44,8 +44,7 @@ bool KnownSpace::covers(const Box& box, const Space& space) const {
 }
 
 bool KnownSpace::meets(const Box& box, const Space& space) const {
-  return std::any_of(boxes_.begin(), boxes_.end(),
-                     [&](const Box& known) { return meet(known, box, space); });
+  return std::any_of(boxes_.begin(), boxes_.end(), [&](const Box& known) { return meet(known, box, space); });
 }
 
 }  // namespace kinesphere

@@ -51,8 +51,8 @@ struct Parcel {
   static void transfer(Self& self, Archive& archive) {
     auto& [named, whose, itself, at_home, meets, touches, registered, entering, starting, power, until, voids,
            pairs, news, moves] = self;
-    archive(named, whose, itself, at_home, meets, touches, registered, entering, starting, power, until, voids,
-            pairs, news, moves);
+    archive(named, whose, itself, at_home, meets, touches, registered, entering, starting, power, until,
+            voids, pairs, news, moves);
   }
 };
 

@@ -40,7 +40,7 @@ struct DistributedWorld::Domain::Round {
   // To each of them.
   std::vector<std::vector<JoinList>> lists;
   std::vector<std::vector<BodyKick>> kicks;
-  std::vector<std::vector<std::uint32_t>> wanted;  ///< names
+  std::vector<std::vector<std::uint32_t>> wanted;   ///< names
   std::vector<std::vector<std::uint32_t>> parcels;  ///< numbers
 
   bool is_empty() const {
@@ -72,7 +72,7 @@ Result<double> DistributedWorld::Domain::run_part(double until, double latest) {
       more = *shared;
     }
   }
-  if (auto done = finish_part(stop); !done) return done.error();
+  if (auto done = finish_part(); !done) return done.error();
   return stop;
 }
 
@@ -83,7 +83,8 @@ bool DistributedWorld::Domain::is_ours(const Islands::Group& group) const {
 
 /// All pairs of its bodies are known here.
 bool DistributedWorld::Domain::is_ready(const Islands::Group& group) const {
-  return is_ours(group) && std::all_of(group.members.begin(), group.members.end(), [this](std::uint32_t number) {
+  return is_ours(group) &&
+         std::all_of(group.members.begin(), group.members.end(), [this](std::uint32_t number) {
            return is_own(number) || !tables_.windows.contains(number) || covers(box_of(number));
          });
 }
@@ -103,7 +104,9 @@ std::vector<int> DistributedWorld::Domain::owners_of(const Islands::Group& group
 Result<bool> DistributedWorld::Domain::share() {
   Round round(ranks());
   if (!here_ && ranks() > 1) note_news(round);
-  const Standing standing = here_ ? Standing::has_failed : round.is_empty() ? Standing::content : Standing::has_news;
+  const Standing standing = here_              ? Standing::has_failed
+                            : round.is_empty() ? Standing::content
+                                               : Standing::has_news;
   ByteWriter writer;
   writer(standing, round.asks);
   std::vector<std::vector<Box>> asked;
@@ -313,7 +316,7 @@ void DistributedWorld::Domain::note_kicks(const Islands::Group& group, Round& ro
 }
 
 /// What came of the islands becomes what came of everybody, and those who have copies learn of it.
-Result<void> DistributedWorld::Domain::finish_part(double stop) {
+Result<void> DistributedWorld::Domain::finish_part() {
   Islands& islands = *islands_of_run_;
   const auto is_counted = [this](const Islands::Group& group) {
     const auto first = std::min_element(
@@ -323,7 +326,8 @@ Result<void> DistributedWorld::Domain::finish_part(double stop) {
   };
   for (const Islands::Group& group : islands.groups()) {
     if (group.joined() || !group.attempted) continue;
-    const float cost = static_cast<float>(1 + group.with.due.size()) / static_cast<float>(group.members.size());
+    const float cost =
+        static_cast<float>(1 + group.with.due.size()) / static_cast<float>(group.members.size());
     for (const std::uint32_t number : group.members) entries_[number].cost += cost;
   }
   for (const Told* told : islands.finish(is_counted)) {
@@ -333,7 +337,7 @@ Result<void> DistributedWorld::Domain::finish_part(double stop) {
     hash_.add(event);
     events_.push_back({event, told->round});
   }
-  const auto pushed = push(stop);
+  const auto pushed = push();
   islands.close();
   lists_.clear();
   return pushed;
@@ -341,7 +345,7 @@ Result<void> DistributedWorld::Domain::finish_part(double stop) {
 
 /// Bodies that have changed go to those who have copies but have not run their island, and to those to whose
 /// space they have been kicked.
-Result<void> DistributedWorld::Domain::push(double stop) {
+Result<void> DistributedWorld::Domain::push() {
   if (ranks() == 1) return {};
   std::vector<ByteWriter> writers(ranks());
   for (const Islands::Group& group : islands_of_run_->groups()) {
@@ -352,7 +356,7 @@ Result<void> DistributedWorld::Domain::push(double stop) {
       const bool is_kicked = std::any_of(group.kicks.begin(), group.kicks.end(),
                                          [&](const BodyKick& kick) { return kick.number == number; });
       // Its copies are dropped in any case.
-      if (!is_kicked && tables_.windows.end_of(number) <= stop) continue;
+      if (!is_kicked && tables_.windows.end_of(number) <= time()) continue;
       if (is_kicked) {
         const Box box = box_of(number);
         for (std::size_t to = 0; to < ranks(); ++to)

@@ -72,9 +72,7 @@ Partition Partition::choose(Communicator& communicator, std::span<const Vec3> po
   float version = 0.0f;
   Zoltan_Initialize(0, nullptr, &version);
   const std::unique_ptr<Zoltan_Struct, Destroy> zoltan(Zoltan_Create(MPI_COMM_WORLD));
-  const auto set = [&](const char* name, const char* value) {
-    Zoltan_Set_Param(zoltan.get(), name, value);
-  };
+  const auto set = [&](const char* name, const char* value) { Zoltan_Set_Param(zoltan.get(), name, value); };
   set("DEBUG_LEVEL", "0");
   set("DEBUG_MEMORY", "0");
   set("LB_METHOD", "RCB");

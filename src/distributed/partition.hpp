@@ -23,7 +23,8 @@ class Partition {
   int ranks() const { return static_cast<int>(regions_.size()); }
   /// Each position is one rank's: cost O(log ranks) where cuts balance.
   int owner_of(const Vec3& position) const;
-  /// lower <= position < upper, infinite on the outside. That of a rank with no space is empty: upper < lower.
+  /// lower <= position < upper, infinite on the outside. That of a rank with no space is empty: upper <
+  /// lower.
   const Box& region_of(int rank) const { return regions_[static_cast<std::size_t>(rank)]; }
 
  private:

@@ -80,8 +80,7 @@ Result<void> DistributedWorld::Domain::settle_arrivals(Shift& shift) {
   if (auto valid = check_names(); !valid) return valid;
   std::vector<std::uint32_t> joining = arrived;
   const bool anew = are_many(sums[0], sums[1]);
-  if (anew)
-    std::erase_if(joining, [this](std::uint32_t number) { return bodies()[number].stands_still(); });
+  if (anew) std::erase_if(joining, [this](std::uint32_t number) { return bodies()[number].stands_still(); });
   const std::uint64_t all_joining = communicator_.sum(joining.size());
   const bool was_for_few = anew && 2 * all_joining >= sums[2];
   if (all_joining > 0 && (was_for_few || !tables_.tempo.is_chosen())) {
@@ -252,7 +251,8 @@ Result<void> DistributedWorld::Domain::spread(std::vector<Windows::Starter>& sta
   const auto here = static_cast<std::size_t>(rank());
   std::vector<Box> ways;
   for (const Windows::Starter& starter : starters) {
-    const RoomyBound bound = room_for(bodies(), starter.number, MovedBound(bodies()[starter.number].bound, time()));
+    const RoomyBound bound =
+        room_for(bodies(), starter.number, MovedBound(bodies()[starter.number].bound, time()));
     ways.push_back(space.within(bound.box_of_way(starter.window.end - time())));
   }
   std::vector<std::uint32_t> others;  // own bodies whose windows go on
@@ -332,8 +332,7 @@ std::vector<std::uint32_t> DistributedWorld::Domain::own_bodies_in(std::span<con
     Bound ball{.time = time(), .position = 0.5 * (box.lower + box.upper)};
     ball.radius = 0.5 * norm(box.upper - box.lower);
     const RoomyBound bound{MovedBound(ball, time()), 0.0};
-    for (const std::uint32_t number :
-         tables_.windows.near(no_body.index, bound, time(), infinity, scratch))
+    for (const std::uint32_t number : tables_.windows.near(no_body.index, bound, time(), infinity, scratch))
       if (is_own(number) && meet(box, box_of(number), bodies().space())) found.push_back(number);
   }
   std::sort(found.begin(), found.end());

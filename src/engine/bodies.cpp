@@ -13,9 +13,7 @@ void Bodies::reserve(std::size_t bodies) {
   if (space_.repeats()) homes.reserve(bodies);
 }
 
-std::uint32_t Bodies::add(const BodyDefinition& definition) {
-  return describe(table_.take(), definition);
-}
+std::uint32_t Bodies::add(const BodyDefinition& definition) { return describe(table_.take(), definition); }
 
 std::uint32_t Bodies::add(const BodyDefinition& definition, std::uint32_t name) {
   return describe(table_.take(name), definition);

@@ -76,7 +76,9 @@ void Facts::find_hot_pair(std::uint32_t a, std::uint32_t b, FoundPairs& found) c
 void Facts::find_known_pairs(std::uint32_t number, FoundPairs& found) const {
   const auto add = [&](std::uint32_t other) {
     // Of two in the round the first one finds it.
-    if (!tables_.windows.contains(other) || (bodies()[other].settled && bodies().table().comes_before(other, number))) return;
+    if (!tables_.windows.contains(other) ||
+        (bodies()[other].settled && bodies().table().comes_before(other, number)))
+      return;
     const double until = unchanged_until_by_thresholds(number, other);
     if (until < windows_end(number, other)) found.hot.push_back(hot_pair(until, number, other));
   };

@@ -46,8 +46,7 @@ std::optional<Event> Island::deliver() {
     return id == bodies().id_of(number) && bodies()[number].present();
   };
   std::optional<Event> event = instant_.deliver(
-      book(), is_there,
-      [this](std::uint32_t number) { return sphere(number); },
+      book(), is_there, [this](std::uint32_t number) { return sphere(number); },
       [this](const Event& enter) { return senses_in(enter); }, bodies().walls());
   if (!event) return event;
   event->first = bodies().table().tagged(event->first);

@@ -144,8 +144,8 @@ class alignas(128) Island {
   // Beside other islands (beside.cpp).
   /// From now on the island is one of those of a phase.
   void begin(Sea& sea, std::uint32_t own, double now, const Beginning& with);
-  /// Goes on as far as islands go, or to where it claims a body that is not its own. Where they go nowhere, it
-  /// settles what is unsettled.
+  /// Goes on as far as islands go, or to where it claims a body that is not its own. Where they go nowhere,
+  /// it settles what is unsettled.
   Result<void> go_on(Answerer* answerer, std::vector<Told>& told);
   Beside& beside() { return *beside_; }
 

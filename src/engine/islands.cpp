@@ -57,8 +57,8 @@ double Islands::take_due(double until, double latest) {
 void Islands::open(double stop) {
   sea_.stop = stop;
   // Those that are due later were taken for a longer part.
-  const auto later = std::partition_point(due_.begin(), due_.end(),
-                                          [=](const HotPair& pair) { return pair.time < stop; });
+  const auto later =
+      std::partition_point(due_.begin(), due_.end(), [=](const HotPair& pair) { return pair.time < stop; });
   std::for_each(later, due_.end(), [this](const HotPair& pair) { everybody_.agenda().add(pair); });
   due_.erase(later, due_.end());
   first_runs_ = repeats_ = 0;

@@ -49,7 +49,7 @@ class Islands {
     std::uint32_t own = 0;        ///< its place
     std::uint32_t joined_to = 0;  ///< the same, unless it has been joined to another one
     bool again = true;            ///< it has to run, or run again
-    bool attempted = false;  ///< and not taken back
+    bool attempted = false;       ///< and not taken back
     bool has_run = false;
     bool failed = false;
     std::optional<Error> failure{};
@@ -163,11 +163,11 @@ class Islands {
   std::vector<Island> crew_;  ///< by worker
   Sea sea_;
   double begin_ = 0.0;
-  std::size_t most_due_ = 0;   ///< in a part
+  std::size_t most_due_ = 0;    ///< in a part
   std::size_t first_runs_ = 0;  ///< of groups in this part
   std::size_t repeats_ = 0;     ///< of those that had to run again
-  std::vector<Group> groups_;  ///< more than there are in this part, perhaps
-  std::size_t count_ = 0;      ///< of those that there are
+  std::vector<Group> groups_;   ///< more than there are in this part, perhaps
+  std::size_t count_ = 0;       ///< of those that there are
   std::vector<std::uint32_t> again_;
   std::vector<Kept> kept_;
   std::vector<HotPair> due_;

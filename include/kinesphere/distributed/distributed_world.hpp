@@ -65,33 +65,33 @@ struct RankFigures {
 /// queries, recordings. `allow_overlap` must be true.
 class DistributedWorld {
  public:
-  /// Collective. `motion` moves the bodies of this rank and must outlive the world; the world moves bodies from
-  /// rank to rank with Motion::write_body and read_body, so all ranks need motions of the same definition.
-  /// Errors: those of World::create; unsupported (allow_overlap).
+  /// Collective. `motion` moves the bodies of this rank and must outlive the world; the world moves bodies
+  /// from rank to rank with Motion::write_body and read_body, so all ranks need motions of the same
+  /// definition. Errors: those of World::create; unsupported (allow_overlap).
   [[nodiscard]] static Result<DistributedWorld> create(const WorldDefinition& definition, Motion& motion);
   DistributedWorld(DistributedWorld&&) noexcept;
   DistributedWorld& operator=(DistributedWorld&&) noexcept;
   ~DistributedWorld();
 
-  /// Adds a body of this rank's motion, in the state that `body` says, at the world's present time. `index` is
-  /// that of its id in events: as the bodies of all ranks are one world, no two may have the same. Not
+  /// Adds a body of this rank's motion, in the state that `body` says, at the world's present time. `index`
+  /// is that of its id in events: as the bodies of all ranks are one world, no two may have the same. Not
   /// collective. Errors: those of World::add; out_of_range (an index that is that of a body which this rank
   /// knows); unknown_body (in the motion).
   Result<void> add(std::uint32_t index, const BodyDefinition& body, std::uint32_t number_in_motion);
   /// As World::set_sensor; before bodies are added. Has to be called on all ranks.
   Result<void> set_sensor(SensorClass sensor_class, const Sensor& sensor);
 
-  /// Collective. Goes on to `until` as World::run does. `respond` is asked on each rank that has a body of the
-  /// event, or a copy, and must give the same answer everywhere; without it, events get no answer. `sink` is
-  /// told, in order, the events whose first body is this rank's. `workers` may differ from rank to rank.
+  /// Collective. Goes on to `until` as World::run does. `respond` is asked on each rank that has a body of
+  /// the event, or a copy, and must give the same answer everywhere; without it, events get no answer. `sink`
+  /// is told, in order, the events whose first body is this rank's. `workers` may differ from rank to rank.
   /// Errors: those of World::run; callback_threw where World::run would have let an exception pass;
   /// out_of_range (index) where two ranks have added bodies with the same index.
   Result<void> run(double until, const Respond& respond, const OrderedSink& sink, Workers* workers = nullptr);
   Result<void> run(double until, const OrderedSink& sink, Workers* workers = nullptr);
 
-  /// Collective. This rank's part of all that the world is, as bytes for a file; with all parts restore() goes
-  /// on, on any number of ranks, as this world would have: what comes is the same, to the last bit. Errors:
-  /// rank_failed; those of Motion::write_body.
+  /// Collective. This rank's part of all that the world is, as bytes for a file; with all parts restore()
+  /// goes on, on any number of ranks, as this world would have: what comes is the same, to the last bit.
+  /// Errors: rank_failed; those of Motion::write_body.
   Result<std::vector<std::byte>> save();
   /// Collective. The world that save() has written. Each of its parts is handed in on one rank, whichever;
   /// ranks may hand in several, or none. `motion` has no bodies, and the definition of those that moved them

@@ -1,0 +1,143 @@
+// A distributed world that is saved goes on as if nothing had been, on any number of ranks.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "distributed/one_world.hpp"
+#include "kinesphere/random.hpp"
+#include "lab/scene/make_scene.hpp"
+#include "support/expect_error.hpp"
+
+namespace kinesphere {
+namespace {
+
+using Part = std::vector<std::byte>;
+
+Scene scene_of(const std::string& name, std::uint32_t bodies) {
+  SceneParameters parameters;
+  for (const SceneParameters& built_in : built_in_scenes())
+    if (built_in.name == name) parameters = built_in;
+  parameters.bodies = bodies;
+  parameters.seconds = 1.2;
+  if (parameters.packing <= 0.0) parameters.box.upper = {130, 130, 130};
+  return make_scene(parameters).value();
+}
+
+/// A motion of the scene without bodies.
+std::unique_ptr<Motion> empty_motion(const Scene& scene) {
+  std::unique_ptr<Motion> motion = scene.motion->clone();
+  for (std::uint32_t k = 0; k < scene.bodies.size(); ++k) motion->remove(k).value();
+  return motion;
+}
+
+/// Runs to a time, and what each rank has saved there; all of it, on all ranks.
+std::vector<Part> parts_at(const Setting& setting, double time, std::vector<OrderedEvent>& told) {
+  const std::unique_ptr<Motion> motion = setting.scene.motion->clone();
+  DistributedWorld world = spread(setting, *motion);
+  const Respond respond = [&](const Event& event) { return setting.answer(event); };
+  world.run(time, respond, [&](const OrderedEvent& event) { told.push_back(event); }).value();
+  Communicator communicator;
+  return communicator.gather(world.save().value());
+}
+
+/// Those of the parts that this rank hands in.
+std::vector<Part> share_of(const std::vector<Part>& parts, int shift) {
+  Communicator communicator;
+  std::vector<Part> mine;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if ((static_cast<int>(k) + shift) % communicator.ranks() == communicator.rank()) mine.push_back(parts[k]);
+  return mine;
+}
+
+TEST(DistributedCheckpoints, GoOnAsIfNothingHadBeen) {
+  for (const char* name : {"paper1", "gas", "paper2"}) {
+    SCOPED_TRACE(name);
+    const Setting setting{.scene = scene_of(name, 300), .sensors = std::string(name) == "paper1"};
+    const Outcome one = alone(setting);
+    Random random(5);
+    for (int trial = 0; trial < 3; ++trial) {
+      std::vector<OrderedEvent> told;
+      const double time = random.uniform(0.0, setting.scene.end_time);
+      const std::vector<Part> parts = parts_at(setting, time, told);
+      const std::unique_ptr<Motion> motion = empty_motion(setting.scene);
+      auto world = DistributedWorld::restore(share_of(parts, trial), *motion);
+      ASSERT_TRUE(world) << world.error().message;
+      EXPECT_EQ(world->time(), time);
+      // Other ranks have other bodies now: only what all have told can be compared.
+      const Outcome rest = finish(setting, *world);
+      std::vector<Event> events = merged(told);
+      events.insert(events.end(), rest.events.begin(), rest.events.end());
+      expect_same(one, {events, rest.counters, rest.hash});
+    }
+  }
+}
+
+/// What one rank has saved, many go on with; and the other way round.
+TEST(DistributedCheckpoints, MayBeOfAnotherNumberOfRanks) {
+  const Setting setting{.scene = scene_of("paper1", 250)};
+  const Outcome one = alone(setting);
+  std::vector<OrderedEvent> told;
+  std::vector<Part> parts = parts_at(setting, 0.5, told);
+  // As if one rank had all.
+  const std::unique_ptr<Motion> motion = empty_motion(setting.scene);
+  auto world = DistributedWorld::restore(share_of(parts, 0), *motion);
+  ASSERT_TRUE(world) << world.error().message;
+  Communicator communicator;
+  parts = communicator.gather(world->save().value());
+  const std::unique_ptr<Motion> again = empty_motion(setting.scene);
+  const bool takes_all = communicator.rank() == 0;
+  auto resumed = DistributedWorld::restore(takes_all ? parts : std::vector<Part>(), *again);
+  ASSERT_TRUE(resumed) << resumed.error().message;
+  EXPECT_EQ(finish(setting, *resumed).hash, one.hash);
+}
+
+TEST(DistributedCheckpoints, OfAWorldThatHasNotBegun) {
+  const Setting setting{.scene = scene_of("paper1", 200)};
+  const std::unique_ptr<Motion> motion = setting.scene.motion->clone();
+  DistributedWorld world = spread(setting, *motion);
+  const Part part = world.save().value();
+  const std::unique_ptr<Motion> other = empty_motion(setting.scene);
+  auto resumed = DistributedWorld::restore(std::vector<Part>{part}, *other);
+  ASSERT_TRUE(resumed) << resumed.error().message;
+  expect_same(alone(setting), finish(setting, *resumed));
+}
+
+TEST(DistributedCheckpoints, AreRefusedUnlessTheyAreWhole) {
+  const Setting setting{.scene = scene_of("paper1", 60)};
+  std::vector<OrderedEvent> told;
+  const std::vector<Part> parts = parts_at(setting, 0.3, told);
+  const auto refused = [&](std::vector<Part> here, const std::string& why) {
+    const std::unique_ptr<Motion> motion = empty_motion(setting.scene);
+    const auto world = DistributedWorld::restore(here, *motion);
+    ASSERT_FALSE(world);
+    EXPECT_EQ(world.error().code, ErrorCode::bad_snapshot);
+    EXPECT_NE(world.error().message.find(why), std::string::npos) << world.error().message;
+  };
+  Communicator communicator;
+  const bool first = communicator.rank() == 0;
+  refused({}, "restore: parts must be all of one world");
+  std::vector<Part> mine = share_of(parts, 0);
+  // Of rank 0 alone.
+  if (first) mine[0].resize(mine[0].size() / 2);
+  refused(mine, "rank 0: restore: parts must be whole");
+  mine = share_of(parts, 0);
+  if (first) mine[0][mine[0].size() / 2] ^= std::byte{1};
+  refused(mine, "rank 0: restore: parts must be undamaged");
+  mine = share_of(parts, 0);
+  if (first) mine.push_back(mine[0]);
+  refused(mine, "restore: parts must be all of one world, each of them once");
+  mine = share_of(parts, 0);
+  if (first) mine.erase(mine.begin());
+  refused(mine, "restore: parts must be all of one world");
+  if (communicator.ranks() == 1) return;
+  std::vector<OrderedEvent> later;
+  const std::vector<Part> others = parts_at(setting, 0.6, later);
+  mine = share_of(parts, 0);
+  if (first) mine[0] = others[0];
+  refused(mine, "restore: parts must be all of one world");
+}
+
+}  // namespace
+}  // namespace kinesphere

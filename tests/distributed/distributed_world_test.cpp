@@ -1,0 +1,211 @@
+// A distributed world tells what one world tells: each event to the last bit, in the same order, with the
+// same number of reports, for whatever number of ranks runs this.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "distributed/one_world.hpp"
+#include "kinesphere/motion/ballistic.hpp"
+#include "kinesphere/random.hpp"
+#include "lab/scene/make_scene.hpp"
+#include "lab/truth/comparison.hpp"
+#include "scene/differential_scenes.hpp"
+
+namespace kinesphere {
+namespace {
+
+SceneParameters parameters_of(const std::string& name, std::uint32_t bodies, double seconds) {
+  SceneParameters parameters;
+  for (const SceneParameters& built_in : built_in_scenes())
+    if (built_in.name == name) parameters = built_in;
+  if (parameters.packing <= 0.0) {
+    // As dense as it is with as many bodies as it has.
+    const double factor = std::cbrt(static_cast<double>(bodies) / parameters.bodies);
+    parameters.box.upper = parameters.box.lower + factor * (parameters.box.upper - parameters.box.lower);
+  }
+  parameters.bodies = bodies;
+  parameters.seconds = seconds;
+  return parameters;
+}
+
+Scene scene_of(const SceneParameters& parameters) { return make_scene(parameters).value(); }
+
+void expect_the_same_as_alone(const Setting& setting, std::size_t least_events) {
+  const Outcome one = alone(setting);
+  EXPECT_GE(one.events.size(), least_events);
+  expect_same(one, spread_out(setting));
+}
+
+TEST(DistributedWorld, TellsOfTheFirstPaper) {
+  expect_the_same_as_alone({.scene = scene_of(parameters_of("paper1", 400, 2.0))}, 500);
+}
+
+TEST(DistributedWorld, TellsOfTheSecondPaper) {
+  expect_the_same_as_alone({.scene = scene_of(parameters_of("paper2", 300, 2.0))}, 100);
+}
+
+TEST(DistributedWorld, TellsOfAGasInASpaceThatRepeats) {
+  expect_the_same_as_alone({.scene = scene_of(parameters_of("gas", 300, 1.0))}, 500);
+  SceneParameters parameters = parameters_of("paper1", 200, 2.0);
+  parameters.periodic = true;
+  parameters.walls = false;
+  expect_the_same_as_alone({.scene = scene_of(parameters)}, 100);
+}
+
+TEST(DistributedWorld, TellsOfSensorsAndErrors) {
+  expect_the_same_as_alone(
+      {.scene = scene_of(parameters_of("paper1", 300, 1.5)), .sensors = true, .position_error = 1e-3}, 500);
+}
+
+TEST(DistributedWorld, TellsOfBrokenPromises) {
+  const Setting setting{.scene = scene_of(parameters_of("paper1", 250, 1.5)), .broken = 0.3};
+  const Outcome one = alone(setting);
+  EXPECT_GE(one.counters.count(EventKind::bound_violation), 20u);
+  expect_same(one, spread_out(setting));
+}
+
+TEST(DistributedWorld, TellsOfLargeAndSmallBodies) {
+  SceneParameters parameters = parameters_of("paper1", 300, 1.0);
+  parameters.radius_min = 0.01;
+  parameters.radius_max = 10.0;
+  parameters.speed_max = 400.0;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    parameters.seed = seed;
+    expect_the_same_as_alone({.scene = scene_of(parameters)}, 20);
+  }
+}
+
+TEST(DistributedWorld, TakesSeveralThreads) {
+  expect_the_same_as_alone({.scene = scene_of(parameters_of("paper1", 400, 1.0)), .threads = 2}, 200);
+}
+
+TEST(DistributedWorld, TakesBodiesFromWhoeverBringsThem) {
+  Setting setting{.scene = scene_of(parameters_of("paper1", 300, 1.0)), .bringer = last_brings_all};
+  expect_the_same_as_alone(setting, 100);
+}
+
+TEST(DistributedWorld, MayStopOnTheWay) {
+  expect_the_same_as_alone({.scene = scene_of(parameters_of("paper1", 300, 1.0)), .slices = 13}, 100);
+}
+
+/// Worlds of no more bodies than settle one by one: some ranks have none.
+TEST(DistributedWorld, TakesFewBodies) {
+  for (const std::uint32_t bodies : {1u, 2u, 3u, 8u, 9u, 12u}) {
+    SceneParameters parameters = parameters_of("paper1", bodies, 6.0);
+    parameters.radius_min = 3.0;
+    expect_the_same_as_alone({.scene = scene_of(parameters)}, 0);
+  }
+}
+
+/// Bodies on a lattice, all of which meet at the same times: the order in which pairs are looked at counts.
+TEST(DistributedWorld, TellsOfManyThingsAtOneInstant) {
+  for (const bool flies_apart : {false, true}) {
+    constexpr int side = 6;
+    std::vector<State> states;
+    Scene scene;
+    scene.world.box = Box{{0, 0, 0}, {3.0 * side, 3.0 * side, 3.0 * side}};
+    // Numbers that do not follow space.
+    for (int k = 0; k < side * side * side; ++k) {
+      const int place = 125 * k % (side * side * side);
+      const int x = place % side, y = place / side % side, z = place / side / side;
+      const double to = (x + y + z) % 2 == 0 ? 1.0 : -1.0;
+      const double along = flies_apart ? 0.0 : to;
+      states.push_back({{3.0 * x + 1.5, 3.0 * y + 1.5, 3.0 * z + 1.5}, {to, along, 0.5 * along}});
+      scene.bodies.push_back({.radius = 1.0});
+    }
+    scene.motion = Ballistic::create({.start = states}).value().clone();
+    scene.response = Response::bounce;
+    scene.end_time = 6.0;
+    expect_the_same_as_alone({.scene = std::move(scene)}, 500);
+  }
+}
+
+/// Rows that a body hits at one end: islands span all ranks.
+TEST(DistributedWorld, TellsOfChainsThroughAllOfSpace) {
+  std::vector<State> states;
+  Scene scene;
+  for (int row = 0; row < 5; ++row) {
+    for (int k = 0; k < 60; ++k) {
+      states.push_back({{2.0 * k + 0.001 * (k > 0 ? 1 : -3000), 4.0 * row, 0.0}, {}});
+      if (k == 0) states.back().velocity = {20.0 + row, 0, 0};
+      scene.bodies.push_back({.radius = 0.9995});
+    }
+  }
+  scene.motion = Ballistic::create({.start = states}).value().clone();
+  scene.response = Response::bounce;
+  scene.end_time = 3.0;
+  expect_the_same_as_alone({.scene = std::move(scene)}, 200);
+}
+
+TEST(DistributedWorld, CanBeGivenMoreBodiesLater) {
+  SceneParameters parameters = parameters_of("paper1", 200, 2.0);
+  parameters.walls = false;
+  Setting setting{.scene = scene_of(parameters)};
+  const std::unique_ptr<Motion> motion = setting.scene.motion->clone();
+  const auto late = [](std::uint32_t number) { return number % 10 == 7; };
+  const Respond respond = [&](const Event& event) { return setting.answer(event); };
+
+  Outcome one;
+  EventHash hash;
+  World world = World::create(setting.scene.world).value();
+  BodyMap map;
+  const auto sink = [&](const Event& event) { hash.add(event); };
+  std::vector<std::uint32_t> order;
+  for (const bool is_late : {false, true})
+    for (std::uint32_t k = 0; k < 200; ++k)
+      if (late(k) == is_late) order.push_back(k);
+  // In one world a body's index is its place in this order.
+  Setting ordered{.scene = scene_of(parameters)};
+  for (std::size_t k = 0; k < order.size(); ++k) ordered.scene.bodies[k] = setting.scene.bodies[order[k]];
+  const Respond ordered_respond = [&](const Event& event) { return ordered.answer(event); };
+  const auto body_at = [&](std::uint32_t place, const Motion& mover, double time) {
+    BodyDefinition body = mover.definition(order[place], time);
+    body.radius = ordered.scene.bodies[place].radius;
+    return body;
+  };
+  std::uint32_t place = 0;
+  for (const double until : {1.0, 2.0}) {
+    for (; place < order.size() && late(order[place]) == (until == 2.0); ++place)
+      map.add(world, *motion, order[place], body_at(place, *motion, world.time())).value();
+    BodyMap::MapMover mover = map.mover();
+    world.run(until, mover, ordered_respond, sink).value();
+  }
+
+  const std::unique_ptr<Motion> spread_motion = setting.scene.motion->clone();
+  DistributedWorld distributed = DistributedWorld::create(setting.scene.world, *spread_motion).value();
+  std::uint32_t next = 0;
+  for (const double until : {1.0, 2.0}) {
+    for (; next < order.size() && late(order[next]) == (until == 2.0); ++next)
+      if (in_turn(next, 200, distributed.ranks()) == distributed.rank())
+        distributed.add(next, body_at(next, *setting.scene.motion, distributed.time()), order[next]).value();
+    const auto done = distributed.run(until, ordered_respond, [](const OrderedEvent&) {});
+    ASSERT_TRUE(done) << done.error().message;
+  }
+  EXPECT_EQ(distributed.hash().value(), hash.value());
+  EXPECT_EQ(distributed.counters().probes, world.counters().probes);
+}
+
+/// In scenes in which nobody reacts, the truth is known.
+TEST(DistributedWorldDifferential, AgreesWithTheOracle) {
+  int scenes = 0;
+  for (int index = 0; index < static_cast<int>(testing::Family::count); ++index) {
+    const testing::Family family{index};
+    // Their bodies come and go.
+    if (family == testing::Family::tracks) continue;
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+      SCOPED_TRACE(std::string(testing::name_of(family)) + " " + std::to_string(seed));
+      Setting setting{.scene = testing::differential_scene(family, seed)};
+      setting.bringer = seed % 2 == 0 ? Bringer(in_turn) : Bringer(last_brings_all);
+      const Outcome outcome = spread_out(setting);
+      const ContactComparison comparison = compare_with_oracle(setting.scene, outcome.events).value();
+      EXPECT_TRUE(comparison.agrees()) << comparison.first_difference.value_or("");
+      ++scenes;
+    }
+  }
+  EXPECT_GE(scenes, 60);
+}
+
+}  // namespace
+}  // namespace kinesphere

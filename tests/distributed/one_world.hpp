@@ -1,0 +1,177 @@
+// A scene in one world and in a distributed one: both have to tell the same.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "archive/archive.hpp"
+#include "archive/fields.hpp"
+#include "distributed/communicator.hpp"
+#include "kinesphere/distributed/distributed_world.hpp"
+#include "kinesphere/kinesphere.hpp"
+#include "kinesphere/workers.hpp"
+#include "lab/scene/scene.hpp"
+
+namespace kinesphere {
+
+struct Outcome {
+  std::vector<Event> events;  ///< of all ranks, in order
+  Counters counters{};
+  std::uint64_t hash = 0;
+};
+
+/// Which rank brings a body.
+using Bringer = std::function<int(std::uint32_t body, std::uint32_t bodies, int ranks)>;
+inline int in_turn(std::uint32_t body, std::uint32_t, int ranks) {
+  return static_cast<int>(body % static_cast<std::uint32_t>(ranks));
+}
+inline int last_brings_all(std::uint32_t, std::uint32_t, int ranks) { return ranks - 1; }
+
+struct Setting {
+  Scene scene{};
+  bool sensors = false;
+  double position_error = 0.0;
+  /// The bodies promise so much less than they do.
+  double broken = 1.0;
+  int threads = 1;
+  Bringer bringer = in_turn;
+  /// The run is made of so many.
+  int slices = 1;
+
+  BodyDefinition body(std::uint32_t number) const {
+    BodyDefinition body = scene.motion->definition(number, scene.world.start_time);
+    body.radius = scene.bodies[number].radius;
+    body.user_data = number;
+    if (sensors && number % 3 == 0) body.sensor_class = 1;
+    if (number % 2 == 1) body.position_error = position_error;
+    if (number % 5 == 2) body.acceleration_limit *= broken;
+    return body;
+  }
+  Sensor sensor() const { return {.distances = {0.4, 1.1}}; }
+  Answer answer(const Event& event) const {
+    const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
+    if (scene.response != Response::bounce || !begins || event.approach_speed <= 0.0) return {};
+    const auto mass = [&](BodyId body) {
+      const double radius = scene.bodies[body.index].radius;
+      return radius * radius * radius;
+    };
+    const double second = event.second == no_body ? 1.0 : mass(event.second);
+    const Bounce after = bounce(event, mass(event.first), second, scene.restitution);
+    Answer answer{after.first_velocity, std::nullopt};
+    if (event.second != no_body) answer.second_velocity = after.second_velocity;
+    return answer;
+  }
+};
+
+inline Outcome alone(const Setting& setting) {
+  const Scene& scene = setting.scene;
+  const std::unique_ptr<Motion> motion = scene.motion->clone();
+  World world = World::create(scene.world).value();
+  if (setting.sensors) world.set_sensor(1, setting.sensor()).value();
+  for (std::uint32_t k = 0; k < scene.bodies.size(); ++k) world.add(setting.body(k)).value();
+  Outcome outcome;
+  EventHash hash;
+  const auto sink = [&](const Event& event) {
+    outcome.events.push_back(event);
+    hash.add(event);
+  };
+  const Respond respond = [&](const Event& event) { return setting.answer(event); };
+  MotionMover mover(*motion);
+  world.run(scene.end_time, mover, respond, sink).value();
+  outcome.counters = world.counters();
+  outcome.hash = hash.value();
+  return outcome;
+}
+
+/// The world of this rank, with the bodies that it brings; all others are removed from the motion.
+inline DistributedWorld spread(const Setting& setting, Motion& motion) {
+  DistributedWorld world = DistributedWorld::create(setting.scene.world, motion).value();
+  if (setting.sensors) world.set_sensor(1, setting.sensor()).value();
+  const auto bodies = static_cast<std::uint32_t>(setting.scene.bodies.size());
+  for (std::uint32_t k = 0; k < bodies; ++k)
+    if (setting.bringer(k, bodies, world.ranks()) == world.rank()) world.add(k, setting.body(k), k).value();
+  for (std::uint32_t k = 0; k < bodies; ++k)
+    if (setting.bringer(k, bodies, world.ranks()) != world.rank()) motion.remove(k).value();
+  return world;
+}
+
+/// Those of all ranks, in the order of one world.
+inline std::vector<Event> merged(const std::vector<OrderedEvent>& here) {
+  ByteWriter writer;
+  for (const OrderedEvent& event : here) writer(event.event, event.round);
+  std::vector<OrderedEvent> all;
+  Communicator communicator;
+  for (const auto& bytes : communicator.gather(writer.bytes())) {
+    ByteReader reader(bytes);
+    while (reader.remaining() > 0) {
+      OrderedEvent& event = all.emplace_back();
+      reader(event.event, event.round);
+    }
+  }
+  std::sort(all.begin(), all.end());
+  std::vector<Event> events;
+  for (const OrderedEvent& event : all) events.push_back(event.event);
+  return events;
+}
+
+/// Goes on to the end of the scene; with the events that `told` has already.
+inline Outcome finish(const Setting& setting, DistributedWorld& world, std::vector<OrderedEvent> told = {}) {
+  Workers workers = Workers::create(setting.threads).value();
+  const auto sink = [&](const OrderedEvent& event) {
+    if (!told.empty()) {
+      EXPECT_TRUE(told.back() < event);
+    }
+    told.push_back(event);
+  };
+  const Respond respond = [&](const Event& event) { return setting.answer(event); };
+  const double begin = world.time();
+  for (int slice = 1; slice <= setting.slices; ++slice) {
+    const double part = static_cast<double>(slice) / setting.slices;
+    const double until =
+        slice == setting.slices ? setting.scene.end_time : begin + part * (setting.scene.end_time - begin);
+    const auto done = world.run(until, respond, sink, &workers);
+    EXPECT_TRUE(done) << done.error().message;
+    if (!done) return {};
+  }
+  EXPECT_EQ(world.time(), setting.scene.end_time);
+  EXPECT_EQ(world.size(), setting.scene.bodies.size());
+  return {merged(told), world.counters(), world.hash().value()};
+}
+
+inline Outcome spread_out(const Setting& setting) {
+  const std::unique_ptr<Motion> motion = setting.scene.motion->clone();
+  DistributedWorld world = spread(setting, *motion);
+  return finish(setting, world);
+}
+
+/// All that can be seen of an event, to the last bit.
+inline std::vector<std::byte> bytes_of(const std::vector<Event>& events) {
+  ByteWriter writer;
+  for (const Event& event : events) writer(event);
+  return writer.take();
+}
+
+inline void expect_same(const Outcome& one, const Outcome& other) {
+  ASSERT_EQ(one.events.size(), other.events.size());
+  for (std::size_t k = 0; k < one.events.size(); ++k)
+    ASSERT_EQ(bytes_of({one.events[k]}), bytes_of({other.events[k]}))
+        << "event " << k << " at " << one.events[k].time << " and " << other.events[k].time;
+  EXPECT_EQ(one.hash, other.hash);
+  EXPECT_EQ(one.counters.events, other.counters.events);
+  EXPECT_EQ(one.counters.probes, other.counters.probes);
+  EXPECT_EQ(one.counters.starts, other.counters.starts);
+  EXPECT_EQ(one.counters.restarts, other.counters.restarts);
+  EXPECT_EQ(one.counters.pair_checks, other.counters.pair_checks);
+  EXPECT_EQ(one.counters.wall_checks, other.counters.wall_checks);
+  EXPECT_EQ(one.counters.certificates, other.counters.certificates);
+  EXPECT_EQ(one.counters.zeno_steps, other.counters.zeno_steps);
+  EXPECT_EQ(one.counters.repeated_contacts, other.counters.repeated_contacts);
+}
+
+}  // namespace kinesphere
