@@ -4,8 +4,9 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/kinesphere)
 install(TARGETS kinesphere EXPORT kinesphere INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+# src/distributed installs the headers of the component mpi.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/ ${PROJECT_BINARY_DIR}/include/
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp" PATTERN distributed EXCLUDE)
 
 install(EXPORT kinesphere NAMESPACE kinesphere:: FILE kinesphere-targets.cmake DESTINATION ${package_dir})
 install(FILES ${PROJECT_SOURCE_DIR}/cmake/kinesphere-config.cmake DESTINATION ${package_dir})

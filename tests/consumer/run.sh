@@ -3,10 +3,13 @@
 # script against it: through find_package, and through pkg-config. Whatever flags its user compiles with, none is
 # forced upon it and the library's results are the same as those of this build. What is installed of headers is those of
 # include/ and the version. Without options the library alone would be built, with nothing but a compiler and Google Highway.
+# Where the component mpi was built, the project in mpi/ is built against it and run as one rank; where it was not, whoever
+# asks for it is told so, and its headers are not installed.
 # Usage: run.sh <build folder> <library folder under the prefix> <compiler> <compiler flags> <executable scene_hash>
+#   <1 with the component mpi, 0 without>
 set -euo pipefail
 
-build=$1 libdir=$2 compiler=$3 flags=$4 scene_hash=$5
+build=$1 libdir=$2 compiler=$3 flags=$4 scene_hash=$5 mpi=$6
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -18,7 +21,10 @@ export LD_LIBRARY_PATH=$prefix/$libdir
 
 echo "installed headers:"
 (cd "$prefix/include" && find . -type f | sort) >"$work/headers"
-(cd "$source/../../include" && { find . -name '*.hpp'; echo ./kinesphere/version.hpp; } | sort) | diff - "$work/headers"
+left_out=()
+if [[ $mpi == 0 ]]; then left_out=(-not -path './kinesphere/distributed/*'); fi
+(cd "$source/../../include" && { find . -name '*.hpp' "${left_out[@]}"; echo ./kinesphere/version.hpp; } | sort) |
+  diff - "$work/headers"
 if find "$prefix" -name '*kinesphere_lab*' | grep .; then
   echo "consumer: the lab is installed" >&2
   exit 1
@@ -33,6 +39,24 @@ cmake --build "$work/build"
 if grep -r INTERFACE_COMPILE_OPTIONS "$prefix/$libdir/cmake"; then
   echo "consumer: compiler flags are forced upon users of the CMake package" >&2
   exit 1
+fi
+
+echo "with the component mpi:"
+configure_mpi() {
+  cmake -S "$source/mpi" -B "$work/mpi" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
+    -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags" >"$work/configure.log" 2>&1
+}
+if [[ $mpi == 1 ]]; then
+  configure_mpi || { cat "$work/configure.log"; exit 1; }
+  cmake --build "$work/mpi"
+  "$work/mpi/mpi_consumer"
+elif configure_mpi; then
+  echo "consumer: the component mpi was found, but not built" >&2
+  exit 1
+else
+  # CMake breaks lines.
+  tr -s ' \n' ' ' <"$work/configure.log" | grep -o 'its component mpi was not built' ||
+    { cat "$work/configure.log"; exit 1; }
 fi
 
 echo "with pkg-config:"
@@ -62,11 +86,11 @@ done
 
 echo "without options:"
 missing=()
-for package in CLI11 fmt nlohmann_json ZLIB GTest rapidcheck; do missing+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON"); done
+for package in CLI11 fmt nlohmann_json ZLIB GTest rapidcheck MPI Zoltan; do missing+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON"); done
 cmake -S "$source/../.." -B "$work/plain" -DCMAKE_CXX_COMPILER="$compiler" "${missing[@]}" -G Ninja >"$work/configure.log"
 targets=$(cmake --build "$work/plain" --target help)
 grep -o 'libkinesphere[^:]*' <<<"$targets" | head -n 1
-if grep -E 'kinesphere_program|kinesphere_lab|example_|test_|scene_hash' <<<"$targets"; then
+if grep -E 'kinesphere_program|kinesphere_lab|kinesphere_mpi|example_|test_|scene_hash' <<<"$targets"; then
   echo "consumer: more than the library is built without options" >&2
   exit 1
 fi
