@@ -13,12 +13,19 @@ rm -rf "$copy"
 mkdir -p "$copy"
 git ls-files -z CMakeLists.txt cmake include src tests | xargs -0 cp --parents -t "$copy"
 cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 \
-  -DKINESPHERE_BUILD_TESTS=ON >/dev/null
+  -DKINESPHERE_BUILD_TESTS=ON -DKINESPHERE_BUILD_MPI=ON >/dev/null
 
 apply() { (cd "$copy" && GIT_CEILING_DIRECTORIES=$PWD/.. git apply "$@"); }
 caught_by() { sed -n 's/^Caught by: //p' "$1"; }
+# Three processes run what is distributed, also as root and on fewer cores.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 \
+  OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_btl_vader_single_copy_mechanism=none
 # A hang counts as noticed.
-run_test() { RC_PARAMS=seed=2005 timeout 120 "$build/tests/$1" --gtest_brief=1 --gtest_filter="$2"; }
+run_test() {
+  local command=("$build/tests/$1")
+  if [[ $1 == test_distributed ]]; then command=(mpirun -n 3 "$build/tests/distributed/$1"); fi
+  RC_PARAMS=seed=2005 timeout 120 "${command[@]}" --gtest_brief=1 --gtest_filter="$2"
+}
 
 targets=$(for mutant in "${mutants[@]}"; do caught_by "$mutant" | cut -d' ' -f1; done | sort -u)
 # shellcheck disable=SC2086
