@@ -95,6 +95,10 @@ class ByteWriter {
   void write(const std::vector<T>& values) {
     write_all(values);
   }
+  void write(const std::vector<std::byte>& bytes) {
+    write(bytes.size());
+    append(bytes);
+  }
   template <class T, class Less>
   void write(const std::set<T, Less>& values) {
     write_all(values);
@@ -167,6 +171,13 @@ class ByteReader {
   void read(std::vector<T>& values) {
     values.clear();
     read_all<T>([&values](T&& value) { values.push_back(std::move(value)); });
+  }
+  void read(std::vector<std::byte>& bytes) {
+    const auto size = read_word<std::uint64_t>();
+    failed_ = failed_ || size > bytes_.size();
+    const auto part = bytes_.first(failed_ ? 0 : static_cast<std::size_t>(size));
+    bytes.assign(part.begin(), part.end());
+    bytes_ = bytes_.subspan(part.size());
   }
   template <class T, class Less>
   void read(std::set<T, Less>& values) {

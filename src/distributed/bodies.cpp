@@ -107,30 +107,33 @@ Parcel::Due DistributedWorld::Domain::due_of(const HotPair& pair, std::uint32_t 
 /// began, if there is one.
 void DistributedWorld::Domain::add_due(std::vector<Parcel>& parcels, std::span<const std::uint32_t> numbers) {
   if (numbers.empty()) return;
-  std::unordered_map<std::uint32_t, std::size_t> places;
-  for (std::size_t k = 0; k < numbers.size(); ++k) places.emplace(numbers[k], k);
+  // By number, one more than the place.
+  places_.resize(bodies().numbers());
+  for (std::size_t k = 0; k < numbers.size(); ++k) places_[numbers[k]] = static_cast<std::uint32_t>(k) + 1;
   const auto stamp_of = [this](std::uint32_t number) {
     const Islands::Kept* kept = islands_ != nullptr ? islands_->kept(number) : nullptr;
     return kept != nullptr ? kept->body.body.stamp : bodies()[number].stamp;
   };
   const auto note = [&](const HotPair& pair) {
+    const std::uint32_t first = places_[pair.first];
+    const std::uint32_t second = pair.has_second() ? places_[pair.second] : 0;
+    if (first == 0 && second == 0) return;
     if (stamp_of(pair.first) != pair.first_stamp) return;
     if (pair.has_second() && stamp_of(pair.second) != pair.second_stamp) return;
-    if (const auto first = places.find(pair.first); first != places.end())
-      parcels[first->second].due.push_back(due_of(pair, pair.first));
-    if (!pair.has_second()) return;
-    if (const auto second = places.find(pair.second); second != places.end())
-      parcels[second->second].due.push_back(due_of(pair, pair.second));
+    if (first != 0) parcels[first - 1].due.push_back(due_of(pair, pair.first));
+    if (second != 0) parcels[second - 1].due.push_back(due_of(pair, pair.second));
   };
   for (const auto& [number, loose] : loose_)
-    if (const auto at = places.find(number); at != places.end())
-      parcels[at->second].due.insert(parcels[at->second].due.end(), loose.begin(), loose.end());
+    if (const std::uint32_t at = places_[number]; at != 0)
+      parcels[at - 1].due.insert(parcels[at - 1].due.end(), loose.begin(), loose.end());
   everybody_.agenda().for_each(note);
-  if (islands_ == nullptr) return;
-  for (const Islands::Group& group : islands_->groups()) {
-    if (group.joined()) continue;
-    for (const HotPair& pair : group.with.due) note(pair);
+  if (islands_ != nullptr) {
+    for (const Islands::Group& group : islands_->groups()) {
+      if (group.joined()) continue;
+      for (const HotPair& pair : group.with.due) note(pair);
+    }
   }
+  for (const std::uint32_t number : numbers) places_[number] = 0;
 }
 
 Result<Beginning> DistributedWorld::Domain::install(std::vector<Parcel>& parcels) {

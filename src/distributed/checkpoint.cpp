@@ -28,25 +28,25 @@ constexpr Envelope envelope{{'K', 'i', 'n', 'e', 'd', 'w', '\r', '\n'},
 
 Error refusal(const std::string& what) { return envelope.refusal(what); }
 
-/// The same in all parts of one checkpoint.
-struct Stamp {
-  std::uint64_t parts = 0;
-  double time = 0.0;
-  std::array<std::uint64_t, 2> hash{};
-
-  template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
-    auto& [count, when, events] = self;
-    archive(count, when, events);
-  }
-  friend bool operator==(const Stamp&, const Stamp&) = default;
-};
-
 }  // namespace
 
 /// A part of one.
 class DistributedWorld::Domain::Checkpoint {
  public:
+  /// The same in all parts of one checkpoint.
+  struct Stamp {
+    std::uint64_t parts = 0;
+    double time = 0.0;
+    std::array<std::uint64_t, 2> hash{};
+
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+      auto& [count, when, events] = self;
+      archive(count, when, events);
+    }
+    friend bool operator==(const Stamp&, const Stamp&) = default;
+  };
+
   Stamp stamp{};
   std::uint64_t part = 0;
   WorldDefinition definition{};
@@ -144,7 +144,7 @@ Result<std::unique_ptr<DistributedWorld::Domain>> DistributedWorld::Domain::rest
     std::size_t count = 0;
     reader(count);
     for (; count > 0; --count) {
-      Stamp stamp;
+      Checkpoint::Stamp stamp;
       reader(stamp, found.emplace_back());
       of_one_world = of_one_world && (found.size() == 1 || stamp == common.stamp);
       common.stamp = stamp;

@@ -176,6 +176,7 @@ class DistributedWorld::Domain final : private Answerer, private Mover {
   std::unordered_map<std::uint32_t, std::uint32_t> roster_;  ///< numbers by names
   std::vector<Entry> entries_;                               ///< by number
   std::vector<std::uint8_t> is_copy_;                        ///< by number
+  std::vector<std::uint32_t> places_;                        ///< by number, 0; for add_due() alone
   std::vector<std::uint32_t> copies_;                        ///< of others, in no order
   std::unordered_map<std::uint32_t, Links> dangling_;        ///< by name
   std::vector<std::uint32_t>

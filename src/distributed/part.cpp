@@ -299,16 +299,16 @@ void DistributedWorld::Domain::note_list(const Islands::Group& group, std::optio
 
 /// Tells of kicked bodies all ranks to whose space they come.
 void DistributedWorld::Domain::note_kicks(const Islands::Group& group, Round& round) {
-  if (!group.attempted || group.kicks.empty()) return;
-  const std::vector<int> owners = owners_of(group);
+  if (!group.attempted) return;
+  std::optional<std::vector<int>> owners;
   for (const BodyKick& kick : group.kicks) {
     if (!is_own(kick.number)) continue;
     const Box box = box_of(kick);
     for (std::size_t to = 0; to < ranks(); ++to) {
       const int other = static_cast<int>(to);
-      if (other == rank() || std::binary_search(owners.begin(), owners.end(), other) ||
-          !known_[to].meets(box, bodies().space()))
-        continue;
+      if (other == rank() || !known_[to].meets(box, bodies().space())) continue;
+      if (!owners) owners = owners_of(group);
+      if (std::binary_search(owners->begin(), owners->end(), other)) continue;
       hold(kick.number, other, round);
       round.kicks[to].push_back(kick);
     }
@@ -350,23 +350,28 @@ Result<void> DistributedWorld::Domain::push() {
   std::vector<ByteWriter> writers(ranks());
   for (const Islands::Group& group : islands_of_run_->groups()) {
     if (group.joined() || !group.attempted) continue;
-    const std::vector<int> owners = owners_of(group);
+    std::vector<std::uint32_t> kicked;
+    for (const BodyKick& kick : group.kicks)
+      if (is_own(kick.number)) kicked.push_back(kick.number);
+    std::sort(kicked.begin(), kicked.end());
+    kicked.erase(std::unique(kicked.begin(), kicked.end()), kicked.end());
+    for (const std::uint32_t number : kicked) {
+      const Box box = box_of(number);
+      for (std::size_t to = 0; to < ranks(); ++to)
+        if (static_cast<int>(to) != rank() && known_[to].meets(box, bodies().space()) &&
+            !is_held(number, static_cast<int>(to)))
+          entries_[number].holders.push_back(static_cast<int>(to));
+    }
+    std::optional<std::vector<int>> owners;
     for (const std::uint32_t number : group.members) {
-      if (!is_own(number)) continue;
-      const bool is_kicked = std::any_of(group.kicks.begin(), group.kicks.end(),
-                                         [&](const BodyKick& kick) { return kick.number == number; });
+      if (!is_own(number) || entries_[number].holders.empty()) continue;
+      const bool is_kicked = std::binary_search(kicked.begin(), kicked.end(), number);
       // Its copies are dropped in any case.
       if (!is_kicked && tables_.windows.end_of(number) <= time()) continue;
-      if (is_kicked) {
-        const Box box = box_of(number);
-        for (std::size_t to = 0; to < ranks(); ++to)
-          if (static_cast<int>(to) != rank() && !is_held(number, static_cast<int>(to)) &&
-              known_[to].meets(box, bodies().space()))
-            entries_[number].holders.push_back(static_cast<int>(to));
-      }
+      if (!owners) owners = owners_of(group);
       std::optional<Parcel> parcel;
       for (const int to : entries_[number].holders) {
-        if (std::binary_search(owners.begin(), owners.end(), to)) continue;
+        if (std::binary_search(owners->begin(), owners->end(), to)) continue;
         if (!parcel) {
           parcel = pack(number);
           parcel->enters = is_kicked;

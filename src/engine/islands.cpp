@@ -64,7 +64,7 @@ void Islands::open(double stop) {
   first_runs_ = repeats_ = 0;
   failure_.reset();
   foreign_kicks_.clear();
-  has_new_foreign_kicks_ = false;
+  compared_foreign_kicks_ = 0;
   meetings_.clear();
   form(due_);
   Beginning unsettled;
@@ -194,10 +194,7 @@ void Islands::add(const Beginning& more) {
     group_with({tables_.bodies.table().number_of(event.first)}).with.pending.push_back(event);
 }
 
-void Islands::add_foreign_kick(const BodyKick& kick) {
-  foreign_kicks_.push_back(kick);
-  has_new_foreign_kicks_ = true;
-}
+void Islands::add_foreign_kick(const BodyKick& kick) { foreign_kicks_.push_back(kick); }
 
 const Islands::Kept* Islands::kept(std::uint32_t number) const {
   const std::uint32_t place = number < sea_.places.size() ? sea_.places[number].kept : Sea::none;
@@ -259,6 +256,7 @@ void Islands::attempt(std::uint32_t own, Island& island) {
   }
   group.again = false;
   group.attempted = group.is_news = true;
+  group.kicks_are_compared = false;
   island.begin(sea_, own, begin_, group.with);
   Beside& beside = island.beside();
   std::swap(beside.turned, group.turned);
@@ -338,33 +336,48 @@ bool Islands::join_claims() {
   return any;
 }
 
-/// Of all groups that are not part of others, in the order of groups and times.
+/// Of all groups that are not part of others, and of other processes: first those that have not been compared
+/// with any.
 std::vector<Islands::OwnKick> Islands::kicks() const {
   std::vector<OwnKick> all;
-  for (std::uint32_t own = 0; own < count_; ++own) {
-    if (groups_[own].joined()) continue;
-    for (const BodyKick& kick : groups_[own].kicks) all.push_back({own, &kick});
+  for (const bool compared : {false, true}) {
+    for (std::uint32_t own = 0; own < count_; ++own) {
+      const Group& group = groups_[own];
+      if (group.joined() || group.kicks_are_compared != compared) continue;
+      for (const BodyKick& kick : group.kicks) all.push_back({own, &kick});
+    }
+    for (std::size_t k = 0; k < foreign_kicks_.size(); ++k)
+      if ((k < compared_foreign_kicks_) == compared) all.push_back({Sea::nobody, &foreign_kicks_[k]});
   }
-  for (const BodyKick& kick : foreign_kicks_) all.push_back({Sea::nobody, &kick});
   return all;
+}
+
+std::size_t Islands::new_kicks() const {
+  std::size_t count = foreign_kicks_.size() - compared_foreign_kicks_;
+  for (std::uint32_t own = 0; own < count_; ++own)
+    if (!groups_[own].joined() && !groups_[own].kicks_are_compared) count += groups_[own].kicks.size();
+  return count;
 }
 
 RoomyBound Islands::bound_of(const BodyKick& kick) const {
   return room_for(tables_.bodies, kick.number, MovedBound(kick.bound, kick.time));
 }
 
-/// Joins groups of which kicked bodies may meet. True when some have to run again. Kicks get windows of their
-/// own, as if each had been there from the begin of the part on.
+/// Joins groups of which kicked bodies may meet. True when some have to run again. Kicks that are new get
+/// windows of their own, as if each had been there from the begin of the part on, and the others are held
+/// against them.
 bool Islands::join_kicks() {
+  const std::size_t count = new_kicks();
+  if (count == 0) return false;
   const std::vector<OwnKick> kicks = this->kicks();
-  has_new_foreign_kicks_ = false;
-  if (kicks.empty()) return false;
+  compared_foreign_kicks_ = foreign_kicks_.size();
+  for (Group& group : groups()) group.kicks_are_compared = group.kicks_are_compared || !group.kicks.empty();
   const auto bound_at_begin = [&](std::uint32_t k) {
     const BodyKick& kick = *kicks[k].kick;
     return room_for(tables_.bodies, kick.number, MovedBound(kick.bound, begin_));
   };
-  std::vector<Windows::Starter> starters(kicks.size());
-  shift_.for_each(kicks.size(), kicks_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+  std::vector<Windows::Starter> starters(count);
+  shift_.for_each(count, kicks_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
     for (std::size_t k = from; k < to; ++k) {
       const auto number = static_cast<std::uint32_t>(k);
       const Window& window = kicks[k].kick->window;
@@ -376,18 +389,28 @@ bool Islands::join_kicks() {
   // Of a kick that is another process's, the body stands for its group, which is not here.
   std::vector<std::vector<Windows::Pair>> meeting(shift_.count());
   std::vector<std::vector<Windows::Pair>> meeting_foreign(shift_.count());
-  shift_.for_each(kicks.size(), kicks_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
+  const auto compare = [&](std::uint32_t a, std::uint32_t b, std::size_t worker) {
+    if (kicks[a].own == kicks[b].own) return;
+    if (kicks[a].own == Sea::nobody) std::swap(a, b);
+    const bool is_foreign = kicks[b].own == Sea::nobody;
+    if (is_foreign && sea_.places[kicks[b].kick->number].island == kicks[a].own) return;
+    if (!may_meet(*kicks[a].kick, *kicks[b].kick)) return;
+    (is_foreign ? meeting_foreign : meeting)[worker].push_back(
+        {kicks[a].own, is_foreign ? kicks[b].kick->number : kicks[b].own});
+  };
+  shift_.for_each(count, kicks_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
     Windows::Scratch scratch;
-    for (auto [a, b] : windows.near_started(from, to, begin_, bound_at_begin, scratch)) {
-      if (kicks[a].own == kicks[b].own) continue;
-      if (kicks[a].own == Sea::nobody) std::swap(a, b);
-      const bool is_foreign = kicks[b].own == Sea::nobody;
-      if (is_foreign && sea_.places[kicks[b].kick->number].island == kicks[a].own) continue;
-      if (!may_meet(*kicks[a].kick, *kicks[b].kick)) continue;
-      (is_foreign ? meeting_foreign : meeting)[worker].push_back(
-          {kicks[a].own, is_foreign ? kicks[b].kick->number : kicks[b].own});
-    }
+    for (const auto& [a, b] : windows.near_started(from, to, begin_, bound_at_begin, scratch))
+      compare(a, b, worker);
   });
+  shift_.for_each(kicks.size() - count, kicks_at_once,
+                  [&](std::size_t from, std::size_t to, std::size_t worker) {
+                    Windows::Scratch scratch;
+                    for (auto k = static_cast<std::uint32_t>(count + from); k < count + to; ++k)
+                      for (const std::uint32_t other :
+                           windows.near(k, bound_at_begin(k), begin_, kicks[k].kick->window.end, scratch))
+                        compare(k, other, worker);
+                  });
   bool any = false;
   for (const std::vector<Windows::Pair>& pairs : meeting) {
     for (const auto& [a, b] : pairs) {

@@ -51,6 +51,7 @@ class Islands {
     bool again = true;            ///< it has to run, or run again
     bool attempted = false;       ///< and not taken back
     bool has_run = false;
+    bool kicks_are_compared = false;
     bool failed = false;
     std::optional<Error> failure{};
     bool is_news = true;  ///< of it, for whoever sets this to false
@@ -150,6 +151,7 @@ class Islands {
   void finish(const Group& group, bool is_counted, std::vector<const Told*>& told);
   void finish(std::vector<const Told*>& told);
   std::vector<OwnKick> kicks() const;
+  std::size_t new_kicks() const;
   RoomyBound bound_of(const BodyKick& kick) const;
   bool may_meet(const BodyKick& a, const BodyKick& b) const;
   std::uint32_t root_of(std::uint32_t own) const;
@@ -174,7 +176,7 @@ class Islands {
   std::vector<HotPair> left_;
   std::optional<Error> failure_;
   std::vector<BodyKick> foreign_kicks_;
-  bool has_new_foreign_kicks_ = false;
+  std::size_t compared_foreign_kicks_ = 0;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> meetings_;
 };
 
@@ -183,7 +185,7 @@ bool Islands::go_through(FindAgain find_again) {
   for (;;) {
     again_.clear();
     find_again();
-    if (again_.empty() && !has_new_foreign_kicks_) return true;
+    if (again_.empty() && compared_foreign_kicks_ == foreign_kicks_.size()) return true;
     if (!attempt_found()) return false;
     if (!join_claims()) join_kicks();
   }
