@@ -37,8 +37,8 @@ enum class ErrorCode {
   no_threads,          ///< the system does not give as many threads
   null_probe,          ///< the probe is a null function pointer or an empty std::function
   null_callback,       ///< so is respond or the sink of a run(), or a function of a task system
-  callback_threw,      ///< a function of the caller's threw where an exception cannot pass (distributed worlds)
-  rank_failed,         ///< another process of a distributed world could not go on
+  callback_threw,      ///< in a distributed world, which ends then: a function of the caller's threw
+  rank_failed,         ///< a distributed world cannot go on after an error
   moved_from,          ///< the world has been moved from: only assigning to it and destroying it are left
   unsupported,         ///< this detector cannot do what the scene asks for
   bad_snapshot,        ///< bytes that no world can be restored from

@@ -453,7 +453,8 @@ TEST(Windows, AreFreeWhereNobodyIs) {
     EXPECT_EQ(free.end, Windows::window_at(now, tier).end);
     ASSERT_LT(number, 100u);
     windows.enter(number, bound, now, free);
-    EXPECT_EQ(Windows::free_window(now, 6, windows.held_tiers()).tier, 6) << "nobody is in windows of that length";
+    EXPECT_EQ(Windows::free_window(now, 6, windows.held_tiers()).tier, 6)
+        << "nobody is in windows of that length";
     tier -= Tempo::powers_between_tiers;
   }
   EXPECT_LE(tier, shortest.tier);
