@@ -184,6 +184,7 @@ Result<void> DistributedWorld::Domain::resume(const Checkpoint& common, std::vec
     std::move(part.parcels.begin(), part.parcels.end(), std::back_inserter(parcels));
   }
   std::vector<Vec3> positions;
+  positions.reserve(parcels.size());
   for (const Parcel& parcel : parcels)
     positions.push_back(bodies().space().wrapped(parcel.body.bound.centre_at(time())).position);
   partition_ = Partition::choose(communicator_, positions, std::vector<double>(positions.size(), 1.0));

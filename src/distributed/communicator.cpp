@@ -108,6 +108,7 @@ std::vector<Communicator::Bytes> Communicator::exchange(std::vector<Bytes> outgo
   std::swap(incoming[own], outgoing[own]);
   if (ranks_ == 1) return incoming;
   std::vector<std::uint64_t> sizes;
+  sizes.reserve(outgoing.size());
   for (const Bytes& bytes : outgoing) sizes.push_back(bytes.size());
   std::vector<std::uint64_t> sizes_in(sizes.size());
   MPI_Alltoall(sizes.data(), 1, MPI_UINT64_T, sizes_in.data(), 1, MPI_UINT64_T, handle_->comm);

@@ -128,7 +128,7 @@ Result<void> DistributedWorld::Domain::run(double until, const Respond* respond,
   Islands islands(tables_, everybody_, shift, probe, respond != nullptr ? this : nullptr);
   islands.limit_kicks(std::numeric_limits<std::size_t>::max());
   islands_of_run_ = &islands;
-  const auto done = go(until, sink, shift);
+  auto done = go(until, sink, shift);
   islands_of_run_ = nullptr;
   return done;
 }

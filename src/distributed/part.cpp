@@ -337,7 +337,7 @@ Result<void> DistributedWorld::Domain::finish_part() {
     hash_.add(event);
     events_.push_back({event, told->round});
   }
-  const auto pushed = push();
+  auto pushed = push();
   islands.close();
   lists_.clear();
   return pushed;

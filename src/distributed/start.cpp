@@ -18,6 +18,13 @@ constexpr double margin_in_widths = 2.0;
 /// Space is divided anew where a rank has so many times the work that it should have.
 constexpr double most_imbalance = 1.2;
 
+std::vector<std::vector<std::byte>> taken(std::vector<ByteWriter>& writers) {
+  std::vector<std::vector<std::byte>> bytes(writers.size());
+  std::transform(writers.begin(), writers.end(), bytes.begin(),
+                 [](ByteWriter& writer) { return writer.take(); });
+  return bytes;
+}
+
 Box grown(Box box, double by) {
   const Vec3 room{by, by, by};
   return {box.lower - room, box.upper + room};
@@ -36,10 +43,8 @@ Result<void> DistributedWorld::Domain::check_names() {
   std::vector<ByteWriter> writers(ranks());
   for (const std::uint32_t name : new_names_) writers[name % ranks()](name);
   new_names_.clear();
-  std::vector<Bytes> outgoing;
-  for (ByteWriter& writer : writers) outgoing.push_back(writer.take());
   std::vector<std::pair<std::uint32_t, std::size_t>> names;
-  const std::vector<Bytes> incoming = communicator_.exchange(std::move(outgoing));
+  const std::vector<Bytes> incoming = communicator_.exchange(taken(writers));
   for (std::size_t from = 0; from < incoming.size(); ++from) {
     ByteReader reader(incoming[from]);
     while (reader.remaining() > 0) {
@@ -225,10 +230,8 @@ Result<void> DistributedWorld::Domain::migrate(std::vector<Windows::Starter>& st
 /// `starters`.
 Result<void> DistributedWorld::Domain::receive(std::vector<ByteWriter>& writers,
                                                std::vector<Windows::Starter>& starters) {
-  std::vector<Bytes> outgoing;
-  for (ByteWriter& writer : writers) outgoing.push_back(writer.take());
   std::vector<Parcel> parcels;
-  for (const Bytes& bytes : communicator_.exchange(std::move(outgoing))) {
+  for (const Bytes& bytes : communicator_.exchange(taken(writers))) {
     ByteReader reader(bytes);
     while (reader.remaining() > 0 && !reader.failed()) reader(parcels.emplace_back());
   }
