@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <sstream>
+#include <string>
 #include <utility>
 
 #include "lab/simulation/scene_answer.hpp"
@@ -19,6 +21,17 @@ namespace {
 /// before: so events take no more memory than some times these.
 constexpr std::uint64_t events_of_a_slice = 1 << 16;
 constexpr double slices_at_first = 1000.0;
+
+/// Of two scene texts, the first lines that are not the same.
+std::pair<std::string, std::string> first_difference(const std::string& a, const std::string& b) {
+  std::istringstream lines_of_a(a);
+  std::istringstream lines_of_b(b);
+  std::pair<std::string, std::string> lines;
+  while (std::getline(lines_of_a, lines.first) && std::getline(lines_of_b, lines.second) &&
+         lines.first == lines.second) {
+  }
+  return lines;
+}
 
 }  // namespace
 
@@ -121,9 +134,10 @@ bool DistributedSimulation::restore(std::uint64_t number, RunState& state) {
 
 void DistributedSimulation::require_same_run(const RunState& state) const {
   const auto refuse = [](const std::string& why) { throw SharedError(why, exit_wrong_input); };
-  if (state.scene != options_.scene_text)
-    refuse(fmt::format("--resume: expected the scene of the checkpoints, {}, but got {}", state.scene,
-                       options_.scene_text));
+  if (state.scene != options_.scene_text) {
+    const auto [saved, given] = first_difference(state.scene, options_.scene_text);
+    refuse(fmt::format("--resume: expected the scene of the checkpoints, with {}, but got {}", saved, given));
+  }
   if (state.contacts != options_.contacts.output)
     refuse("--resume: expected --contacts and --file-per-rank as in the run that wrote the checkpoints");
   if (state.time > scene_.end_time)

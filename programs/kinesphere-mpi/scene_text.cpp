@@ -7,7 +7,9 @@
 namespace kinesphere::program {
 namespace {
 
-std::string text_of(const Vec3& vector) { return fmt::format("[{}, {}, {}]", vector.x, vector.y, vector.z); }
+std::string vector_text(const Vec3& vector) {
+  return fmt::format("[{}, {}, {}]", vector.x, vector.y, vector.z);
+}
 
 }  // namespace
 
@@ -18,12 +20,12 @@ std::string scene_text(const SceneParameters& parameters) {
                contact_tolerance, zeno_interval, seconds, seed] = parameters;
   static_cast<void>(seconds);
   return fmt::format(
-      "{}: {}, {} bodies, radius {} to {}, speed {} to {}, limit {} to {}, gravity {}, box {} to {}, packing "
-      "{}, walls {}, periodic {}, redraw_interval {}, response {}, restitution {}, resting_speed {}, "
-      "contact_tolerance {}, zeno_interval {}, seed {}",
+      "scene {}\nmotion {}\nbodies {}\nradius {} {}\nspeed {} {}\nlimit {} {}\ngravity {}\nbox {} {}\n"
+      "packing {}\nwalls {}\nperiodic {}\nredraw_interval {}\nresponse {}\nrestitution {}\n"
+      "resting_speed {}\ncontact_tolerance {}\nzeno_interval {}\nseed {}\n",
       name, name_of(motion), bodies, radius_min, radius_max, speed_min, speed_max, limit_min, limit_max,
-      text_of(gravity), text_of(box.lower), text_of(box.upper), packing, walls, periodic, redraw_interval,
-      name_of(response), restitution, resting_speed, contact_tolerance, zeno_interval, seed);
+      vector_text(gravity), vector_text(box.lower), vector_text(box.upper), packing, walls, periodic,
+      redraw_interval, name_of(response), restitution, resting_speed, contact_tolerance, zeno_interval, seed);
 }
 
 }  // namespace kinesphere::program

@@ -1,4 +1,4 @@
-// All parameters of a scene that decide what happens in it, as text.
+// All parameters of a scene that decide what happens in it, as text: a line for each.
 #pragma once
 
 #include <string>

@@ -54,11 +54,13 @@ void OutputFile::open_again(std::uint64_t kept) {
   temporary_path_ = path_ + ".unfinished";
   std::error_code error;
   if (kept > 0) {
-    if (!fs::exists(temporary_path_, error)) fs::rename(path_, temporary_path_, error);
-    const std::uintmax_t there = fs::file_size(temporary_path_, error);
+    const std::string before = fs::exists(temporary_path_, error) ? temporary_path_ : path_;
+    const std::uintmax_t there = fs::file_size(before, error);
     if (error || there < kept)
       throw ProgramError(fmt::format("{}: expected the {} bytes that an earlier run has written, but got {}",
-                                     temporary_path_, kept, error ? error.message() : std::to_string(there)));
+                                     before, kept, error ? error.message() : std::to_string(there)));
+    if (before != temporary_path_) fs::rename(before, temporary_path_, error);
+    if (error) fail(path_, error.value());
     fs::resize_file(temporary_path_, kept, error);
     if (error) fail(temporary_path_, error.value());
   }
