@@ -162,26 +162,39 @@ std::string CheckpointFolder::path(std::uint64_t number) const {
 }
 
 void CheckpointFolder::write(const Part& part, const RunState& state) {
-  const std::string complete = path(next_);
-  const std::string unfinished = complete + ".tmp";
+  const std::string unfinished = path(next_) + ".tmp";
+  try {
+    write_unfinished(unfinished, part, state);
+  } catch (const SharedError&) {
+    // On a full disk it would be in the way of what else is to be written.
+    std::error_code ignored;
+    if (ranks_.is_first()) fs::remove_all(unfinished, ignored);
+    throw;
+  }
   ranks_.on_first(1, [&] {
-    fs::remove_all(unfinished);
-    fs::create_directory(unfinished);
-  });
-  ranks_.together(1, [&] {
-    write_to_disk(part_path(unfinished, static_cast<std::uint64_t>(ranks_.rank())),
-                  reinterpret_cast<const char*>(part.data()), part.size());
-  });
-  ranks_.on_first(1, [&] {
-    const std::string text = text_of(state);
-    write_to_disk(state_path(unfinished), text.data(), text.size());
-    sync_folder(unfinished);
-    fs::rename(unfinished, complete);
+    fs::rename(unfinished, path(next_));
     sync_folder(folder_);
     const std::vector<std::uint64_t> numbers = numbers_in(folder_);
     for (std::size_t k = checkpoints_kept; k < numbers.size(); ++k) fs::remove_all(path(numbers[k]));
   });
   ++next_;
+}
+
+void CheckpointFolder::write_unfinished(const std::string& folder, const Part& part,
+                                        const RunState& state) const {
+  ranks_.on_first(1, [&] {
+    fs::remove_all(folder);
+    fs::create_directory(folder);
+  });
+  ranks_.together(1, [&] {
+    write_to_disk(part_path(folder, static_cast<std::uint64_t>(ranks_.rank())),
+                  reinterpret_cast<const char*>(part.data()), part.size());
+  });
+  ranks_.on_first(1, [&] {
+    const std::string text = text_of(state);
+    write_to_disk(state_path(folder), text.data(), text.size());
+    sync_folder(folder);
+  });
 }
 
 std::vector<std::uint64_t> CheckpointFolder::latest() const {

@@ -51,6 +51,8 @@ class CheckpointFolder {
   std::string path(std::uint64_t number) const;
 
  private:
+  void write_unfinished(const std::string& folder, const Part& part, const RunState& state) const;
+
   const Ranks& ranks_;
   std::string folder_;
   std::uint64_t next_ = 1;  ///< the number of the next one
