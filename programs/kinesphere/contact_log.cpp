@@ -1,6 +1,8 @@
 // Every event of a run, one row each.
 #include "contact_log.hpp"
 
+#include <utility>
+
 namespace kinesphere::program {
 namespace {
 
@@ -16,10 +18,13 @@ Cell cell_of(Wall wall) {
 
 }  // namespace
 
-ContactLog::ContactLog(const std::string& path)
-    : table_(path, {"time", "kind", "first", "second", "wall", "gap", "approach_speed", "point_x", "point_y",
-                    "point_z", "normal_x", "normal_y", "normal_z", "repeated", "position_excess",
-                    "velocity_excess"}) {}
+ContactLog::ContactLog(const std::string& path) : ContactLog(table_format_of(path), {path}) {}
+
+ContactLog::ContactLog(TableFormat format, OutputPlace place)
+    : table_(format, std::move(place),
+             {"time", "kind", "first", "second", "wall", "gap", "approach_speed", "point_x", "point_y",
+              "point_z", "normal_x", "normal_y", "normal_z", "repeated", "position_excess",
+              "velocity_excess"}) {}
 
 void ContactLog::write(const Event& event) {
   const Cell cells[] = {event.time,

@@ -1,6 +1,7 @@
 // Every event of a run, one row each.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "kinesphere/event.hpp"
@@ -13,7 +14,9 @@ namespace kinesphere::program {
 class ContactLog {
  public:
   explicit ContactLog(const std::string& path);
+  ContactLog(TableFormat format, OutputPlace place);
   void write(const Event& event);
+  std::uint64_t sync() { return table_.sync(); }
   void commit() { table_.commit(); }
 
  private:

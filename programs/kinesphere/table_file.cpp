@@ -43,16 +43,27 @@ std::string text_of(const Cell& cell, std::string_view empty, std::string (*quot
 
 }  // namespace
 
+TableFormat table_format_of(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending == ".csv") return TableFormat::csv;
+  if (ending == ".jsonl") return TableFormat::json_lines;
+  throw ProgramError(fmt::format("{}: expected a name that ends in .csv or .jsonl", path));
+}
+
 TableFile::TableFile(const std::string& path, std::vector<std::string> columns)
-    : format_(format_of(path)), columns_(std::move(columns)), file_(path) {
-  if (format_ == Format::csv) file_.write(fmt::format("{}\n", fmt::join(columns_, ",")));
+    : TableFile(table_format_of(path), {path}, std::move(columns)) {}
+
+TableFile::TableFile(TableFormat format, OutputPlace place, std::vector<std::string> columns)
+    : format_(format), columns_(std::move(columns)), file_(std::move(place)) {
+  if (format_ == TableFormat::csv && file_.length() == 0)
+    file_.write(fmt::format("{}\n", fmt::join(columns_, ",")));
 }
 
 void TableFile::write(std::span<const Cell> cells) {
   assert(cells.size() == columns_.size());
   std::string line;
   for (std::size_t k = 0; k < cells.size(); ++k) {
-    if (format_ == Format::csv) {
+    if (format_ == TableFormat::csv) {
       line += k == 0 ? "" : ",";
       line += text_of(cells[k], "", quoted_for_csv);
     } else {
@@ -60,15 +71,8 @@ void TableFile::write(std::span<const Cell> cells) {
       line += quoted_for_json(columns_[k]) + ": " + text_of(cells[k], "null", quoted_for_json);
     }
   }
-  line += format_ == Format::csv ? "\n" : "}\n";
+  line += format_ == TableFormat::csv ? "\n" : "}\n";
   file_.write(line);
-}
-
-TableFile::Format TableFile::format_of(const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
-  if (ending == ".csv") return Format::csv;
-  if (ending == ".jsonl") return Format::json_lines;
-  throw ProgramError(fmt::format("{}: expected a name that ends in .csv or .jsonl", path));
 }
 
 }  // namespace kinesphere::program

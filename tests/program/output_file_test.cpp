@@ -43,6 +43,40 @@ TEST_F(OutputFileTest, ReplacesTheOldFileOnCommit) {
   EXPECT_EQ(read_text(path("log.csv")), "new");
 }
 
+TEST_F(OutputFileTest, IsGoneOnWithByALaterRun) {
+  {
+    OutputFile file(OutputPlace{path("log.csv"), 0});
+    file.write("kept");
+    EXPECT_EQ(file.sync(), 4u);
+    file.write(", not kept");
+  }
+  EXPECT_EQ(names(), Names{"log.csv.unfinished"});
+  {
+    OutputFile file(OutputPlace{path("log.csv"), 4});
+    file.write(" and more");
+    EXPECT_EQ(file.sync(), 13u);
+    file.commit();
+  }
+  EXPECT_EQ(names(), Names{"log.csv"});
+  EXPECT_EQ(read_text(path("log.csv")), "kept and more");
+  // One that was complete already.
+  OutputFile file(OutputPlace{path("log.csv"), 8});
+  EXPECT_EQ(names(), Names{"log.csv.unfinished"});
+  file.commit();
+  EXPECT_EQ(read_text(path("log.csv")), "kept and");
+}
+
+TEST_F(OutputFileTest, GoesOnOnlyWithWhatIsThere) {
+  write("log.csv", "short");
+  const std::string message = error_of([&] { OutputFile file(OutputPlace{path("log.csv"), 9}); });
+  EXPECT_EQ(message, path("log.csv") + ": expected the 9 bytes that an earlier run has written, but got 5");
+  EXPECT_EQ(names(), Names{"log.csv"});
+  EXPECT_NE(error_of([&] {
+              OutputFile file(OutputPlace{path("other.csv"), 1});
+            }).find("No such file"),
+            std::string::npos);
+}
+
 TEST_F(OutputFileTest, FollowsALink) {
   write("target", "old");
   std::filesystem::create_symlink("target", path("link"));

@@ -1,16 +1,15 @@
 // Running a scene under a detector.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 #include <vector>
 
 #include "input/input_check.hpp"
 #include "kinesphere/event_hash.hpp"
-#include "kinesphere/response.hpp"
 #include "lab/detector/detector.hpp"
 #include "lab/scene/scene.hpp"
 #include "lab/scene/scene_check.hpp"
+#include "lab/simulation/scene_answer.hpp"
 #include "lab/simulation/simulate.hpp"
 #include "number/infinity.hpp"
 
@@ -93,7 +92,7 @@ class Simulation {
       if (!event) return event.error();
       if (!*event) return {};
       tell(**event);
-      const Answer answered = answer(**event);
+      const Answer answered = scene_answer(scene_, **event);
       const Event& at = **event;
       auto kicked = set_velocity(at.first, at.time, answered.first_velocity);
       if (kicked) kicked = set_velocity(at.second, at.time, answered.second_velocity);
@@ -104,7 +103,7 @@ class Simulation {
   Result<void> run_to(double time) try {
     if (observer_.between_events) observer_.between_events(detector_);
     return detector_.run(
-        time, motion_, [this](const Event& event) { return answer(event); },
+        time, motion_, [this](const Event& event) { return scene_answer(scene_, event); },
         [this](const Event& event) {
           tell(event);
           if (observer_.between_events) observer_.between_events(detector_);
@@ -133,26 +132,6 @@ class Simulation {
     BodyDefinition definition = motion_.definition(change.body, change.time);
     definition.radius = scene_.bodies[change.body].radius;
     return detector_.add(change.body, definition);
-  }
-
-  double mass(std::uint32_t body) const {
-    const double radius = scene_.bodies[body].radius;
-    return radius > 0.0 ? radius * radius * radius : std::numeric_limits<double>::min();
-  }
-
-  /// Of the event alone.
-  Answer answer(const Event& event) const {
-    const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
-    if (scene_.response != Response::bounce || !begins || event.approach_speed <= 0.0) return {};
-    const bool pair = event.second != no_body;
-    const double first_mass = mass(event.first.index);
-    const double second_mass = pair ? mass(event.second.index) : first_mass;
-    const double restitution = scene_.restitution;
-    const Bounce after = scene_.resting_speed > 0.0
-                             ? settle(event, first_mass, second_mass, restitution, scene_.resting_speed)
-                             : bounce(event, first_mass, second_mass, restitution);
-    if (!pair) return {.first_velocity = after.first_velocity};
-    return {after.first_velocity, after.second_velocity};
   }
 
   Result<void> set_velocity(BodyId body, double time, const std::optional<Vec3>& velocity) {

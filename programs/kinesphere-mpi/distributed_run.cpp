@@ -1,0 +1,185 @@
+// `kinesphere-mpi run`: simulates a scene in a world that is spread over all ranks.
+#include "distributed_run.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <vector>
+
+#include "contact_files.hpp"
+#include "distributed_simulation.hpp"
+#include "output_paths.hpp"
+#include "program_error.hpp"
+#include "rank_table.hpp"
+#include "ranks.hpp"
+#include "scene_text.hpp"
+#include "standard_output.hpp"
+#include "summary.hpp"
+#include "validators.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+void check_options(const DistributedRunOptions& options) {
+  if (!options.contacts.empty()) table_format_of(options.contacts);
+  if (options.file_per_rank && options.contacts.empty())
+    throw ProgramError("--file-per-rank: expected only with --contacts");
+  if (options.every.has_value() != !options.checkpoint.empty())
+    throw ProgramError("--checkpoint and --every: expected both or neither");
+  if (options.every && *options.every <= 0.0)
+    throw ProgramError(fmt::format("--every: expected a finite number > 0, but got {}", *options.every));
+  if (options.resume && options.checkpoint.empty())
+    throw ProgramError("--resume: expected only with --checkpoint");
+}
+
+/// What a World can do and a distributed one cannot.
+void check_features(const Scene& scene) {
+  for (const SceneBody& body : scene.bodies) {
+    if (body.appears > scene.world.start_time || body.vanishes <= scene.end_time)
+      throw ProgramError(
+          fmt::format("{}: expected bodies that are there from start to end, as others cannot be distributed",
+                      scene.name));
+  }
+  if (!scene.turns.empty())
+    throw ProgramError(fmt::format(
+        "{}: expected no bodies that turn by themselves, as these cannot be distributed", scene.name));
+}
+
+ContactOptions contact_options(const DistributedRunOptions& options) {
+  if (options.contacts.empty()) return {};
+  return {options.contacts, options.file_per_rank ? ContactOutput::file_per_rank : ContactOutput::one_file};
+}
+
+std::string summary_of(const SceneParameters& parameters, const Scene& scene, const SimulationTotals& totals,
+                       int threads, const std::vector<RankUse>& use) {
+  SimulationResult result;
+  result.counters = {totals.counters};
+  result.simulated_time = scene.end_time - scene.world.start_time;
+  result.body_time = result.simulated_time * static_cast<double>(scene.bodies.size());
+  Summary summary;
+  add_scene(summary, parameters);
+  summary.row("ranks", grouped(use.size()),
+              fmt::format("{} thread{} on each", threads, threads == 1 ? "" : "s"));
+  summary.row("simulated", fmt::format("{} s", number(result.simulated_time)),
+              fmt::format("{} body-seconds", number(result.body_time)));
+  if (totals.resumed_at) summary.row("resumed at", fmt::format("{} s", number(*totals.resumed_at)));
+  summary.space();
+  add_events(summary, result,
+             {.ends = scene.response == Response::pass_through, .zeno_guard = scene.resting_speed > 0.0});
+  summary.space();
+  const std::uint64_t probes = result.counters.probes;
+  summary.row("probes", grouped(probes),
+              fmt::format("{} per body-second", number(static_cast<double>(probes) / result.body_time)));
+  summary.space();
+  summary.row("hash", fmt::format("{:016x}", totals.hash.value()));
+  add_speed(summary, totals.simulated_seconds, totals.real_seconds);
+  return fmt::format("{}\n{}", summary.text(), rank_table(use));
+}
+
+/// What is needed before ranks wait for each other.
+struct Preparation {
+  SceneSource source;
+  Scene scene;
+  ContactOptions contacts;
+  std::optional<Workers> workers;
+};
+
+Preparation prepare(const Ranks& ranks, const DistributedRunOptions& options) {
+  Preparation prepared;
+  ranks.together(exit_wrong_input, [&] {
+    check_options(options);
+    prepared.source = options.scene.source();
+    prepared.scene = make_scene(prepared.source);
+    check_features(prepared.scene);
+    prepared.contacts = contact_options(options);
+    const bool is_one = !options.file_per_rank;
+    const OutputPath output{"--contacts",
+                            is_one ? options.contacts : fmt::format("{}.{}", options.contacts, ranks.rank())};
+    check_outputs({&output, 1}, {&prepared.source.file, 1});
+    if (options.threads) prepared.workers = require(Workers::create(*options.threads));
+  });
+  return prepared;
+}
+
+void simulate(const Ranks& ranks, const DistributedRunOptions& options, const Preparation& prepared,
+              DistributedSimulation& simulation) {
+  simulation.start();
+  simulation.run();
+  const std::vector<RankUse> use = ranks.gather(simulation.use());
+  const SimulationTotals totals = simulation.totals();
+  // What a full disk does to a file must not take the summary with it.
+  std::optional<SharedError> failure;
+  try {
+    simulation.commit();
+  } catch (const SharedError& error) {
+    failure = error;
+  }
+  ranks.on_first(1, [&] {
+    if (options.hash_only) {
+      print("{:016x}\n", totals.hash.value());
+    } else if (!options.quiet) {
+      print("{}",
+            summary_of(prepared.source.parameters, prepared.scene, totals, options.threads.value_or(1), use));
+    }
+    finish_output();
+  });
+  if (failure) throw SharedError(*failure);
+}
+
+/// Other ranks may wait for this one, so they all end here.
+[[noreturn]] void end_all(const MpiSession& session, const char* message) {
+  fmt::print(stderr, "kinesphere-mpi: rank {}: {}\n", session.rank(), message);
+  std::fflush(stderr);
+  session.abort(1);
+}
+
+}  // namespace
+
+CLI::App* add_distributed_run_command(CLI::App& program, DistributedRunOptions& options) {
+  CLI::App* command = program.add_subcommand("run", "Simulate a scene on all ranks and summarise it");
+  add_scene_options(*command, options.scene);
+  add_response_options(*command, options.scene);
+  command->add_option("--threads", options.threads, "How many threads work on each rank; 1 when not given")
+      ->check(whole_number(Workers::most_threads, 1));
+  command->add_option("--contacts", options.contacts, "Write every event to this .csv or .jsonl file")
+      ->type_name("FILE");
+  command->add_flag("--file-per-rank", options.file_per_rank,
+                    "Each rank writes its events to FILE.<rank> instead");
+  command
+      ->add_option("--checkpoint", options.checkpoint,
+                   "Save the world to this folder from time to time; the last two checkpoints are kept")
+      ->type_name("FOLDER");
+  command->add_option("--every", options.every, "Simulated time between checkpoints")->check(finite_number());
+  command->add_flag(
+      "--resume", options.resume,
+      "Go on from the newest checkpoint in FOLDER, on any number of ranks; from the start where "
+      "there is none");
+  command->add_flag("--hash-only", options.hash_only, "Print the hash of the contacts and nothing else");
+  command->add_flag("--quiet", options.quiet, "No summary");
+  return command;
+}
+
+void distributed_run(const MpiSession& session, const DistributedRunOptions& options) {
+  const Ranks ranks;
+  Preparation prepared = prepare(ranks, options);
+  DistributedSimulation simulation(ranks, prepared.scene,
+                                   {.scene_text = scene_text(prepared.source.parameters),
+                                    .contacts = prepared.contacts,
+                                    .checkpoint_folder = options.checkpoint,
+                                    .checkpoint_interval = options.every.value_or(0.0),
+                                    .resume = options.resume},
+                                   prepared.workers ? &*prepared.workers : nullptr);
+  try {
+    simulate(ranks, options, prepared, simulation);
+  } catch (const SharedError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    end_all(session, "out of memory");
+  } catch (const std::exception& error) {
+    end_all(session, error.what());
+  }
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,214 @@
+// Running a scene in a distributed world, with its events in files and with checkpoints.
+#include "distributed_simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "lab/simulation/scene_answer.hpp"
+#include "program_error.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+/// Slices of time are as long as brings about as many events on a rank, and no longer than twice the one
+/// before: so events take no more memory than some times these.
+constexpr std::uint64_t events_of_a_slice = 1 << 16;
+constexpr double slices_at_first = 1000.0;
+
+/// Of two scene texts, the first lines that are not the same.
+std::pair<std::string, std::string> first_difference(const std::string& a, const std::string& b) {
+  std::istringstream lines_of_a(a);
+  std::istringstream lines_of_b(b);
+  std::pair<std::string, std::string> lines;
+  while (std::getline(lines_of_a, lines.first) && std::getline(lines_of_b, lines.second) &&
+         lines.first == lines.second) {
+  }
+  return lines;
+}
+
+}  // namespace
+
+DistributedSimulation::DistributedSimulation(const Ranks& ranks, const Scene& scene,
+                                             DistributedSimulationOptions options, Workers* workers)
+    : ranks_(ranks),
+      scene_(scene),
+      options_(std::move(options)),
+      workers_(workers),
+      slice_((scene.end_time - scene.world.start_time) / slices_at_first) {}
+
+void DistributedSimulation::start() {
+  processor_seconds_at_start_ = processor_seconds();
+  std::optional<RunState> resumed;
+  if (!options_.checkpoint_folder.empty()) {
+    checkpoints_.emplace(ranks_, options_.checkpoint_folder);
+    resumed = resume();
+  }
+  const ContactFiles::Lengths lengths = resumed ? resumed->contact_lengths : ContactFiles::Lengths();
+  contacts_.emplace(ranks_, options_.contacts, checkpoints_.has_value(), lengths);
+  if (!resumed) create();
+}
+
+/// This rank's bodies, or none.
+std::unique_ptr<Motion> DistributedSimulation::motion_without(bool all) const {
+  auto motion = scene_.motion->clone();
+  const auto count = static_cast<std::uint64_t>(ranks_.count());
+  const std::uint64_t bodies = motion->size();
+  for (std::uint32_t body = 0; body < bodies; ++body) {
+    const bool is_here = body * count / bodies == static_cast<std::uint64_t>(ranks_.rank());
+    if (all || !is_here) require(motion->remove(body));
+  }
+  return motion;
+}
+
+void DistributedSimulation::create() {
+  ranks_.together(1, [this] { motion_ = motion_without(false); });
+  world_.emplace(require_shared(DistributedWorld::create(scene_.world, *motion_), 1));
+  ranks_.together(1, [this] {
+    for (std::uint32_t body = 0; body < scene_.bodies.size(); ++body) {
+      if (!motion_->contains(body)) continue;
+      BodyDefinition definition = motion_->definition(body, scene_.world.start_time);
+      definition.radius = scene_.bodies[body].radius;
+      require(world_->add(body, definition, body));
+    }
+  });
+}
+
+/// Nothing where there is nothing to go on from.
+std::optional<RunState> DistributedSimulation::resume() {
+  const std::vector<std::uint64_t> numbers = checkpoints_->latest();
+  if (!options_.resume && !numbers.empty())
+    throw SharedError(fmt::format("--checkpoint: expected a folder without checkpoints, or --resume, but {} "
+                                  "has some",
+                                  options_.checkpoint_folder),
+                      exit_wrong_input);
+  if (numbers.empty()) {
+    if (options_.resume)
+      tell_first(
+          fmt::format("{}: no checkpoint yet, so the run begins at the start", options_.checkpoint_folder));
+    return std::nullopt;
+  }
+  std::vector<std::uint64_t> refused;
+  for (const std::uint64_t number : numbers) {
+    RunState state;
+    if (!restore(number, state)) {
+      refused.push_back(number);
+      continue;
+    }
+    for (const std::uint64_t bad : refused) checkpoints_->set_aside(bad);
+    resumed_at_ = state.time;
+    return state;
+  }
+  throw SharedError(fmt::format("{}: expected a checkpoint that a run can go on from, but none is",
+                                options_.checkpoint_folder),
+                    1);
+}
+
+/// False for a checkpoint that is refused.
+bool DistributedSimulation::restore(std::uint64_t number, RunState& state) {
+  const auto refuse = [&](const std::string& why) {
+    tell_first(fmt::format("{} is refused: {}", checkpoints_->path(number), why));
+    return false;
+  };
+  try {
+    state = checkpoints_->read_state(number);
+  } catch (const SharedError& error) {
+    return refuse(error.what());
+  }
+  require_same_run(state);
+  world_.reset();
+  ranks_.together(1, [this] { motion_ = motion_without(true); });
+  auto world = DistributedWorld::restore(checkpoints_->read_parts(number, state), *motion_);
+  if (!world) return refuse(world.error().message);
+  if (world->time() != state.time || world->hash().parts() != state.hash)
+    return refuse("its run.json is that of another one");
+  world_.emplace(std::move(*world));
+  return true;
+}
+
+void DistributedSimulation::require_same_run(const RunState& state) const {
+  const auto refuse = [](const std::string& why) { throw SharedError(why, exit_wrong_input); };
+  if (state.scene != options_.scene_text) {
+    const auto [saved, given] = first_difference(state.scene, options_.scene_text);
+    refuse(fmt::format("--resume: expected the scene of the checkpoints, with {}, but got {}", saved, given));
+  }
+  if (state.contacts != options_.contacts.output)
+    refuse("--resume: expected --contacts and --file-per-rank as in the run that wrote the checkpoints");
+  if (state.time > scene_.end_time)
+    refuse(fmt::format("--seconds: expected no less than the checkpoint's time {}, but the scene ends at {}",
+                       state.time, scene_.end_time));
+}
+
+void DistributedSimulation::tell_first(const std::string& message) const {
+  if (ranks_.is_first()) fmt::print(stderr, "kinesphere-mpi: {}\n", message);
+}
+
+void DistributedSimulation::run() {
+  started_ = std::chrono::steady_clock::now();
+  const auto respond = [this](const Event& event) { return scene_answer(scene_, event); };
+  const auto sink = [this](const OrderedEvent& event) { contacts_->note(event); };
+  for (bool goes_on = true; goes_on;) {
+    const double checkpoint = next_checkpoint();
+    const double now = world_->time();
+    double stop = std::min(scene_.end_time, checkpoint);
+    if (contacts_->waits())
+      stop = std::min(stop, std::max(now + slice_, std::nextafter(now, scene_.end_time)));
+    require_shared(world_->run(stop, respond, sink, workers_), 1);
+    if (contacts_->waits()) {
+      choose_slice(contacts_->most_waiting());
+      contacts_->write_noted();
+    }
+    goes_on = stop < scene_.end_time;
+    if (checkpoints_ && (stop == checkpoint || (!goes_on && stop > now))) save();
+  }
+  real_time_ = std::chrono::steady_clock::now() - started_;
+}
+
+/// The next multiple of the interval, counted from the start.
+double DistributedSimulation::next_checkpoint() const {
+  if (!checkpoints_) return std::numeric_limits<double>::infinity();
+  const double start = scene_.world.start_time;
+  const double interval = options_.checkpoint_interval;
+  double count = std::floor((world_->time() - start) / interval);
+  while (start + count * interval <= world_->time()) ++count;
+  return start + count * interval;
+}
+
+void DistributedSimulation::choose_slice(std::uint64_t most_events) {
+  const double longer =
+      static_cast<double>(events_of_a_slice) / static_cast<double>(std::max<std::uint64_t>(most_events, 1));
+  slice_ *= std::clamp(longer, 0.5, 2.0);
+}
+
+void DistributedSimulation::save() {
+  const auto part = require_shared(world_->save(), 1);
+  RunState state{.scene = options_.scene_text,
+                 .time = world_->time(),
+                 .parts = static_cast<std::uint64_t>(ranks_.count()),
+                 .hash = world_->hash().parts(),
+                 .contacts = options_.contacts.output};
+  state.contact_lengths = contacts_->sync();
+  checkpoints_->write(part, state);
+}
+
+RankUse DistributedSimulation::use() const {
+  return {.figures = world_->figures(),
+          .processor_seconds = processor_seconds() - processor_seconds_at_start_,
+          .largest_memory = largest_memory()};
+}
+
+SimulationTotals DistributedSimulation::totals() const {
+  return {.counters = world_->counters(),
+          .hash = world_->hash(),
+          .resumed_at = resumed_at_,
+          .simulated_seconds = scene_.end_time - resumed_at_.value_or(scene_.world.start_time),
+          .real_seconds = real_time_.count()};
+}
+
+}  // namespace kinesphere::program

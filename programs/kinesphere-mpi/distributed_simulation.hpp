@@ -1,0 +1,81 @@
+// Running a scene in a distributed world, with its events in files and with checkpoints.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "checkpoint_folder.hpp"
+#include "contact_files.hpp"
+#include "kinesphere/distributed/distributed_world.hpp"
+#include "lab/scene/scene.hpp"
+#include "rank_table.hpp"
+#include "ranks.hpp"
+
+namespace kinesphere::program {
+
+struct DistributedSimulationOptions {
+  std::string scene_text;  ///< see scene_text()
+  ContactOptions contacts{};
+  std::string checkpoint_folder{};   ///< empty for no checkpoints
+  double checkpoint_interval = 0.0;  ///< simulated time
+  bool resume = false;
+};
+
+/// Of all ranks.
+struct SimulationTotals {
+  Counters counters{};
+  EventHash hash{};
+  std::optional<double> resumed_at{};
+  double simulated_seconds = 0.0;  ///< in this run of the program
+  double real_seconds = 0.0;
+};
+
+/// All functions but use() are collective, and are called in this order. They throw SharedError; every other
+/// exception is this rank's alone.
+class DistributedSimulation {
+ public:
+  /// Throws nothing but std::bad_alloc. `workers` may be null.
+  DistributedSimulation(const Ranks& ranks, const Scene& scene, DistributedSimulationOptions options,
+                        Workers* workers);
+
+  /// Makes the world, or restores it, and opens files.
+  void start();
+  /// To the end of the scene.
+  void run();
+  /// Of this rank.
+  RankUse use() const;
+  SimulationTotals totals() const;
+  /// The files of events appear.
+  void commit() { contacts_->commit(); }
+
+ private:
+  void create();
+  std::optional<RunState> resume();
+  bool restore(std::uint64_t number, RunState& state);
+  void require_same_run(const RunState& state) const;
+  void tell_first(const std::string& message) const;
+  std::unique_ptr<Motion> motion_without(bool all) const;
+  double next_checkpoint() const;
+  void choose_slice(std::uint64_t most_events);
+  void save();
+
+  const Ranks& ranks_;
+  const Scene& scene_;
+  DistributedSimulationOptions options_;
+  Workers* workers_;
+  std::unique_ptr<Motion> motion_;
+  std::optional<DistributedWorld> world_;
+  std::optional<CheckpointFolder> checkpoints_;
+  std::optional<ContactFiles> contacts_;
+  double slice_;  ///< the time after which waiting events are written next
+  std::optional<double> resumed_at_;
+  double processor_seconds_at_start_ = 0.0;
+  std::chrono::steady_clock::time_point started_{};
+  std::chrono::duration<double> real_time_{};
+};
+
+}  // namespace kinesphere::program

@@ -1,0 +1,118 @@
+// Runs that are stopped and gone on with write and print what one run does.
+#include "support.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+class MpiProgramCheckpoints : public MpiProgramTest {
+ protected:
+  using Names = std::vector<std::string>;
+
+  const std::string scene_ = "paper1 --bodies 300";
+  std::string arguments(const std::string& seconds, const std::string& more = "") const {
+    return "run " + scene_ + " --seconds " + seconds + " --hash-only --every 0.25 --checkpoint '" +
+           path("checkpoints") + "' --contacts '" + path("all.csv") + "' " + more;
+  }
+  Names checkpoints() const {
+    Names found;
+    for (const auto& entry : std::filesystem::directory_iterator(path("checkpoints")))
+      found.push_back(entry.path().filename());
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+  void damage(const std::string& file) const {
+    std::string text = read_text(path(file));
+    ASSERT_GT(text.size(), 100u);
+    text[text.size() / 2] = static_cast<char>(text[text.size() / 2] ^ 1);
+    write(file, text);
+  }
+};
+
+TEST_F(MpiProgramCheckpoints, GoOnWithOtherRanksAndForLonger) {
+  const Expected one = expected(scene_ + " --seconds 1.5");
+  EXPECT_EQ(run_mpi(3, arguments("0.6")).exit_code, 0);
+  EXPECT_EQ(checkpoints(), (Names{"2", "3"}));
+  // As a run that was stopped before its end leaves it.
+  std::filesystem::rename(path("all.csv"), path("all.csv.unfinished"));
+  write("all.csv.unfinished", read_text(path("all.csv.unfinished")) + "and more");
+  const ProgramRun second = run_mpi(2, arguments("1.5", "--resume"));
+  EXPECT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_EQ(second.out, one.hash);
+  EXPECT_TRUE(read_text(path("all.csv")) == one.contacts);
+  EXPECT_EQ(names(), (Names{"all.csv", "checkpoints"}));
+  EXPECT_EQ(checkpoints(), (Names{"6", "7"}));
+  // There is nothing left to do, and nothing changes.
+  EXPECT_EQ(run_mpi(1, arguments("1.5", "--resume")).out, one.hash);
+  EXPECT_TRUE(read_text(path("all.csv")) == one.contacts);
+  EXPECT_EQ(checkpoints(), (Names{"6", "7"}));
+}
+
+TEST_F(MpiProgramCheckpoints, FallBackFromADamagedOne) {
+  const Expected one = expected(scene_ + " --seconds 1");
+  for (const std::string file : {"part-1", "run.json"}) {
+    SCOPED_TRACE(file);
+    std::filesystem::remove_all(path("checkpoints"));
+    EXPECT_EQ(run_mpi(2, arguments("0.6")).exit_code, 0);
+    damage("checkpoints/3/" + file);
+    const ProgramRun second = run_mpi(2, arguments("1", "--resume"));
+    EXPECT_EQ(second.out, one.hash);
+    const std::vector<std::string> messages = messages_in(second.err);
+    ASSERT_EQ(messages.size(), 1u) << second.err;
+    EXPECT_NE(messages[0].find("checkpoints/3 is refused"), std::string::npos) << messages[0];
+    EXPECT_TRUE(read_text(path("all.csv")) == one.contacts);
+    EXPECT_EQ(checkpoints(), (Names{"3", "3.refused", "4"}));
+  }
+}
+
+TEST_F(MpiProgramCheckpoints, OfARunThatWasKilled) {
+  const Expected one = expected(scene_ + " --seconds 3");
+  // Which checkpoint is the last depends on when the signal comes.
+  const std::string wait = "until [ -e '" + path("checkpoints/3") + "' ]; do sleep 0.01; done; kill -9 $$";
+  const std::string program = std::string("'") + KINESPHERE_MPI_PROGRAM + "'";
+  const std::string killed = write(
+      "killed.sh", "[ $OMPI_COMM_WORLD_RANK = 0 ] && { " + wait + "; } &\nexec " + program + " \"$@\"\n");
+  run_shell(std::string("'") + KINESPHERE_MPIRUN + "' " + KINESPHERE_MPIRUN_RANKS + " 2 sh '" + killed +
+            "' " + arguments("100"));
+  EXPECT_FALSE(std::filesystem::exists(path("all.csv")));
+  const ProgramRun second = run_mpi(2, arguments("3", "--resume"));
+  EXPECT_EQ(second.out, one.hash) << second.err;
+  EXPECT_TRUE(read_text(path("all.csv")) == one.contacts);
+}
+
+TEST_F(MpiProgramCheckpoints, GoOnWithFilesPerRank) {
+  std::vector<std::string> of_one = lines_of(expected(scene_ + " --seconds 1").contacts);
+  EXPECT_EQ(run_mpi(3, arguments("0.4", "--file-per-rank")).exit_code, 0);
+  const ProgramRun second = run_mpi(2, arguments("0.7", "--file-per-rank --resume"));
+  EXPECT_EQ(second.exit_code, 0) << second.err;
+  const ProgramRun third = run_mpi(4, arguments("1", "--file-per-rank --resume"));
+  EXPECT_EQ(third.exit_code, 0) << third.err;
+  std::vector<std::string> of_all;
+  for (const std::string name : {"all.csv.0", "all.csv.1", "all.csv.2", "all.csv.3"}) {
+    const std::vector<std::string> lines = lines_of(read_text(path(name)));
+    ASSERT_FALSE(lines.empty());
+    of_all.insert(of_all.end(), lines.begin() + 1, lines.end());
+  }
+  of_one.erase(of_one.begin());
+  std::sort(of_one.begin(), of_one.end());
+  std::sort(of_all.begin(), of_all.end());
+  EXPECT_EQ(of_all, of_one);
+}
+
+TEST_F(MpiProgramCheckpoints, AreNotMixedUpWithThoseOfAnotherRun) {
+  EXPECT_EQ(run_mpi(2, arguments("0.3")).exit_code, 0);
+  const auto expect_refused = [&](const std::string& more, std::string_view part) {
+    const ProgramRun refused = run_mpi(1, more);
+    EXPECT_EQ(refused.exit_code, 2);
+    const std::vector<std::string> messages = messages_in(refused.err);
+    ASSERT_EQ(messages.size(), 1u) << refused.err;
+    EXPECT_NE(messages[0].find(part), std::string::npos) << messages[0];
+  };
+  expect_refused(arguments("0.3"), "expected a folder without checkpoints, or --resume");
+  expect_refused(arguments("0.3", "--resume --seed 5"), "with seed 1, but got seed 5");
+  expect_refused(arguments("0.3", "--resume --file-per-rank"), "--contacts and --file-per-rank as in");
+  expect_refused(arguments("0.1", "--resume"), "--seconds: expected no less than");
+  EXPECT_EQ(checkpoints(), (Names{"1", "2"}));
+}
+
+}  // namespace
+}  // namespace kinesphere::program
