@@ -1,4 +1,5 @@
 // Runs that are stopped and gone on with write and print what one run does.
+#include "kinesphere/random.hpp"
 #include "support.hpp"
 
 namespace kinesphere::program {
@@ -8,7 +9,7 @@ class MpiProgramCheckpoints : public MpiProgramTest {
  protected:
   using Names = std::vector<std::string>;
 
-  const std::string scene_ = "paper1 --bodies 300";
+  std::string scene_ = "paper1 --bodies 300";
   std::string arguments(const std::string& seconds, const std::string& more = "") const {
     return "run " + scene_ + " --seconds " + seconds + " --hash-only --every 0.25 --checkpoint '" +
            path("checkpoints") + "' --contacts '" + path("all.csv") + "' " + more;
@@ -64,18 +65,35 @@ TEST_F(MpiProgramCheckpoints, FallBackFromADamagedOne) {
   }
 }
 
-TEST_F(MpiProgramCheckpoints, OfARunThatWasKilled) {
-  const Expected one = expected(scene_ + " --seconds 3");
-  // Which checkpoint is the last depends on when the signal comes.
-  const std::string wait = "until [ -e '" + path("checkpoints/3") + "' ]; do sleep 0.01; done; kill -9 $$";
+/// Killed ten times, on one rank or another, and gone on with on other numbers of ranks.
+TEST_F(MpiProgramCheckpoints, OfRunsThatWereKilled) {
+  scene_ = "paper1 --bodies 100";
+  const Expected one = expected(scene_ + " --seconds 12");
   const std::string program = std::string("'") + KINESPHERE_MPI_PROGRAM + "'";
-  const std::string killed = write(
-      "killed.sh", "[ $OMPI_COMM_WORLD_RANK = 0 ] && { " + wait + "; } &\nexec " + program + " \"$@\"\n");
-  run_shell(std::string("'") + KINESPHERE_MPIRUN + "' " + KINESPHERE_MPIRUN_RANKS + " 2 sh '" + killed +
-            "' " + arguments("100"));
-  EXPECT_FALSE(std::filesystem::exists(path("all.csv")));
-  const ProgramRun second = run_mpi(2, arguments("3", "--resume"));
-  EXPECT_EQ(second.out, one.hash) << second.err;
+  // Of the checkpoints that are there, and of none.
+  const std::string newest = "ls '" + path("checkpoints") + "' | grep -E '^[0-9]+$' | sort -n | tail -1";
+  Random random(16);
+  int killed = 0;
+  for (int trial = 0; trial < 10; ++trial) {
+    const auto ranks = 1 + static_cast<int>(random.bits() % 3);
+    const auto victim = random.bits() % static_cast<std::uint64_t>(ranks);
+    const std::uint64_t more = 1 + random.bits() % 4;
+    // Waits for so many more checkpoints, though not for ever, and a little.
+    const std::string wait = "first=$(" + newest + "); for k in $(seq 3000); do last=$(" + newest +
+                             "); [ ${last:-0} -ge $((${first:-0} + " + std::to_string(more) +
+                             ")) ] && break; sleep 0.01; done; sleep 0.0" +
+                             std::to_string(random.bits() % 10) + "; kill -9 $$";
+    const std::string script =
+        write("killed.sh", "[ $OMPI_COMM_WORLD_RANK = " + std::to_string(victim) + " ] && { " + wait +
+                               "; } 2>/dev/null &\nexec " + program + " \"$@\"\n");
+    const ProgramRun run =
+        run_shell(std::string("'") + KINESPHERE_MPIRUN + "' " + KINESPHERE_MPIRUN_RANKS + " " +
+                  std::to_string(ranks) + " sh '" + script + "' " + arguments("12", "--resume"));
+    if (run.exit_code == 137) ++killed;
+  }
+  EXPECT_GE(killed, 5) << "the others were too fast";
+  const ProgramRun last = run_mpi(2, arguments("12", "--resume"));
+  EXPECT_EQ(last.out, one.hash) << last.err;
   EXPECT_TRUE(read_text(path("all.csv")) == one.contacts);
 }
 
