@@ -81,8 +81,9 @@ TEST_F(MpiProgramCheckpoints, OfRunsThatWereKilled) {
     // Waits for so many more checkpoints, though not for ever, and a little.
     const std::string wait = "first=$(" + newest + "); for k in $(seq 3000); do last=$(" + newest +
                              "); [ ${last:-0} -ge $((${first:-0} + " + std::to_string(more) +
-                             ")) ] && break; sleep 0.01; done; sleep 0.0" +
-                             std::to_string(random.bits() % 10) + "; kill -9 $$";
+                             ")) ] && break; [ -e '" + path("all.csv") +
+                             "' ] && exit; sleep 0.01; done; sleep 0.0" + std::to_string(random.bits() % 10) +
+                             "; kill -9 $$";
     const std::string script =
         write("killed.sh", "[ $OMPI_COMM_WORLD_RANK = " + std::to_string(victim) + " ] && { " + wait +
                                "; } 2>/dev/null &\nexec " + program + " \"$@\"\n");

@@ -29,9 +29,11 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ContactsOfAllRanks,
                            return scene.substr(0, scene.find(' '));
                          });
 
-TEST_F(MpiProgramTest, JsonLinesAndThreads) {
-  const std::string scene = "paper1 --bodies 300 --seconds 1 --response pass_through";
+/// More events at a time than the first rank takes from another at once; and two threads on each rank.
+TEST_F(MpiProgramTest, ManyEventsAsJsonLines) {
+  const std::string scene = "gas --bodies 4000 --seconds 1 --packing 0.4 --response pass_through";
   const Expected one = expected(scene, "jsonl");
+  EXPECT_GT(lines_of(one.contacts).size(), 20000u);
   const ProgramRun all =
       run_mpi(2, "run " + scene + " --hash-only --threads 2 --contacts '" + path("all.jsonl") + "'");
   EXPECT_EQ(all.out, one.hash) << all.err;
