@@ -67,8 +67,8 @@ TEST_F(MpiProgramCheckpoints, FallBackFromADamagedOne) {
 
 /// Killed ten times, on one rank or another, and gone on with on other numbers of ranks.
 TEST_F(MpiProgramCheckpoints, OfRunsThatWereKilled) {
-  scene_ = "paper1 --bodies 100";
-  const Expected one = expected(scene_ + " --seconds 12");
+  scene_ = "paper1 --bodies 1000";
+  const Expected one = expected(scene_ + " --seconds 30");
   const std::string program = std::string("'") + KINESPHERE_MPI_PROGRAM + "'";
   // Of the checkpoints that are there, and of none.
   const std::string newest = "ls '" + path("checkpoints") + "' | grep -E '^[0-9]+$' | sort -n | tail -1";
@@ -89,11 +89,11 @@ TEST_F(MpiProgramCheckpoints, OfRunsThatWereKilled) {
                                "; } 2>/dev/null &\nexec " + program + " \"$@\"\n");
     const ProgramRun run =
         run_shell(std::string("'") + KINESPHERE_MPIRUN + "' " + KINESPHERE_MPIRUN_RANKS + " " +
-                  std::to_string(ranks) + " sh '" + script + "' " + arguments("12", "--resume"));
+                  std::to_string(ranks) + " sh '" + script + "' " + arguments("30", "--resume"));
     if (run.exit_code == 137) ++killed;
   }
   EXPECT_GE(killed, 5) << "the others were too fast";
-  const ProgramRun last = run_mpi(2, arguments("12", "--resume"));
+  const ProgramRun last = run_mpi(2, arguments("30", "--resume"));
   EXPECT_EQ(last.out, one.hash) << last.err;
   EXPECT_TRUE(read_text(path("all.csv")) == one.contacts);
 }
