@@ -126,7 +126,7 @@ Result<void> DistributedWorld::Domain::run(double until, const Respond* respond,
   };
   everybody_.reports().ask(probe, "run");
   Islands islands(tables_, everybody_, shift, probe, respond != nullptr ? this : nullptr);
-  islands.limit_kicks(std::numeric_limits<std::size_t>::max());
+  islands.leave_nothing();
   islands_of_run_ = &islands;
   auto done = go(until, sink, shift);
   islands_of_run_ = nullptr;

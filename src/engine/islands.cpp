@@ -11,8 +11,6 @@
 namespace kinesphere {
 namespace {
 
-/// Fewer are not worth the while.
-constexpr std::size_t least_due = 128;
 constexpr std::size_t kicks_at_once = 256;
 
 }  // namespace
@@ -47,7 +45,7 @@ double Islands::take_due(double until, double latest) {
   begin_ = everybody_.time();
   sea_.phase_end = everybody_.phase_end();
   sea_.until = until;
-  if (most_due_ == 0) most_due_ = std::max(least_due, tables_.bodies.table().live_count() / 16);
+  if (most_due_ == 0) most_due_ = std::max(least_due_, tables_.bodies.table().live_count() / 16);
   due_.clear();
   return everybody_.agenda().take_until(
       until, std::min(sea_.phase_end, latest), most_due_, due_,
@@ -83,9 +81,9 @@ void Islands::close() {
 /// In a short part few kicked bodies meet others; in a long one each body is copied once for many pairs.
 void Islands::choose_part() {
   if (16 * repeats_ < first_runs_) {
-    most_due_ = std::min(2 * most_due_, std::max(least_due, tables_.bodies.table().live_count()));
+    most_due_ = std::min(2 * most_due_, std::max(least_due_, tables_.bodies.table().live_count()));
   } else if (6 * repeats_ > first_runs_) {
-    most_due_ = std::max(most_due_ / 2, least_due);
+    most_due_ = std::max(most_due_ / 2, least_due_);
   }
 }
 
@@ -221,8 +219,10 @@ bool Islands::attempt_found() {
     const std::size_t of_b = groups_[b].with.due.size();
     return of_a != of_b ? of_a > of_b : a < b;
   });
-  for (const std::uint32_t own : again_)
-    ++(std::exchange(groups_[own].has_run, true) ? repeats_ : first_runs_);
+  for (const std::uint32_t own : again_) {
+    Group& group = groups_[own];
+    (std::exchange(group.has_run, true) ? repeats_ : first_runs_) += group.with.due.size();
+  }
   constexpr std::size_t islands_at_once = 8;
   try {
     shift_.for_each(again_.size(), islands_at_once,

@@ -17,6 +17,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -127,8 +128,11 @@ class Islands {
   void take_back();
   /// Ends the part.
   void close();
-  /// Of an island, from now on.
-  void limit_kicks(std::size_t most) { sea_.most_kicks = most; }
+  /// All is done by islands, however long they take and however few pairs are due.
+  void leave_nothing() {
+    sea_.most_kicks = std::numeric_limits<std::size_t>::max();
+    least_due_ = 8;
+  }
 
  private:
   struct OwnKick {
@@ -165,11 +169,12 @@ class Islands {
   std::vector<Island> crew_;  ///< by worker
   Sea sea_;
   double begin_ = 0.0;
-  std::size_t most_due_ = 0;    ///< in a part
-  std::size_t first_runs_ = 0;  ///< of groups in this part
-  std::size_t repeats_ = 0;     ///< of those that had to run again
-  std::vector<Group> groups_;   ///< more than there are in this part, perhaps
-  std::size_t count_ = 0;       ///< of those that there are
+  std::size_t least_due_ = 128;  ///< in a part: fewer are not worth the while
+  std::size_t most_due_ = 0;     ///< in a part
+  std::size_t first_runs_ = 0;   ///< pairs that were due in groups when these first ran in this part
+  std::size_t repeats_ = 0;      ///< the same when they ran again
+  std::vector<Group> groups_;    ///< more than there are in this part, perhaps
+  std::size_t count_ = 0;        ///< of those that there are
   std::vector<std::uint32_t> again_;
   std::vector<Kept> kept_;
   std::vector<HotPair> due_;
