@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Fails unless the docs tell the truth: the C++ example of README.md is examples/first_contact.cpp, word for word, and what
 # it says that this example and the main job print is what they print, timings aside; the C++ in the guides (docs/worlds.md,
-# running.md, recipes.md and from-box2d.md) is taken from the examples, and what examples/sensors.cpp prints in docs/worlds.md is what it prints.
+# running.md, recipes.md, from-box2d.md, distributed.md) is taken from the examples, and what examples/sensors.cpp prints in docs/worlds.md is what it prints.
 # Usage: check_docs.sh <example first_contact> <example sensors> <program kinesphere>
 set -euo pipefail
 
@@ -17,12 +17,12 @@ diff <(block_after README.md '^## Thirty lines$') examples/first_contact.cpp
 printed=$("$1")
 diff <(block_after README.md '^prints$') - <<<"$printed"
 printed=$("$3" run paper1)
-diff <(block_after README.md '^The first prints' | untimed) <(untimed <<<"$printed")
+diff <(block_after README.md '^`scripts.run.sh` prints' | untimed) <(untimed <<<"$printed")
 printed=$("$2")
 diff <(block_after docs/worlds.md '^Sensors see fast bodies') - <<<"$printed"
 
 # Each line of C++ in the guides stands in an example.
-for page in docs/worlds.md docs/running.md docs/recipes.md docs/from-box2d.md; do
+for page in docs/worlds.md docs/running.md docs/recipes.md docs/from-box2d.md docs/distributed.md; do
   awk '/^```/ {on = $0 == "```cpp"; next} on && NF {print}' "$page" | while IFS= read -r line; do
     if ! grep -qxF -- "$line" examples/*.cpp; then
       echo "$page: no example has the line: $line" >&2
