@@ -3,6 +3,7 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <cstring>
 #include <ctime>
 #include <limits>
 #include <numeric>
@@ -68,11 +69,15 @@ void Communicator::sum(std::span<std::uint64_t> numbers) {
 }
 
 void Communicator::sum(std::span<double> numbers) {
-  const Timer timer(traffic_);
-  if (ranks_ > 1)
-    MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, MPI_SUM,
-                  handle_->comm);
-  traffic_.bytes += numbers.size_bytes();
+  const std::vector<Bytes> all = gather(std::as_bytes(numbers));
+  std::fill(numbers.begin(), numbers.end(), 0.0);
+  for (const Bytes& bytes : all) {
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      double number = 0.0;
+      std::memcpy(&number, bytes.data() + k * sizeof(double), sizeof(double));
+      numbers[k] += number;
+    }
+  }
 }
 
 void Communicator::least(std::span<double> numbers) {
@@ -86,14 +91,17 @@ void Communicator::least(std::span<double> numbers) {
 std::vector<Communicator::Bytes> Communicator::gather(std::span<const std::byte> bytes) {
   const Timer timer(traffic_);
   if (ranks_ == 1) return {Bytes(bytes.begin(), bytes.end())};
-  const int size = static_cast<int>(bytes.size());
-  std::vector<int> sizes(static_cast<std::size_t>(ranks_));
-  MPI_Allgather(&size, 1, MPI_INT, sizes.data(), 1, MPI_INT, handle_->comm);
+  const std::uint64_t here = bytes.size();
+  std::vector<std::uint64_t> lengths(static_cast<std::size_t>(ranks_));
+  MPI_Allgather(&here, 1, MPI_UINT64_T, lengths.data(), 1, MPI_UINT64_T, handle_->comm);
+  if (std::accumulate(lengths.begin(), lengths.end(), std::uint64_t{0}) > longest_piece)
+    return exchange(std::vector<Bytes>(lengths.size(), Bytes(bytes.begin(), bytes.end())));
+  const std::vector<int> sizes(lengths.begin(), lengths.end());
   std::vector<int> places(sizes.size());
   std::exclusive_scan(sizes.begin(), sizes.end(), places.begin(), 0);
   Bytes all(static_cast<std::size_t>(places.back() + sizes.back()));
-  MPI_Allgatherv(bytes.data(), size, MPI_BYTE, all.data(), sizes.data(), places.data(), MPI_BYTE,
-                 handle_->comm);
+  MPI_Allgatherv(bytes.data(), static_cast<int>(here), MPI_BYTE, all.data(), sizes.data(), places.data(),
+                 MPI_BYTE, handle_->comm);
   traffic_.bytes += bytes.size() * static_cast<std::size_t>(ranks_ - 1);
   std::vector<Bytes> of_ranks;
   for (std::size_t rank = 0; rank < sizes.size(); ++rank)

@@ -23,7 +23,8 @@ class Communicator {
   int rank() const { return rank_; }
   int ranks() const { return ranks_; }
 
-  /// In the place of each number, the sum or the least of those of all ranks.
+  /// In the place of each number, the sum (added up in the order of ranks) or the least of those of all
+  /// ranks.
   void sum(std::span<std::uint64_t> numbers);
   void sum(std::span<double> numbers);
   void least(std::span<double> numbers);

@@ -2,11 +2,13 @@
 
 #include <mpi.h>
 
+#include <cstdio>
 #include <cstdlib>
+#include <exception>
 
 namespace kinesphere {
 
-MpiSession::MpiSession(int& argc, char**& argv) {
+MpiSession::MpiSession(int& argc, char**& argv) : exceptions_(std::uncaught_exceptions()) {
   int is_initialised = 0;
   MPI_Initialized(&is_initialised);
   if (is_initialised != 0) return;
@@ -16,6 +18,10 @@ MpiSession::MpiSession(int& argc, char**& argv) {
 }
 
 MpiSession::~MpiSession() {
+  if (std::uncaught_exceptions() > exceptions_) {
+    std::fputs("kinesphere: an exception ends one rank, so all are stopped\n", stderr);
+    abort(1);
+  }
   if (is_ours_) MPI_Finalize();
 }
 

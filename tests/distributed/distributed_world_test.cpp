@@ -59,6 +59,21 @@ TEST(DistributedWorld, TellsOfSensorsAndErrors) {
       {.scene = scene_of(parameters_of("paper1", 300, 1.5)), .sensors = true, .position_error = 1e-3}, 500);
 }
 
+/// Far apart in a layer of air, each with a sensor, and nobody answers.
+TEST(DistributedWorld, TellsOfDrones) {
+  SceneParameters parameters;
+  parameters.bodies = 500;
+  parameters.radius_min = parameters.radius_max = 0.5;
+  parameters.speed_min = parameters.speed_max = 15.0;
+  parameters.limit_min = parameters.limit_max = 5.0;
+  parameters.box = {{0, 0, 0}, {400, 400, 40}};
+  parameters.response = Response::pass_through;
+  parameters.seconds = 5.0;
+  Setting setting{.scene = scene_of(parameters), .sensors = true, .position_error = 0.01};
+  setting.distances = {5.0, 20.0};
+  expect_the_same_as_alone(setting, 1000);
+}
+
 TEST(DistributedWorld, TellsOfBrokenPromises) {
   const Setting setting{.scene = scene_of(parameters_of("paper1", 250, 1.5)), .broken = 0.3};
   const Outcome one = alone(setting);

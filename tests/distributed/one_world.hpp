@@ -36,6 +36,7 @@ inline int last_brings_all(std::uint32_t, std::uint32_t, int ranks) { return ran
 struct Setting {
   Scene scene{};
   bool sensors = false;
+  std::vector<double> distances{0.4, 1.1};
   double position_error = 0.0;
   /// The bodies promise so much less than they do.
   double broken = 1.0;
@@ -53,7 +54,7 @@ struct Setting {
     if (number % 5 == 2) body.acceleration_limit *= broken;
     return body;
   }
-  Sensor sensor() const { return {.distances = {0.4, 1.1}}; }
+  Sensor sensor() const { return {.distances = distances}; }
   Answer answer(const Event& event) const {
     const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
     if (scene.response != Response::bounce || !begins || event.approach_speed <= 0.0) return {};

@@ -10,6 +10,8 @@ class MpiSession {
   MpiSession(int& argc, char**& argv);
   MpiSession(const MpiSession&) = delete;
   MpiSession& operator=(const MpiSession&) = delete;
+  /// Waits for the other ranks. If an exception destroys the session, they may never come: then this stops
+  /// all ranks, with exit code 1.
   ~MpiSession();
 
   /// Of this process: from 0 to ranks() - 1.
@@ -21,6 +23,7 @@ class MpiSession {
 
  private:
   bool is_ours_ = false;
+  int exceptions_;  ///< uncaught when it was made
 };
 
 }  // namespace kinesphere
