@@ -103,6 +103,21 @@ Parcel::Due DistributedWorld::Domain::due_of(const HotPair& pair, std::uint32_t 
   return {pair.time, name_of(pair.first == number ? pair.second : pair.first)};
 }
 
+/// The stamp of the body when the part of the phase began, if there is one; else its present one.
+std::uint32_t DistributedWorld::Domain::stamp_as_it_began(std::uint32_t number) const {
+  const Islands::Kept* kept = islands_ != nullptr ? islands_->kept(number) : nullptr;
+  return kept != nullptr ? kept->body.body.stamp : bodies()[number].stamp;
+}
+
+/// A hot pair that was known then.
+HotPair DistributedWorld::Domain::pair_as_it_began(const Parcel::Due& due, std::uint32_t number,
+                                                   std::uint32_t other) const {
+  HotPair pair = everybody_.facts().hot_pair(due.time, number, other);
+  pair.first_stamp = stamp_as_it_began(pair.first);
+  if (pair.has_second()) pair.second_stamp = stamp_as_it_began(pair.second);
+  return pair;
+}
+
 /// The hot pairs of some bodies, of which these are the parcels: as they were when the part of the phase
 /// began, if there is one.
 void DistributedWorld::Domain::add_due(std::vector<Parcel>& parcels, std::span<const std::uint32_t> numbers) {
@@ -110,16 +125,12 @@ void DistributedWorld::Domain::add_due(std::vector<Parcel>& parcels, std::span<c
   // By number, one more than the place.
   places_.resize(bodies().numbers());
   for (std::size_t k = 0; k < numbers.size(); ++k) places_[numbers[k]] = static_cast<std::uint32_t>(k) + 1;
-  const auto stamp_of = [this](std::uint32_t number) {
-    const Islands::Kept* kept = islands_ != nullptr ? islands_->kept(number) : nullptr;
-    return kept != nullptr ? kept->body.body.stamp : bodies()[number].stamp;
-  };
   const auto note = [&](const HotPair& pair) {
     const std::uint32_t first = places_[pair.first];
     const std::uint32_t second = pair.has_second() ? places_[pair.second] : 0;
     if (first == 0 && second == 0) return;
-    if (stamp_of(pair.first) != pair.first_stamp) return;
-    if (pair.has_second() && stamp_of(pair.second) != pair.second_stamp) return;
+    if (stamp_as_it_began(pair.first) != pair.first_stamp) return;
+    if (pair.has_second() && stamp_as_it_began(pair.second) != pair.second_stamp) return;
     if (first != 0) parcels[first - 1].due.push_back(due_of(pair, pair.first));
     if (second != 0) parcels[second - 1].due.push_back(due_of(pair, pair.second));
   };
@@ -146,7 +157,6 @@ Result<Beginning> DistributedWorld::Domain::install(std::vector<Parcel>& parcels
     if (parcel.body.dirty) beginning.unsettled.push_back(*number);
   }
   for (const Parcel& parcel : parcels) link(parcel);
-  const Facts facts = everybody_.facts();
   for (std::size_t k = 0; k < parcels.size(); ++k) {
     Parcel& parcel = parcels[k];
     const std::uint32_t number = numbers[k];
@@ -154,9 +164,9 @@ Result<Beginning> DistributedWorld::Domain::install(std::vector<Parcel>& parcels
       tables_.windows.enter(number, roomy_bound(bodies(), number, time()), time(), parcel.window());
     for (const Parcel::Due& due : parcel.due) {
       if (due.other >= HotPair::renewal) {
-        beginning.due.push_back(facts.hot_pair(due.time, number, due.other));
+        beginning.due.push_back(pair_as_it_began(due, number, due.other));
       } else if (const auto other = find(due.other)) {
-        beginning.due.push_back(facts.hot_pair(due.time, number, *other));
+        beginning.due.push_back(pair_as_it_began(due, number, *other));
       } else if (resuming_) {
         loose_[number].push_back(due);
       }
@@ -252,7 +262,7 @@ void DistributedWorld::Domain::link(const Parcel& parcel) {
   }
 }
 
-/// The body is not known here any more.
+/// The body is not known here any more. start_windows(), which drops many copies, takes them out of copies_.
 void DistributedWorld::Domain::drop(std::uint32_t number) {
   const std::uint32_t name = name_of(number);
   const auto partners = tables_.book.partners_of(number);
@@ -265,7 +275,6 @@ void DistributedWorld::Domain::drop(std::uint32_t number) {
   (void)motion_.remove(entries_[number].in_motion);
   roster_.erase(name);
   entries_[number] = {};
-  if (!is_own(number)) std::erase(copies_, number);
   is_copy_[number] = 0;
   bodies().remove(number);
 }

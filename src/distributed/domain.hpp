@@ -36,7 +36,6 @@ class DistributedWorld::Domain final : private Answerer, private Mover {
   Communicator& communicator() { return communicator_; }
   const Tables& tables() const { return tables_; }
   double time() const { return everybody_.time(); }
-  bool has_failed() const { return failed_; }
   /// Every rank says whether it can go on: the error of the first that cannot, the same on all.
   Result<void> agree(const Result<void>& here);
 
@@ -117,6 +116,8 @@ class DistributedWorld::Domain final : private Answerer, private Mover {
   Parcel pack(std::uint32_t number) const;
   Parcel pack_as_it_began(std::uint32_t number);
   Parcel::Due due_of(const HotPair& pair, std::uint32_t number) const;
+  std::uint32_t stamp_as_it_began(std::uint32_t number) const;
+  HotPair pair_as_it_began(const Parcel::Due& due, std::uint32_t number, std::uint32_t other) const;
   void add_due(std::vector<Parcel>& parcels, std::span<const std::uint32_t> numbers);
   /// The bodies are known from now on, or as the parcels have them; returns what has to be begun with, of
   /// which the pairs may be due at any time.
