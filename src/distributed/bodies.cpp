@@ -70,31 +70,31 @@ Parcel DistributedWorld::Domain::pack(std::uint32_t number) const {
   return parcel;
 }
 
-/// The body as it was when the part of the phase began, which islands may have changed since.
+/// The body as it was when the part of the phase began, which islands may have changed since, with its news
+/// that waited to be told then.
 Parcel DistributedWorld::Domain::pack_as_it_began(std::uint32_t number) {
   const Islands::Group* group = islands_->group_of(number);
-  const Islands::Kept* kept = group != nullptr ? islands_->kept(number) : nullptr;
-  if (kept == nullptr || !group->attempted) {
-    Parcel parcel = pack(number);
-    if (group != nullptr) {
-      for (const Event& event : group->with.pending)
-        if (event.first.index == parcel.name) parcel.pending.push_back(event);
-    }
-    return parcel;
+  const Islands::Kept* kept = group != nullptr && group->attempted ? islands_->kept(number) : nullptr;
+  Parcel parcel;
+  if (kept == nullptr) {
+    parcel = pack(number);
+  } else {
+    std::optional<Departure> before;
+    for (const auto& [body, departure] : group->turned)
+      if (!before && body.index == name_of(number)) before = departure;
+    const As as(motion_, entries_[number].in_motion, before);
+    const Bodies::Kept now = bodies().keep(number);
+    const ContactBook::Kept contacts = tables_.book.keep(number);
+    bodies().put_back(number, kept->body);
+    tables_.book.put_back(number, kept->contacts);
+    parcel = pack(number);
+    bodies().put_back(number, now);
+    tables_.book.put_back(number, contacts);
   }
-  std::optional<Departure> before;
-  for (const auto& [body, departure] : group->turned)
-    if (!before && body.index == name_of(number)) before = departure;
-  const As as(motion_, entries_[number].in_motion, before);
-  const Bodies::Kept now = bodies().keep(number);
-  const ContactBook::Kept contacts = tables_.book.keep(number);
-  bodies().put_back(number, kept->body);
-  tables_.book.put_back(number, kept->contacts);
-  Parcel parcel = pack(number);
-  bodies().put_back(number, now);
-  tables_.book.put_back(number, contacts);
-  for (const Event& event : group->with.pending)
-    if (event.first.index == parcel.name) parcel.pending.push_back(event);
+  if (group != nullptr) {
+    for (const Event& event : group->with.pending)
+      if (event.first.index == parcel.name) parcel.pending.push_back(event);
+  }
   return parcel;
 }
 

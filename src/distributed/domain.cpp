@@ -25,6 +25,12 @@ DistributedWorld::Domain::Domain(const WorldDefinition& definition, Motion& moti
 }
 
 Result<void> DistributedWorld::Domain::agree(const Result<void>& here) {
+  auto agreed = first_error(here);
+  if (!agreed) failed_ = true;
+  return agreed;
+}
+
+Result<void> DistributedWorld::Domain::first_error(const Result<void>& here) {
   ByteWriter writer;
   if (!here) {
     const Error& error = here.error();
@@ -36,7 +42,6 @@ Result<void> DistributedWorld::Domain::agree(const Result<void>& here) {
   const std::vector<Bytes> all = communicator_.gather(writer.bytes());
   for (std::size_t rank = 0; rank < all.size(); ++rank) {
     if (all[rank].empty()) continue;
-    failed_ = true;
     Error error;
     ByteReader reader(all[rank]);
     std::vector<char> argument;
@@ -85,9 +90,13 @@ Result<void> DistributedWorld::Domain::add(std::uint32_t name, const BodyDefinit
 }
 
 Result<void> DistributedWorld::Domain::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
-  if (auto valid = check_sensor(sensor, bodies().definition()); !valid) return valid;
-  tables_.bodies.sensors.set(sensor_class, sensor);
-  return {};
+  auto valid = check_sensor(sensor, bodies().definition());
+  if (valid && !roster_.empty())
+    valid = Error{ErrorCode::unsupported, "sensor_class", no_body,
+                  "set_sensor: a distributed world must have no bodies yet, but has some"};
+  auto agreed = first_error(valid);
+  if (agreed) tables_.bodies.sensors.set(sensor_class, sensor);
+  return agreed;
 }
 
 RankFigures DistributedWorld::Domain::figures() const {

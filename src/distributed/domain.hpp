@@ -36,7 +36,8 @@ class DistributedWorld::Domain final : private Answerer, private Mover {
   Communicator& communicator() { return communicator_; }
   const Tables& tables() const { return tables_; }
   double time() const { return everybody_.time(); }
-  /// Every rank says whether it can go on: the error of the first that cannot, the same on all.
+  /// Every rank says whether it can go on: the error of the first that cannot, the same on all. After one
+  /// there is no going on.
   Result<void> agree(const Result<void>& here);
 
   Result<void> add(std::uint32_t name, const BodyDefinition& body, std::uint32_t number_in_motion);
@@ -102,6 +103,9 @@ class DistributedWorld::Domain final : private Answerer, private Mover {
   std::uint32_t name_of(std::uint32_t number) const { return bodies().table().name_of(number); }
   std::optional<std::uint32_t> find(std::uint32_t name) const;
 
+  /// The error of the first rank that has one here, the same on all; the world goes on as it was.
+  Result<void> first_error(const Result<void>& here);
+
   // The mover of the bodies that are known here, and who answers events.
   void states(std::span<const BodyId> ids, double time, std::span<State> states) override;
   Departure departure(BodyId body) const override;
@@ -136,6 +140,7 @@ class DistributedWorld::Domain final : private Answerer, private Mover {
   Result<void> settle_arrivals(Shift& shift);
   Result<void> start_windows(Shift& shift, bool all, std::span<const std::uint32_t> joining);
   void divide_space(std::span<const Windows::Starter> starters);
+  Parcel pack_to_start(const Windows::Starter& starter) const;
   Result<void> migrate(std::vector<Windows::Starter>& starters);
   Result<void> receive(std::vector<ByteWriter>& writers, std::vector<Windows::Starter>& starters);
   Result<void> spread(std::vector<Windows::Starter>& starters, bool anew);

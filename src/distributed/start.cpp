@@ -7,7 +7,6 @@
 #include "archive/archive.hpp"
 #include "distributed/domain.hpp"
 #include "distributed/guarded.hpp"
-#include "input/input_check.hpp"
 #include "number/infinity.hpp"
 
 namespace kinesphere {
@@ -205,6 +204,15 @@ void DistributedWorld::Domain::divide_space(std::span<const Windows::Starter> st
   for (const Windows::Starter& starter : starters) entries_[starter.number].cost = 0.0f;
 }
 
+/// The body with the window that starts for it now.
+Parcel DistributedWorld::Domain::pack_to_start(const Windows::Starter& starter) const {
+  Parcel parcel = pack(starter.number);
+  parcel.starts = true;
+  parcel.tier = starter.window.tier;
+  parcel.end = starter.window.end;
+  return parcel;
+}
+
 /// Bodies go to the ranks in whose space they are.
 Result<void> DistributedWorld::Domain::migrate(std::vector<Windows::Starter>& starters) {
   if (ranks() == 1) return {};
@@ -214,11 +222,8 @@ Result<void> DistributedWorld::Domain::migrate(std::vector<Windows::Starter>& st
     const Vec3 centre = bodies().space().wrapped(bodies()[number].bound.centre_at(time())).position;
     const int owner = partition_.owner_of(centre);
     if (owner == rank()) return false;
-    Parcel parcel = pack(number);
+    Parcel parcel = pack_to_start(starter);
     parcel.owner = owner;
-    parcel.starts = true;
-    parcel.tier = starter.window.tier;
-    parcel.end = starter.window.end;
     writers[static_cast<std::size_t>(owner)](parcel);
     drop(number);
     return true;
@@ -311,10 +316,7 @@ Result<void> DistributedWorld::Domain::spread(std::vector<Windows::Starter>& sta
     const std::uint32_t number = starters[k].number;
     for (std::size_t to = 0; to < ranks(); ++to) {
       if (to == here || !known_[to].meets(ways[k], space)) continue;
-      if (!parcel) parcel = pack(number);
-      parcel->starts = true;
-      parcel->tier = starters[k].window.tier;
-      parcel->end = starters[k].window.end;
+      if (!parcel) parcel = pack_to_start(starters[k]);
       writers[to](*parcel);
       entries_[number].holders.push_back(static_cast<int>(to));
     }

@@ -154,7 +154,8 @@ TEST(DistributedFailures, OfArguments) {
   BodyDefinition body = fixture.setting.body(rank);
   body.radius = -1.0;
   expect_error(world.add(7777, body, rank), ErrorCode::out_of_range, "radius", "add: ");
-  expect_error(world.set_sensor(1, {.distances = {-1.0}}), ErrorCode::out_of_range, "sensor", "set_sensor: ");
+  expect_everywhere(world.set_sensor(1, {.distances = {-1.0}}), ErrorCode::out_of_range,
+                    "rank 0: set_sensor: sensor");
   const auto silent = [](const OrderedEvent&) {};
   Setting bad{.scene = scene()};
   bad.scene.world.contact_tolerance = -1.0;
@@ -167,6 +168,17 @@ TEST(DistributedFailures, OfArguments) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::unsupported);
   expect_everywhere(world.run(std::nan(""), silent), ErrorCode::not_finite, "run: until");
+}
+
+TEST(DistributedFailures, OfSensorsThatComeAfterABodyOfAnyRankLeaveTheWorldAsItWas) {
+  const Setting setting{.scene = scene()};
+  const std::unique_ptr<Motion> motion = setting.scene.motion->clone();
+  DistributedWorld world = DistributedWorld::create(setting.scene.world, *motion).value();
+  const int last = world.ranks() - 1;
+  if (world.rank() == last) world.add(0, setting.body(0), 0).value();
+  expect_everywhere(world.set_sensor(1, {.distances = {1.0}}), ErrorCode::unsupported,
+                    "rank " + std::to_string(last) + ": set_sensor");
+  EXPECT_TRUE(world.run(0.1, [](const OrderedEvent&) {}));
 }
 
 }  // namespace

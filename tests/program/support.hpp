@@ -75,8 +75,10 @@ class ProgramTest : public FolderTest {
  protected:
   /// `before` is shell text that goes before the program.
   ProgramRun run(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = before + "'" + KINESPHERE_PROGRAM + "' " + arguments + " >'" + path("out") +
-                                "' 2>'" + path("err") + "'";
+    return run_shell(before + "'" + KINESPHERE_PROGRAM + "' " + arguments);
+  }
+  ProgramRun run_shell(const std::string& text) const {
+    const std::string command = "(" + text + ") >'" + path("out") + "' 2>'" + path("err") + "'";
     const int status = std::system(command.c_str());
     ProgramRun result{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(path("out")),
                       read_text(path("err"))};

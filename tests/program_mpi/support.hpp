@@ -19,16 +19,6 @@ class MpiProgramTest : public ProgramTest {
     return run_shell(before + mpirun + " '" + KINESPHERE_MPI_PROGRAM + "' " + arguments);
   }
 
-  ProgramRun run_shell(const std::string& text) const {
-    const std::string command = "(" + text + ") >'" + path("out") + "' 2>'" + path("err") + "'";
-    const int status = std::system(command.c_str());
-    ProgramRun result{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(path("out")),
-                      read_text(path("err"))};
-    std::filesystem::remove(path("out"));
-    std::filesystem::remove(path("err"));
-    return result;
-  }
-
   /// What kinesphere prints and writes for a scene.
   struct Expected {
     std::string hash;
