@@ -158,7 +158,6 @@ Islands::Group* Islands::group_of(std::uint32_t number) {
 }
 
 void Islands::join_bodies(std::span<const std::uint32_t> numbers) {
-  sea_.places.resize(tables_.bodies.numbers());
   Group* group = nullptr;
   for (const std::uint32_t number : numbers) {
     Group* const theirs = group_of(number);
@@ -176,6 +175,7 @@ void Islands::join_bodies(std::span<const std::uint32_t> numbers) {
 }
 
 void Islands::add(const Beginning& more) {
+  sea_.places.resize(tables_.bodies.numbers());
   const auto group_with = [this](std::initializer_list<std::uint32_t> numbers) -> Group& {
     join_bodies(numbers);
     Group& group = *group_of(*numbers.begin());
@@ -213,6 +213,7 @@ bool Islands::are_worth_it() const {
 
 /// False when one of them has failed.
 bool Islands::attempt_found() {
+  assert(sea_.places.size() == tables_.bodies.numbers());
   // The large ones first, so that nobody waits for them in the end.
   std::sort(again_.begin(), again_.end(), [this](std::uint32_t a, std::uint32_t b) {
     const std::size_t of_a = groups_[a].with.due.size();

@@ -97,7 +97,7 @@ class Islands {
   Group* group_of(std::uint32_t number);
   /// These bodies have to be in one island.
   void join_bodies(std::span<const std::uint32_t> numbers);
-  /// Bodies that have become known meanwhile bring these along.
+  /// Bodies have become known meanwhile, and may bring these along.
   void add(const Beginning& more);
   /// A body that another process kicks: islands here that it may meet are in meetings().
   void add_foreign_kick(const BodyKick& kick);

@@ -54,6 +54,13 @@ TEST(DistributedWorld, TellsOfAGasInASpaceThatRepeats) {
   expect_the_same_as_alone({.scene = scene_of(parameters)}, 100);
 }
 
+/// Islands are large, and their bodies come to ranks while these are at work.
+TEST(DistributedWorld, TellsOfADenseGasWithSensors) {
+  SceneParameters parameters = parameters_of("gas", 220, 0.5);
+  parameters.packing = 0.45;
+  expect_the_same_as_alone({.scene = scene_of(parameters), .sensors = true}, 1000);
+}
+
 TEST(DistributedWorld, TellsOfSensorsAndErrors) {
   expect_the_same_as_alone(
       {.scene = scene_of(parameters_of("paper1", 300, 1.5)), .sensors = true, .position_error = 1e-3}, 500);
