@@ -8,6 +8,7 @@
 
 #include "distributed/one_world.hpp"
 #include "kinesphere/motion/ballistic.hpp"
+#include "kinesphere/motion/random_forces.hpp"
 #include "kinesphere/random.hpp"
 #include "lab/scene/make_scene.hpp"
 #include "lab/truth/comparison.hpp"
@@ -142,6 +143,26 @@ TEST(DistributedWorld, TellsOfManyThingsAtOneInstant) {
     scene.end_time = 6.0;
     expect_the_same_as_alone({.scene = std::move(scene)}, 500);
   }
+}
+
+/// Bodies at rest on a lattice are due at the same time, and none of them moves as the others do: who is
+/// asked, and so what is due next, depends on which pair is looked at first.
+TEST(DistributedWorld, TellsOfManyPairsThatAreDueAtOneInstant) {
+  constexpr int side = 6;
+  RandomForcesDefinition forces{.interval = 0.25, .seed = 7};
+  Scene scene;
+  scene.world.box = Box{{0, 0, 0}, {4.0 * side, 4.0 * side, 4.0 * side}};
+  for (int k = 0; k < side * side * side; ++k) {
+    const int place = 125 * k % (side * side * side);
+    const int x = place % side, y = place / side % side, z = place / side / side;
+    forces.start.push_back({{4.0 * x + 2.0, 4.0 * y + 2.0, 4.0 * z + 2.0}, {}});
+    forces.acceleration_limits.push_back(2.0);
+    scene.bodies.push_back({.radius = 1.5});
+  }
+  scene.motion = RandomForces::create(forces).value().clone();
+  scene.response = Response::bounce;
+  scene.end_time = 3.0;
+  expect_the_same_as_alone({.scene = std::move(scene)}, 200);
 }
 
 /// Rows that a body hits at one end: islands span all ranks.
