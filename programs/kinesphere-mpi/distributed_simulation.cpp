@@ -4,11 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <limits>
+#include <numeric>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "lab/simulation/scene_answer.hpp"
@@ -55,20 +59,38 @@ void DistributedSimulation::start() {
   if (!resumed) create();
 }
 
-/// This rank's bodies, or none.
-std::unique_ptr<Motion> DistributedSimulation::motion_without(bool all) const {
-  auto motion = scene_.motion->clone();
-  const auto count = static_cast<std::uint64_t>(ranks_.count());
-  const std::uint64_t bodies = motion->size();
-  for (std::uint32_t body = 0; body < bodies; ++body) {
-    const bool is_here = body * count / bodies == static_cast<std::uint64_t>(ranks_.rank());
-    if (all || !is_here) require(motion->remove(body));
-  }
-  return motion;
+/// Slabs across the axis along which bodies lie farthest apart, with as many bodies for each rank: most of
+/// them stay where they are dealt.
+std::vector<std::uint32_t> DistributedSimulation::bodies_of_others() const {
+  const auto position = [this](std::uint32_t body) {
+    return scene_.motion->state(body, scene_.world.start_time).position;
+  };
+  std::vector<std::uint32_t> bodies(scene_.bodies.size());
+  std::iota(bodies.begin(), bodies.end(), 0u);
+  const auto extent = [&](int axis) {
+    const auto [least, most] = std::minmax_element(
+        bodies.begin(), bodies.end(),
+        [&](std::uint32_t a, std::uint32_t b) { return position(a)[axis] < position(b)[axis]; });
+    return least == bodies.end() ? 0.0 : position(*most)[axis] - position(*least)[axis];
+  };
+  const std::array extents{extent(0), extent(1), extent(2)};
+  const auto axis = static_cast<int>(std::max_element(extents.begin(), extents.end()) - extents.begin());
+  std::vector<double> along(bodies.size());
+  for (const std::uint32_t body : bodies) along[body] = position(body)[axis];
+  std::sort(bodies.begin(), bodies.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return std::tie(along[a], a) < std::tie(along[b], b); });
+  const auto first_of = [&](int rank) {
+    return bodies.begin() + static_cast<std::ptrdiff_t>(bodies.size()) * rank / ranks_.count();
+  };
+  bodies.erase(first_of(ranks_.rank()), first_of(ranks_.rank() + 1));
+  return bodies;
 }
 
 void DistributedSimulation::create() {
-  ranks_.together(1, [this] { motion_ = motion_without(false); });
+  ranks_.together(1, [this] {
+    motion_ = scene_.motion->clone();
+    for (const std::uint32_t body : bodies_of_others()) require(motion_->remove(body));
+  });
   world_.emplace(require_shared(DistributedWorld::create(scene_.world, *motion_), 1));
   ranks_.together(1, [this] {
     for (std::uint32_t body = 0; body < scene_.bodies.size(); ++body) {
@@ -123,7 +145,10 @@ bool DistributedSimulation::restore(std::uint64_t number, RunState& state) {
   }
   require_same_run(state);
   world_.reset();
-  ranks_.together(1, [this] { motion_ = motion_without(true); });
+  ranks_.together(1, [this] {
+    motion_ = scene_.motion->clone();
+    for (std::uint32_t body = 0; body < scene_.bodies.size(); ++body) require(motion_->remove(body));
+  });
   auto world = DistributedWorld::restore(checkpoints_->read_parts(number, state), *motion_);
   if (!world) return refuse(world.error().message);
   if (world->time() != state.time || world->hash().parts() != state.hash)

@@ -58,7 +58,7 @@ class DistributedSimulation {
   bool restore(std::uint64_t number, RunState& state);
   void require_same_run(const RunState& state) const;
   void tell_first(const std::string& message) const;
-  std::unique_ptr<Motion> motion_without(bool all) const;
+  std::vector<std::uint32_t> bodies_of_others() const;
   double next_checkpoint() const;
   void choose_slice(std::uint64_t most_events);
   void save();
