@@ -79,8 +79,8 @@ class DistributedWorld {
   /// knows); unknown_body (in the motion).
   Result<void> add(std::uint32_t index, const BodyDefinition& body, std::uint32_t number_in_motion);
   /// As World::set_sensor, before any rank adds bodies. Collective: all ranks have to call it alike. Errors,
-  /// the same on all ranks: those of World::set_sensor; unsupported (sensor_class: there are bodies). The world
-  /// goes on as it was.
+  /// the same on all ranks: those of World::set_sensor; unsupported (sensor_class: there are bodies). The
+  /// world goes on as it was.
   Result<void> set_sensor(SensorClass sensor_class, const Sensor& sensor);
 
   /// Collective. Goes on to `until` as World::run does. `respond` is asked on each rank that has a body of
