@@ -28,6 +28,8 @@
 #include <variant>
 #include <vector>
 
+#include "number/bit_cast.hpp"
+
 namespace kinesphere {
 
 namespace detail {
@@ -50,9 +52,9 @@ concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 template <class Word>
 constexpr Word little_endian(Word word) {
   if constexpr (std::endian::native == std::endian::little) return word;
-  auto digits = std::bit_cast<std::array<std::byte, sizeof(Word)>>(word);
+  auto digits = bit_cast<std::array<std::byte, sizeof(Word)>>(word);
   std::reverse(digits.begin(), digits.end());
-  return std::bit_cast<Word>(digits);
+  return bit_cast<Word>(digits);
 }
 
 template <class T, class Archive>
@@ -84,7 +86,7 @@ class ByteWriter {
   template <class T>
   void write(const T& value) {
     if constexpr (std::is_floating_point_v<T>) {
-      write_word(std::bit_cast<detail::WordOf<T>>(value));
+      write_word(bit_cast<detail::WordOf<T>>(value));
     } else if constexpr (detail::Number<T>) {
       write_word(static_cast<detail::WordOf<T>>(value));
     } else {
@@ -130,7 +132,7 @@ class ByteWriter {
 
   template <class Word>
   void write_word(Word word) {
-    const auto digits = std::bit_cast<std::array<std::byte, sizeof(Word)>>(detail::little_endian(word));
+    const auto digits = bit_cast<std::array<std::byte, sizeof(Word)>>(detail::little_endian(word));
     bytes_.insert(bytes_.end(), digits.begin(), digits.end());
   }
 
@@ -160,7 +162,7 @@ class ByteReader {
       if (word > 1) failed_ = true;
       value = word == 1;
     } else if constexpr (std::is_floating_point_v<T>) {
-      value = std::bit_cast<T>(read_word<detail::WordOf<T>>());
+      value = bit_cast<T>(read_word<detail::WordOf<T>>());
     } else if constexpr (detail::Number<T>) {
       value = static_cast<T>(read_word<detail::WordOf<T>>());
     } else {
@@ -227,7 +229,7 @@ class ByteReader {
     std::array<std::byte, sizeof(Word)> digits;
     std::copy_n(bytes_.begin(), sizeof(Word), digits.begin());
     bytes_ = bytes_.subspan(sizeof(Word));
-    return detail::little_endian(std::bit_cast<Word>(digits));
+    return detail::little_endian(bit_cast<Word>(digits));
   }
 
   std::span<const std::byte> bytes_;

@@ -1,7 +1,6 @@
 // Who touches whom, and who is within a sensor distance of whom.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -14,6 +13,7 @@
 #include "contact/crossings.hpp"
 #include "contact/outlook.hpp"
 #include "contact/partner_list.hpp"
+#include "number/bit_cast.hpp"
 
 namespace kinesphere {
 
@@ -134,8 +134,8 @@ class ContactBook {
    public:
     Coarse() = default;
     explicit Coarse(double value)
-        : upper_half_(static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(value) >> 32)) {}
-    double value() const { return std::bit_cast<double>(std::uint64_t{upper_half_} << 32); }
+        : upper_half_(static_cast<std::uint32_t>(bit_cast<std::uint64_t>(value) >> 32)) {}
+    double value() const { return bit_cast<double>(std::uint64_t{upper_half_} << 32); }
 
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {

@@ -1,6 +1,6 @@
 #include "kinesphere/event_hash.hpp"
 
-#include <bit>
+#include "number/bit_cast.hpp"
 
 namespace kinesphere {
 namespace {
@@ -28,11 +28,11 @@ class ByteHash {
 
 void EventHash::add(const Event& event) {
   ByteHash hash;
-  hash.mix(std::bit_cast<std::uint64_t>(event.time));
+  hash.mix(bit_cast<std::uint64_t>(event.time));
   hash.mix(static_cast<std::uint64_t>(event.kind) | static_cast<std::uint64_t>(event.wall) << 8);
   hash.mix(event.first.index | std::uint64_t{event.first.generation} << 32);
   hash.mix(event.second.index | std::uint64_t{event.second.generation} << 32);
-  if (is_of_sensor(event.kind)) hash.mix(std::bit_cast<std::uint64_t>(event.distance));
+  if (is_of_sensor(event.kind)) hash.mix(bit_cast<std::uint64_t>(event.distance));
   sum_ += scrambled(hash.value());
   ++count_;
 }

@@ -1,13 +1,13 @@
 #include "contact/outlook.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <type_traits>
 
 #include "bound/sides_in_reach.hpp"
 #include "contact/contact_event.hpp"
+#include "number/bit_cast.hpp"
 #include "number/infinity.hpp"
 
 namespace kinesphere {
@@ -15,8 +15,8 @@ namespace kinesphere {
 double just_after(double time) {
   if (time == 0.0) return std::numeric_limits<double>::denorm_min();
   if (!(time < infinity)) return time;
-  const auto bits = std::bit_cast<std::int64_t>(time);
-  return std::bit_cast<double>(time > 0.0 ? bits + 1 : bits - 1);
+  const auto bits = bit_cast<std::int64_t>(time);
+  return bit_cast<double>(time > 0.0 ? bits + 1 : bits - 1);
 }
 
 EventKind kind_of(ContactRule::Change change, bool sensed, Wall wall) {

@@ -14,8 +14,6 @@ std::string text_of(double number) {
   return text;
 }
 
-std::string text_of(std::size_t number) { return std::to_string(number); }
-
 std::string text_of(std::string_view text) { return std::string(text); }
 
 std::string text_of(const Vec3& vector) {

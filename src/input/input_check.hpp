@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -15,7 +16,7 @@
 namespace kinesphere {
 
 std::string text_of(double number);
-std::string text_of(std::size_t number);
+std::string text_of(std::unsigned_integral auto number) { return std::to_string(number); }
 /// The text itself.
 std::string text_of(std::string_view text);
 std::string text_of(const Vec3& vector);

@@ -239,7 +239,7 @@ Result<std::uint32_t> Frames::read_body(std::span<const std::byte>& bytes) {
   InputCheck check("Frames");
   check
       .require(frame == latest_frame_, ErrorCode::out_of_range, {"frame"}, "must be the latest one here,",
-               std::size_t{latest_frame_}, std::size_t{frame})
+               latest_frame_, frame)
       .finite({"latest position"}, latest)
       .finite({"pushed position"}, pushed);
   if (check.error()) return bad_bytes(*check.error());

@@ -1,6 +1,5 @@
 // Replays: a world that is driven by a recording, and compared with it at each step.
 #include <array>
-#include <bit>
 #include <cstdio>
 #include <limits>
 #include <string>
@@ -8,6 +7,7 @@
 
 #include "engine/engine.hpp"
 #include "input/input_check.hpp"
+#include "number/bit_cast.hpp"
 #include "recording/step.hpp"
 #include "world/check.hpp"
 
@@ -36,9 +36,7 @@ std::vector<std::byte> bytes_of(const std::optional<Event>& event) {
   return writer.take();
 }
 
-bool same_bits(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
+bool same_bits(double a, double b) { return bit_cast<std::uint64_t>(a) == bit_cast<std::uint64_t>(b); }
 
 /// Answers as recorded, as long as it is asked as recorded. The first other question gets no answer, which
 /// ends the call that asks.

@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "number/bit_cast.hpp"
+
 namespace kinesphere {
 namespace {
 
@@ -15,9 +17,9 @@ namespace {
 float rounded_down(double value) {
   const float nearest = static_cast<float>(value);
   const auto above = static_cast<std::int32_t>(static_cast<double>(nearest) > value);
-  const auto bits = std::bit_cast<std::int32_t>(nearest);
+  const auto bits = bit_cast<std::int32_t>(nearest);
   const std::int32_t sign = (bits >> 31) | 1;
-  return std::bit_cast<float>(bits - above * sign);
+  return bit_cast<float>(bits - above * sign);
 }
 
 float rounded_up(double value) { return -rounded_down(-value); }
@@ -191,7 +193,7 @@ namespace {
 /// A point counts as the smallest normal float, infinity as the greatest.
 std::uint32_t bits_of(float width) {
   using Limits = std::numeric_limits<float>;
-  return std::bit_cast<std::uint32_t>(std::clamp(width, Limits::min(), Limits::max()));
+  return bit_cast<std::uint32_t>(std::clamp(width, Limits::min(), Limits::max()));
 }
 
 constexpr int mantissa_bits = 23;
