@@ -1,0 +1,71 @@
+// What a world is like.
+import type { Vec3 } from "./event.js";
+import type { Module } from "./module.js";
+import { vector } from "./motion.js";
+
+export interface Box {
+  lower: Vec3;
+  upper: Vec3;
+}
+
+/** What a world is like; see kinesphere/world_definition.hpp for what each means exactly. */
+export interface WorldDefinition {
+  /** The walls. Without a box the world is unbounded. */
+  box?: Box;
+  /** Axes on which space repeats with the box, instead of walls. */
+  periodic?: { x?: boolean; y?: boolean; z?: boolean };
+  /** 2: bodies are discs in the plane z = 0. */
+  dimensions?: 2 | 3;
+  /** > 0 (length). */
+  contactTolerance?: number;
+  /** > contactTolerance (length): the gap at which a contact ends. */
+  separationDistance?: number;
+  contacts?: "begin_and_end" | "impacts";
+  /** When false, bodies that certainly overlap are refused. */
+  allowOverlap?: boolean;
+  /** >= 0 (time). */
+  zenoInterval?: number;
+  startTime?: number;
+}
+
+/** With all that was not said. */
+export type Definition = Required<Omit<WorldDefinition, "box">> & Pick<WorldDefinition, "box">;
+
+/** In the order of definition_at() in browser/module/world.cpp. */
+export function definitionNumbers(definition: WorldDefinition): number[] {
+  const { box, periodic } = definition;
+  const corners = box === undefined
+    ? [0, 0, 0, 0, 0, 0]
+    : [...vector(box.lower, "box.lower", "World"), ...vector(box.upper, "box.upper", "World")];
+  return [
+    box === undefined ? 0 : 1,
+    ...corners,
+    periodic?.x ? 1 : 0,
+    periodic?.y ? 1 : 0,
+    periodic?.z ? 1 : 0,
+    definition.dimensions ?? 3,
+    definition.contactTolerance ?? 1e-6,
+    definition.separationDistance ?? NaN,
+    definition.contacts === "impacts" ? 1 : 0,
+    definition.allowOverlap === false ? 0 : 1,
+    definition.zenoInterval ?? 0,
+    definition.startTime ?? 0,
+  ];
+}
+
+/** The one at this address in the module. */
+export function definitionAt(module: Module, address: number): Definition {
+  module.call("definition_numbers", address);
+  const numbers = module.answer();
+  return {
+    ...(numbers[0] === 0 ? {} : { box: { lower: numbers.subarray(1, 4), upper: numbers.subarray(4, 7) } }),
+    periodic: { x: numbers[7] !== 0, y: numbers[8] !== 0, z: numbers[9] !== 0 },
+    dimensions: numbers[10] as 2 | 3,
+    contactTolerance: numbers[11]!,
+    separationDistance: numbers[12]!,
+    contacts: numbers[13] !== 0 ? "impacts" : "begin_and_end",
+    allowOverlap: numbers[14] !== 0,
+    zenoInterval: numbers[15]!,
+    startTime: numbers[16]!,
+  };
+}

@@ -1,0 +1,125 @@
+// What a world tells: contacts and the like, each at its exact time.
+import { theModule } from "./module.js";
+
+/** Three numbers, also of a typed array. */
+export type Vec3 = ArrayLike<number>;
+
+/** A body's id: a whole number that is good in its own world alone, also as a key. */
+export type BodyId = number;
+
+export interface State {
+  position: Vec3;
+  velocity: Vec3;
+}
+
+const kinds = [
+  "bound_violation", "contact_begin", "contact_end", "wall_begin", "wall_end", "zeno_guard", "sensor_enter",
+  "sensor_leave", "woken",
+] as const;
+export type EventKind = (typeof kinds)[number];
+export const eventKinds: readonly EventKind[] = kinds;
+
+const walls = ["x_lower", "x_upper", "y_lower", "y_upper", "z_lower", "z_upper"] as const;
+export type Wall = (typeof walls)[number];
+export function wallOf(number: number): Wall | null {
+  return number === 0 ? null : walls[number - 1]!;
+}
+
+const senses = ["neither", "first", "second", "both"] as const;
+
+/** How many numbers an event has; see `put` in browser/module/exchange.cpp. */
+export const eventNumbers = 33;
+
+/** Something that happened. It reads from numbers that nobody changes. */
+export class Event {
+  /** @internal */
+  constructor(readonly numbers: Float64Array) {}
+
+  get kind(): EventKind { return kinds[this.numbers[0]!]!; }
+  get time(): number { return this.numbers[1]!; }
+  /** The body, or the one of the two with the smaller id. */
+  get first(): BodyId { return this.numbers[2]!; }
+  /** The other body; null for walls, violations and bodies that are woken. */
+  get second(): BodyId | null { return this.numbers[3]! < 0 ? null : this.numbers[3]!; }
+  get wall(): Wall | null { return wallOf(this.numbers[4]!); }
+  /** One of the two touched something less than the Zeno interval ago. */
+  get repeated(): boolean { return this.numbers[5] === 1; }
+  /** Each of the two has had 64 contacts at this instant. */
+  get jammed(): boolean { return this.numbers[6] === 1; }
+  /** Of sensor events: whose sensor it is. */
+  get senses(): (typeof senses)[number] { return senses[this.numbers[7]!]!; }
+  /** States at `time`; where space repeats, those of the nearest images. */
+  get firstState(): State { return this.state(8); }
+  get secondState(): State { return this.state(14); }
+  /** The middle of the gap. */
+  get point(): Float64Array { return this.numbers.subarray(20, 23); }
+  /** Unit vector from the first towards the second, or the wall. */
+  get normal(): Float64Array { return this.numbers.subarray(23, 26); }
+  /** Between the surfaces; negative when they overlap. */
+  get gap(): number { return this.numbers[26]!; }
+  get approachSpeed(): number { return this.numbers[27]!; }
+  /** Of violations: by how much the report lies outside what the body had promised. */
+  get positionExcess(): number { return this.numbers[28]!; }
+  get velocityExcess(): number { return this.numbers[29]!; }
+  /** Of sensor events: the distance that was crossed. */
+  get distance(): number { return this.numbers[30]!; }
+  /** What was given when the bodies were added. Exact up to 2^53. */
+  get firstUserData(): number { return this.numbers[31]!; }
+  get secondUserData(): number { return this.numbers[32]!; }
+
+  private state(from: number): State {
+    return {
+      position: this.numbers.subarray(from, from + 3),
+      velocity: this.numbers.subarray(from + 3, from + 6),
+    };
+  }
+}
+
+/** Many events, in order. */
+export class Events implements Iterable<Event> {
+  /** @internal */
+  constructor(readonly numbers: Float64Array) {}
+  get length(): number { return this.numbers.length / eventNumbers; }
+  at(place: number): Event | undefined {
+    const from = place < 0 ? place + this.length : place;
+    if (!(from >= 0 && from < this.length)) return undefined;
+    return new Event(this.numbers.subarray(from * eventNumbers, (from + 1) * eventNumbers));
+  }
+  *[Symbol.iterator](): Iterator<Event> {
+    for (let k = 0; k < this.length; ++k) yield this.at(k)!;
+  }
+}
+
+/**
+ * One number for all events of a run, the same as the library's EventHash and the program's `hash` line: two
+ * runs with the same number went the same way, to the last bit.
+ */
+export class EventHash {
+  /** Two numbers of 64 bits and the value, each as two halves. */
+  private parts = new Float64Array(6);
+
+  add(events: Event | Events): this {
+    const module = theModule();
+    module.with((scratch) => {
+      const parts = scratch.numbers(this.parts);
+      const numbers = events.numbers;
+      module.call("hash_add", parts, scratch.numbers(numbers), numbers.length / eventNumbers);
+      this.parts = module.numbersAt(parts, 6).slice();
+    });
+    return this;
+  }
+  /** 16 hexadecimal digits. */
+  get value(): string {
+    if (this.parts[2] === 0 && this.parts[3] === 0) this.add(new Events(new Float64Array()));
+    const half = (k: number) => this.parts[k]!.toString(16).padStart(8, "0");
+    return half(5) + half(4);
+  }
+  get count(): number {
+    return this.parts[2]! + this.parts[3]! * 2 ** 32;
+  }
+  clone(): EventHash {
+    const copy = new EventHash();
+    copy.parts = this.parts.slice();
+    return copy;
+  }
+}

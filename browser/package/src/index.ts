@@ -1,0 +1,12 @@
+// Kinesphere: finds every collision among moving spheres whose trajectories nobody knows in advance.
+export { type ErrorCode, KinesphereError, load, type LoadOptions, usesSimd, version } from "./module.js";
+export { type BodyId, Event, EventHash, type EventKind, eventKinds, Events, type State, type Vec3, type Wall } from "./event.js";
+export { Ballistic, Motion, type MotionDefinition, type PerBody, RandomForces, type States, Steered } from "./motion.js";
+export {
+  type Answer, type BodyBatch, type BodyDefinition, type BodyOptions, type BodyView, type Bounces,
+  type Certain, type Counters, type Earliest, type Located, type MotionLimits, type Probe, type ProbeFunction,
+  type RespondFunction, type RunOptions, type Shape, World, WorldView,
+} from "./world.js";
+export type { Box, Definition, WorldDefinition } from "./definition.js";
+export { Scene, sceneNames, type SceneSettings } from "./scene.js";
+export { Replay } from "./replay.js";

@@ -1,0 +1,273 @@
+// The WebAssembly module: its memory, its functions, and its errors as exceptions.
+
+/** Why a call failed: one of the error codes of the library (kinesphere/result.hpp). */
+export type ErrorCode =
+  | "not_finite" | "out_of_range" | "time_backwards" | "unknown_body" | "stale_body" | "foreign_body"
+  | "disabled_body" | "enabled_body" | "fixed_body" | "outside_domain" | "overlapping" | "probe_in_progress"
+  | "filter_in_progress" | "run_in_progress" | "workers_busy" | "no_threads" | "null_probe" | "null_callback"
+  | "callback_threw" | "rank_failed" | "moved_from" | "unsupported" | "bad_snapshot" | "bad_bytes"
+  | "recording" | "not_recording" | "bad_recording" | "diverged";
+
+/** In the order of the library. */
+const errorCodes: readonly ErrorCode[] = [
+  "not_finite", "out_of_range", "time_backwards", "unknown_body", "stale_body", "foreign_body",
+  "disabled_body", "enabled_body", "fixed_body", "outside_domain", "overlapping", "probe_in_progress",
+  "filter_in_progress", "run_in_progress", "workers_busy", "no_threads", "null_probe", "null_callback",
+  "callback_threw", "rank_failed", "moved_from", "unsupported", "bad_snapshot", "bad_bytes",
+  "recording", "not_recording", "bad_recording", "diverged",
+];
+
+/** What the library refuses. Its message names the call, the argument, the body, and what came. */
+export class KinesphereError extends Error {
+  override readonly name = "KinesphereError";
+  constructor(
+    message: string,
+    readonly code: ErrorCode,
+    /** The argument that is wrong, as the library spells it. */
+    readonly argument: string,
+    /** The body that it concerns, if there is one. */
+    readonly body: number | null,
+  ) {
+    super(message);
+  }
+}
+
+/** The exports of the module. Addresses and counts are numbers; see the folder browser/module. */
+type Exports = { memory: WebAssembly.Memory } & Record<string, (...values: number[]) => number>;
+
+/** What the module asks of JavaScript while it is in a call. */
+interface Callbacks {
+  probe(count: number, ids: number, time: number, states: number): void;
+  respond(event: number, velocities: number): void;
+}
+
+/** Memory of the module that a call needs, and returns. */
+export class Scratch {
+  private readonly addresses: number[] = [];
+  constructor(private readonly module: Module) {}
+  numbers(values: ArrayLike<number>): number {
+    const address = this.take(8 * values.length);
+    this.module.numbersAt(address, values.length).set(values);
+    return address;
+  }
+  bytes(values: Uint8Array): number {
+    const address = this.take(values.length);
+    new Uint8Array(this.module.memory.buffer, address, values.length).set(values);
+    return address;
+  }
+  room(count: number): number {
+    return this.take(8 * count);
+  }
+  private take(size: number): number {
+    const address = this.module.call("allocate", Math.max(size, 8));
+    if (address === 0) throw new RangeError(`kinesphere: there is no memory for ${size} bytes`);
+    this.addresses.push(address);
+    return address;
+  }
+  release(): void {
+    for (const address of this.addresses) this.module.call("release", address);
+  }
+}
+
+export class Module {
+  readonly memory: WebAssembly.Memory;
+  private readonly exports: Exports;
+  private readonly decoder = new TextDecoder();
+  /** Those of calls that are under way, the innermost last. */
+  private readonly callbacks: Callbacks[] = [];
+  private thrown: { value: unknown } | null = null;
+  private written = "";
+
+  constructor(compiled: WebAssembly.Module, readonly simd: boolean) {
+    const asked = <K extends keyof Callbacks>(name: K) => (...values: Parameters<Callbacks[K]>) => {
+      try {
+        (this.callbacks.at(-1)![name] as (...values: unknown[]) => void)(...values);
+      } catch (value) {
+        this.thrown ??= { value };
+      }
+    };
+    const instance = new WebAssembly.Instance(compiled, {
+      kinesphere: { probe: asked("probe"), respond: asked("respond") },
+      env: { emscripten_notify_memory_growth: () => {} },
+      wasi_snapshot_preview1: {
+        clock_time_get: () => 0,
+        fd_close: () => 0,
+        fd_seek: () => 0,
+        fd_write: (_file: number, pieces: number, count: number, size: number) =>
+          this.write(pieces, count, size),
+        proc_exit: (): never => {
+          throw new Error(`kinesphere: the module stopped. ${this.written}`);
+        },
+      },
+    });
+    this.exports = instance.exports as Exports;
+    this.memory = this.exports.memory;
+    this.exports["_initialize"]!();
+  }
+
+  call(name: string, ...values: number[]): number {
+    return this.exports[name]!(...values);
+  }
+
+  /** A call that asks for states or answers meanwhile. What a function threw is thrown again. */
+  callWith(callbacks: Callbacks, name: string, ...values: number[]): number {
+    this.callbacks.push(callbacks);
+    const before = this.thrown;
+    this.thrown = null;
+    try {
+      const result = this.call(name, ...values);
+      const thrown = this.thrown as { value: unknown } | null;
+      if (thrown !== null) throw thrown.value;
+      return result;
+    } finally {
+      this.callbacks.pop();
+      this.thrown = before;
+    }
+  }
+
+  /** The error of the last call that failed. */
+  error(): KinesphereError {
+    const body = this.call("error_body");
+    return new KinesphereError(
+      this.text(this.call("error_message")),
+      errorCodes[this.call("error_code")]!,
+      this.text(this.call("error_argument")),
+      body < 0 ? null : body,
+    );
+  }
+  /** For calls that return 0 or false where they fail. */
+  require(result: number): number {
+    if (result === 0) throw this.error();
+    return result;
+  }
+
+  with<T>(action: (scratch: Scratch) => T): T {
+    const scratch = new Scratch(this);
+    try {
+      return action(scratch);
+    } finally {
+      scratch.release();
+    }
+  }
+
+  /** A view that is good until the module is called again. */
+  numbersAt(address: number, count: number): Float64Array {
+    return new Float64Array(this.memory.buffer, address, count);
+  }
+  /** A copy of what the last call answered. */
+  answer(): Float64Array {
+    return this.numbersAt(this.call("answer_numbers"), this.call("answer_count")).slice();
+  }
+  bytes(): Uint8Array {
+    return new Uint8Array(this.memory.buffer, this.call("bytes"), this.call("byte_count")).slice();
+  }
+  text(address: number): string {
+    const bytes = new Uint8Array(this.memory.buffer, address);
+    return this.decoder.decode(bytes.subarray(0, bytes.indexOf(0)));
+  }
+  textOfBytes(): string {
+    return this.decoder.decode(this.bytes());
+  }
+
+  private write(pieces: number, count: number, size: number): number {
+    const view = new DataView(this.memory.buffer);
+    let sum = 0;
+    for (let k = 0; k < count; ++k) {
+      const address = view.getUint32(pieces + 8 * k, true);
+      const length = view.getUint32(pieces + 8 * k + 4, true);
+      this.written += this.decoder.decode(new Uint8Array(this.memory.buffer, address, length));
+      sum += length;
+    }
+    view.setUint32(size, sum, true);
+    return 0;
+  }
+}
+
+let loaded: Module | null = null;
+
+/** The module, which load() has to have brought. */
+export function theModule(): Module {
+  if (loaded === null) throw new Error("kinesphere: load() must be awaited before anything else is used");
+  return loaded;
+}
+
+/** The smallest module that has a SIMD instruction in it. */
+const simdProbe = new Uint8Array([
+  0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11,
+]);
+
+export interface LoadOptions {
+  /** Whether to use the build with SIMD; by default where the engine has it. */
+  simd?: boolean;
+  /** The module itself, or where to fetch it from, instead of the file that comes with the package. */
+  source?: BufferSource | WebAssembly.Module | URL | string;
+}
+
+async function compiled(source: BufferSource | WebAssembly.Module | URL | string): Promise<WebAssembly.Module> {
+  if (source instanceof WebAssembly.Module) return source;
+  if (typeof source !== "string" && !(source instanceof URL)) return WebAssembly.compile(source);
+  const url = new URL(source, import.meta.url);
+  if (url.protocol === "file:") {
+    const { readFile } = await import("node:fs/promises");
+    return WebAssembly.compile(await readFile(url));
+  }
+  const response = await fetch(url);
+  if (!response.ok) throw new Error(`kinesphere: ${url.href} could not be fetched: ${response.status}`);
+  return WebAssembly.compile(await response.arrayBuffer());
+}
+
+/**
+ * Brings the library. Has to be awaited once before anything else; further calls do nothing.
+ * Nothing is asked of any network but the file that lies beside this one.
+ */
+export async function load(options: LoadOptions = {}): Promise<void> {
+  if (loaded !== null) return;
+  const simd = options.simd ?? WebAssembly.validate(simdProbe);
+  const own = simd
+    ? new URL("./kinesphere-simd.wasm", import.meta.url)
+    : new URL("./kinesphere.wasm", import.meta.url);
+  const module = new Module(await compiled(options.source ?? own), simd);
+  loaded ??= module;
+}
+
+/** Of the library, such as "0.2.0". */
+export function version(): string {
+  const module = theModule();
+  return module.text(module.call("library_version"));
+}
+
+/** Whether the build with SIMD was loaded. What it computes is the same. */
+export function usesSimd(): boolean {
+  return theModule().simd;
+}
+
+/** Objects that nobody has freed, when they are collected. */
+const forgotten = new FinalizationRegistry<{ free: string; address: number }>(({ free, address }) => {
+  loaded?.call(free, address);
+});
+
+/** Something in the module's memory. It goes with free(), with `using`, or when it is collected. */
+export abstract class Owned {
+  #address: number;
+  readonly #free: string;
+  protected constructor(address: number, free: string) {
+    this.#address = address;
+    this.#free = free;
+    if (address !== 0) forgotten.register(this, { free, address }, this);
+  }
+  /** @internal */
+  get address(): number {
+    if (this.#address === 0) throw new Error("kinesphere: the object has been freed");
+    return this.#address;
+  }
+  /** Gives its memory back. Nothing else may be done with it then. */
+  free(): void {
+    if (this.#address === 0) return;
+    forgotten.unregister(this);
+    theModule().call(this.#free, this.#address);
+    this.#address = 0;
+  }
+  [Symbol.dispose](): void {
+    this.free();
+  }
+}

@@ -1,0 +1,53 @@
+// A recording, gone through again.
+import { Event } from "./event.js";
+import { Owned, theModule } from "./module.js";
+import { WorldView } from "./world.js";
+
+/** What a world recorded, here or in the program (`kinesphere run --record`). */
+export class Replay extends Owned {
+  private readonly view: ReplayedWorld;
+
+  /** Throws KinesphereError for bytes that are no recording, or a damaged one. */
+  constructor(recording: Uint8Array) {
+    const module = theModule();
+    super(module.with((scratch) =>
+      module.require(module.call("replay_open", scratch.bytes(recording), recording.length))), "replay_free");
+    this.view = new ReplayedWorld(this);
+  }
+  /** Repeats the next recorded advance, and returns its event if it had one. */
+  advance(): Event | null {
+    const module = theModule();
+    const result = module.call("replay_advance", this.address);
+    if (result < 0) throw module.error();
+    return result === 0 ? null : new Event(module.answer());
+  }
+  get finished(): boolean {
+    return theModule().call("replay_finished", this.address) !== 0;
+  }
+  /** Steps repeated so far, and all there are. */
+  get step(): number {
+    return theModule().call("replay_step", this.address);
+  }
+  get stepCount(): number {
+    return theModule().call("replay_step_count", this.address);
+  }
+  /** As it is after the last step. */
+  get world(): WorldView {
+    return this.view;
+  }
+}
+
+class ReplayedWorld extends WorldView {
+  readonly #replay: Replay;
+  constructor(replay: Replay) {
+    super(0, "");
+    this.#replay = replay;
+  }
+  /** @internal */
+  override get address(): number {
+    return theModule().call("replay_world", this.#replay.address);
+  }
+  override free(): void {
+    // It goes with the replay.
+  }
+}

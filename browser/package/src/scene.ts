@@ -1,0 +1,77 @@
+// The built-in scenes of the program `kinesphere`: what happens in them is the same, to the last bit.
+import { type Definition, definitionAt } from "./definition.js";
+import { Owned, theModule } from "./module.js";
+import { Motion } from "./motion.js";
+
+/** What may differ from the built-in scene; see `kinesphere run --help`. */
+export interface SceneSettings {
+  bodies?: number;
+  seed?: number;
+  seconds?: number;
+  /** In (0, 1): the box is scaled until the bodies fill this part of it. */
+  packing?: number;
+  radiusMin?: number;
+  radiusMax?: number;
+  speedMin?: number;
+  speedMax?: number;
+  /** Of acceleration. */
+  limitMin?: number;
+  limitMax?: number;
+  restitution?: number;
+  contactTolerance?: number;
+}
+
+/** In the order of scene_create in browser/module/scene.cpp. */
+const sceneSettings: readonly (keyof SceneSettings)[] = [
+  "bodies", "seed", "seconds", "packing", "radiusMin", "radiusMax", "speedMin", "speedMax", "limitMin",
+  "limitMax", "restitution", "contactTolerance",
+];
+
+/** "paper1" and so on. */
+export function sceneNames(): string[] {
+  const module = theModule();
+  return Array.from({ length: module.call("scene_count") }, (_, k) => module.text(module.call("scene_name", k)));
+}
+
+/**
+ *     const scene = new Scene("paper1", { bodies: 500 });
+ *     const world = new World(scene.definition);
+ *     const motion = scene.motion();
+ *     world.addMotion(motion, scene.radii);
+ *     world.run(scene.endTime, { motion, respond: scene });
+ */
+export class Scene extends Owned {
+  constructor(readonly name: string, settings: SceneSettings = {}) {
+    const names = sceneNames();
+    const place = names.indexOf(name);
+    if (place < 0) throw new RangeError(`Scene: name must be one of ${names.join(", ")}, but is ${name}`);
+    for (const key of ["bodies", "seed"] as const) {
+      const value = settings[key];
+      if (value !== undefined && !(Number.isInteger(value) && value >= 0 && value < 2 ** 32))
+        throw new RangeError(`Scene: ${key} must be a whole number from 0 to 2^32 - 1, but is ${value}`);
+    }
+    const module = theModule();
+    super(module.with((scratch) =>
+      module.require(module.call("scene_create", place, scratch.numbers(sceneSettings.map((key) => settings[key] ?? NaN))))),
+      "scene_free");
+  }
+
+  get endTime(): number {
+    return theModule().call("scene_end_time", this.address);
+  }
+  /** By body. */
+  get radii(): Float64Array {
+    const module = theModule();
+    module.call("scene_radii", this.address);
+    return module.answer();
+  }
+  /** Of the world that the scene is for. */
+  get definition(): Definition {
+    const module = theModule();
+    return definitionAt(module, module.call("scene_world", this.address));
+  }
+  /** The bodies' motion from the start, each time anew. */
+  motion(): Motion {
+    return new Motion(theModule().call("scene_motion", this.address));
+  }
+}

@@ -1,0 +1,572 @@
+// The world: moving spheres with unknown trajectories, and every contact among them, in time order.
+import { type BodyId, Event, type EventKind, Events, eventKinds, eventNumbers, type State, type Vec3, type Wall, wallOf } from "./event.js";
+import { type Box, type Definition, definitionAt, definitionNumbers, type WorldDefinition } from "./definition.js";
+import { type Module, Owned, type Scratch, theModule } from "./module.js";
+import { countOf, each, Motion, type MotionDefinition, type PerBody, sixOf, type States, vector } from "./motion.js";
+import { Scene } from "./scene.js";
+
+export interface MotionLimits {
+  /** >= 0 (length / time^2): the largest deviation from the planned acceleration. */
+  accelerationLimit?: number;
+  plannedAcceleration?: Vec3;
+  /** >= 0 (length): every reported position is within this of the true one. */
+  positionError?: number;
+  /** >= 0 (length / time). */
+  velocityError?: number;
+}
+
+/** What bodies have in common beside where they are. */
+export interface BodyOptions extends MotionLimits {
+  /** Which others it may touch: category and mask are bits, up to 2^53; -1 is the mask of all. */
+  filter?: { category?: number; mask?: number; group?: number };
+  /** One that is not solid only senses and is sensed. */
+  solid?: boolean;
+  sensorClass?: number;
+  /** A whole number for the caller, up to 2^53. */
+  userData?: number;
+}
+
+export interface BodyDefinition extends BodyOptions {
+  position: Vec3;
+  velocity?: Vec3;
+  /** >= 0 (length); by default 1. */
+  radius?: number;
+}
+
+export interface BodyBatch extends States, Omit<BodyOptions, "accelerationLimit" | "userData"> {
+  radii?: PerBody;
+  accelerationLimits?: PerBody;
+  userData?: PerBody;
+}
+
+export type Shape =
+  | { ball: { centre: Vec3; radius: number } }
+  /** All points p with normal . p <= offset are solid. */
+  | { halfSpace: { normal: Vec3; offset: number } }
+  | { box: Box }
+  | { triangle: readonly [Vec3, Vec3, Vec3] };
+
+/**
+ * Sets states[6 k], ... to position and velocity of ids[k] at `time`. Both arrays are good during the call alone.
+ * It may not change the world that asks.
+ */
+export type ProbeFunction = (ids: Float64Array, time: number, states: Float64Array) => void;
+/** In a world whose ids are the numbers of a motion's bodies, the motion itself will do. */
+export type Probe = ProbeFunction | Motion;
+
+/** The velocities that bodies have after an event; who is given none goes on as it did. */
+export interface Answer {
+  first?: Vec3;
+  second?: Vec3;
+}
+/** Has to give the same event the same answer. */
+export type RespondFunction = (event: Event) => Answer | undefined;
+/** Bodies bounce off each other and the walls; masses by index, infinite for what stands still. */
+export interface Bounces {
+  masses?: ArrayLike<number>;
+  /** From 0 to 1, which is the default. */
+  restitution?: number;
+  /** > 0: bodies that come to rest in a heap; see `settle` in kinesphere/response.hpp. */
+  restingSpeed?: number;
+}
+
+export interface RunOptions {
+  /** Moves the bodies: its numbers are the indices of their ids. */
+  motion: Motion;
+  respond?: RespondFunction | Bounces | Scene;
+}
+
+export interface BodyView {
+  id: BodyId;
+  /** Where the middle of the bound is now, and how large the bound is: the body is in it. */
+  centre: Float64Array;
+  boundRadius: number;
+  radius: number;
+  /** When the body was asked last, and what it said. */
+  reportTime: number;
+  reported: State;
+  /** Contains the body until boxEnd. */
+  box: { lower: Float64Array; upper: Float64Array };
+  boxEnd: number;
+  enabled: boolean;
+  fixed: boolean;
+  resting: boolean;
+  accelerationLimit: number;
+  sensorClass: number;
+  userData: number;
+  /** Where space repeats: how many boxes it has gone beyond the first. */
+  image: Float64Array;
+}
+
+/** The first contact or approach that may come, and with whom. */
+export interface Earliest {
+  /** Nothing comes before it; infinite when nothing can. */
+  time: number;
+  partner: BodyId | null;
+  wall: Wall | null;
+  /** It is there already. */
+  now: boolean;
+}
+
+export interface Certain { body: BodyId; certainly: boolean }
+/** With limits of its distance. */
+export interface Located extends Certain { lower: number; upper: number }
+
+export interface Counters {
+  events: Record<EventKind, number>;
+  probes: number;
+  windowEnds: number;
+  starts: number;
+  restarts: number;
+  pairChecks: number;
+  wallChecks: number;
+  searches: number;
+  candidates: number;
+  hotPairs: number;
+  certificates: number;
+  zenoSteps: number;
+  repeatedContacts: number;
+}
+
+const bodyNumbers = 20;
+const viewNumbers = 28;
+const respondings = { nothing: 0, bounces: 1, asksJavaScript: 2, asInScene: 3 } as const;
+
+function putBody(numbers: Float64Array, at: number, body: BodyDefinition, call: string): void {
+  numbers.set(vector(body.position, "position", call), at);
+  numbers.set(vector(body.velocity ?? [0, 0, 0], "velocity", call), at + 3);
+  numbers[at + 6] = body.radius ?? 1;
+  putOptions(numbers, at, body, call);
+}
+
+function putOptions(numbers: Float64Array, at: number, body: BodyOptions, call: string): void {
+  numbers[at + 7] = body.accelerationLimit ?? 0;
+  numbers.set(vector(body.plannedAcceleration ?? [0, 0, 0], "plannedAcceleration", call), at + 8);
+  numbers[at + 11] = body.positionError ?? 0;
+  numbers[at + 12] = body.velocityError ?? 0;
+  numbers[at + 13] = body.solid === false ? 0 : 1;
+  numbers[at + 14] = whole(body.sensorClass ?? 0, 255, "sensorClass", call);
+  numbers[at + 15] = whole(body.filter?.category ?? 1, 2 ** 53, "filter.category", call);
+  const mask = body.filter?.mask ?? -1;
+  numbers[at + 16] = mask === -1 ? -1 : whole(mask, 2 ** 53, "filter.mask", call);
+  const group = body.filter?.group ?? 0;
+  if (!Number.isInteger(group) || Math.abs(group) >= 2 ** 31)
+    throw new RangeError(`${call}: filter.group must be a whole number of 32 bits, but is ${group}`);
+  numbers[at + 17] = group;
+  numbers[at + 18] = whole(body.userData ?? 0, 2 ** 53, "userData", call);
+}
+
+function whole(value: number, most: number, what: string, call: string): number {
+  if (!Number.isInteger(value) || value < 0 || value > most)
+    throw new RangeError(`${call}: ${what} must be a whole number from 0 to ${most}, but is ${value}`);
+  return value;
+}
+
+function shapeNumbers(shape: Shape, call: string): [kind: number, numbers: number[]] {
+  const of = (values: Vec3, what: string) => vector(values, what, call);
+  if ("ball" in shape) return [0, [...of(shape.ball.centre, "centre"), shape.ball.radius]];
+  if ("halfSpace" in shape) return [1, [...of(shape.halfSpace.normal, "normal"), shape.halfSpace.offset]];
+  if ("box" in shape) return [2, [...of(shape.box.lower, "lower"), ...of(shape.box.upper, "upper")]];
+  if ("triangle" in shape) return [3, shape.triangle.flatMap((corner) => of(corner, "triangle"))];
+  throw new TypeError(`${call}: shape must be a ball, a halfSpace, a box or a triangle`);
+}
+
+/** What can be read of a world; also of one that a replay goes through. */
+export class WorldView extends Owned {
+  get time(): number {
+    return theModule().call("world_time", this.address);
+  }
+  /** How many bodies there are. */
+  get size(): number {
+    return theModule().call("world_size", this.address);
+  }
+  get definition(): Definition {
+    const module = theModule();
+    return definitionAt(module, module.call("world_definition", this.address));
+  }
+  contains(body: BodyId): boolean {
+    return theModule().call("world_contains", this.address, body) !== 0;
+  }
+  /** All that are there, by index. */
+  bodies(): Float64Array {
+    const module = theModule();
+    module.call("world_bodies", this.address);
+    return module.answer();
+  }
+  body(id: BodyId): BodyView {
+    return this.bodyViews([id])[0]!;
+  }
+  /** Of all bodies when none are named. */
+  bodyViews(ids: ArrayLike<number> = this.bodies()): BodyView[] {
+    const module = theModule();
+    const all = module.with((scratch) => {
+      module.require(module.call("world_views", this.address, ids.length, scratch.numbers(ids)));
+      return module.answer();
+    });
+    return Array.from(ids, (id, k) => {
+      const numbers = all.subarray(k * viewNumbers, (k + 1) * viewNumbers);
+      return {
+        id,
+        centre: numbers.subarray(0, 3),
+        boundRadius: numbers[3]!,
+        radius: numbers[4]!,
+        reportTime: numbers[5]!,
+        reported: { position: numbers.subarray(6, 9), velocity: numbers.subarray(9, 12) },
+        box: { lower: numbers.subarray(12, 15), upper: numbers.subarray(15, 18) },
+        boxEnd: numbers[18]!,
+        enabled: numbers[19] === 1,
+        fixed: numbers[20] === 1,
+        resting: numbers[21] === 1,
+        accelerationLimit: numbers[22]!,
+        sensorClass: numbers[23]!,
+        userData: numbers[24]!,
+        image: numbers.subarray(25, 28),
+      };
+    });
+  }
+  /** Whom the body touches, in the order in which the contacts began. */
+  touching(body: BodyId): Float64Array {
+    const module = theModule();
+    module.require(module.call("world_touching", this.address, body));
+    return module.answer();
+  }
+  get counters(): Counters {
+    const module = theModule();
+    module.call("world_counters", this.address);
+    const numbers = module.answer();
+    const after = eventKinds.length;
+    return {
+      events: Object.fromEntries(eventKinds.map((kind, k) => [kind, numbers[k]!])) as Record<EventKind, number>,
+      probes: numbers[after]!,
+      windowEnds: numbers[after + 1]!,
+      starts: numbers[after + 2]!,
+      restarts: numbers[after + 3]!,
+      pairChecks: numbers[after + 4]!,
+      wallChecks: numbers[after + 5]!,
+      searches: numbers[after + 6]!,
+      candidates: numbers[after + 7]!,
+      hotPairs: numbers[after + 8]!,
+      certificates: numbers[after + 9]!,
+      zenoSteps: numbers[after + 10]!,
+      repeatedContacts: numbers[after + 11]!,
+    };
+  }
+  /** Three numbers for each pair that may change soon: two ids, and the time before which it does not. */
+  certificates(): Float64Array {
+    const module = theModule();
+    module.call("world_certificates", this.address);
+    return module.answer();
+  }
+  /** Seven numbers for each cell that holds something: two corners, and how many bodies. */
+  cells(): Float64Array {
+    const module = theModule();
+    module.call("world_cells", this.address);
+    return module.answer();
+  }
+
+  /** No contact begins before this: of anything, or of the two. */
+  safeUntil(): number;
+  safeUntil(first: BodyId, second: BodyId): number;
+  safeUntil(first?: BodyId, second?: BodyId): number {
+    if (first === undefined) return this.earliest("world_safe_until").time;
+    return this.earliest("world_safe_until_of_pair", first, second!).time;
+  }
+  /** The first contact that the body may come to. */
+  earliestContact(body: BodyId): Earliest {
+    return this.earliest("world_earliest_contact", body);
+  }
+  /** When something may first be within `distance` (length >= 0) of the body, from surface to surface. */
+  earliestApproach(body: BodyId, distance: number): Earliest {
+    return this.earliest("world_earliest_approach", body, distance);
+  }
+  /** All bodies that may be among the `count` nearest to a point. */
+  nearest(point: Vec3, count: number): Located[] {
+    return this.located("world_nearest", [vector(point, "point", "nearest")], whole(count, 2 ** 32 - 1, "count", "nearest"));
+  }
+  /** All bodies that may be the first on a way. */
+  rayCast(origin: Vec3, direction: Vec3, length: number): Located[] {
+    return this.located("world_ray_cast",
+                        [vector(origin, "origin", "rayCast"), vector(direction, "direction", "rayCast")], length);
+  }
+  /** The bodies that may overlap a sphere. */
+  overlapping(centre: Vec3, radius: number): Certain[] {
+    const module = theModule();
+    const numbers = module.with((scratch) => {
+      const at = scratch.numbers(vector(centre, "centre", "overlapping"));
+      module.require(module.call("world_overlapping", this.address, at, radius));
+      return module.answer();
+    });
+    return Array.from({ length: numbers.length / 2 }, (_, k) =>
+      ({ body: numbers[2 * k]!, certainly: numbers[2 * k + 1] === 1 }));
+  }
+  /** Everything that should be true now, made anew; what is wrong first, or null. For tests: it takes long. */
+  audit(): string | null {
+    const module = theModule();
+    module.call("world_audit", this.address);
+    return module.textOfBytes() || null;
+  }
+  /** The whole world, for World.restore() in any process, also in native ones. */
+  save(): Uint8Array {
+    const module = theModule();
+    module.require(module.call("world_save", this.address));
+    return module.bytes();
+  }
+  /** A world that goes on as this one does. */
+  clone(): World {
+    const module = theModule();
+    return World.at(module.require(module.call("world_clone", this.address)));
+  }
+
+  private earliest(name: string, ...values: number[]): Earliest {
+    const module = theModule();
+    module.require(module.call(name, this.address, ...values));
+    const numbers = module.answer();
+    return {
+      time: numbers[0]!,
+      partner: numbers[1]! < 0 ? null : numbers[1]!,
+      wall: wallOf(numbers[2]!),
+      now: numbers[3] === 1,
+    };
+  }
+  private located(name: string, points: number[][], value: number): Located[] {
+    const module = theModule();
+    const numbers = module.with((scratch) => {
+      module.require(module.call(name, this.address, ...points.map((point) => scratch.numbers(point)), value));
+      return module.answer();
+    });
+    return Array.from({ length: numbers.length / 4 }, (_, k) => ({
+      body: numbers[4 * k]!,
+      certainly: numbers[4 * k + 1] === 1,
+      lower: numbers[4 * k + 2]!,
+      upper: numbers[4 * k + 3]!,
+    }));
+  }
+}
+
+const existing = Symbol("existing");
+
+export class World extends WorldView {
+  /** Throws KinesphereError for what no world can be. */
+  constructor(definition?: WorldDefinition);
+  /** @internal */
+  constructor(definition: typeof existing, address: number);
+  constructor(definition: WorldDefinition | typeof existing = {}, address = 0) {
+    super(definition === existing ? address : create(definition as WorldDefinition), "world_free");
+  }
+  /** @internal */
+  static at(address: number): World {
+    return new World(existing, address);
+  }
+  /** The world that save() wrote, here or in any other program. */
+  static restore(snapshot: Uint8Array): World {
+    const module = theModule();
+    return World.at(module.with((scratch) =>
+      module.require(module.call("world_restore", scratch.bytes(snapshot), snapshot.length))));
+  }
+
+  add(body: BodyDefinition): BodyId {
+    const numbers = new Float64Array(bodyNumbers);
+    putBody(numbers, 0, body, "add");
+    return this.addNumbers(numbers)[0]!;
+  }
+  /** All of them or, on an error, none. Returns their ids. */
+  addAll(bodies: BodyBatch): Float64Array {
+    const call = "addAll";
+    const count = countOf(bodies.positions, call);
+    const radii = each(bodies.radii ?? 1, count, "radii", call);
+    const limits = each(bodies.accelerationLimits ?? 0, count, "accelerationLimits", call);
+    const userData = each(bodies.userData ?? 0, count, "userData", call);
+    const { positions, velocities } = bodies;
+    if (velocities !== undefined && velocities.length !== positions.length)
+      throw new RangeError(
+        `${call}: velocities must have as many numbers as positions, ${positions.length}, but has ${velocities.length}`);
+    const numbers = new Float64Array(count * bodyNumbers);
+    const common = new Float64Array(bodyNumbers);
+    const { userData: _, ...options } = bodies;
+    putOptions(common, 0, options, call);
+    for (let k = 0; k < count; ++k) {
+      const at = k * bodyNumbers;
+      numbers.set(common, at);
+      for (let axis = 0; axis < 3; ++axis) {
+        numbers[at + axis] = positions[3 * k + axis]!;
+        numbers[at + 3 + axis] = velocities?.[3 * k + axis] ?? 0;
+      }
+      numbers[at + 6] = radii[k]!;
+      numbers[at + 7] = limits[k]!;
+      numbers[at + 18] = whole(userData[k]!, 2 ** 53, "userData", call);
+    }
+    return this.addNumbers(numbers);
+  }
+  /** All bodies of a motion, with these radii: their ids are their numbers there, if the world has had no bodies before. */
+  addMotion(motion: Motion, radii: PerBody = 1, options: Omit<BodyOptions, keyof MotionLimits> = {}): Float64Array {
+    const call = "addMotion";
+    const count = motion.size;
+    const sizes = each(radii, count, "radii", call);
+    const numbers = new Float64Array(count * bodyNumbers);
+    for (let k = 0; k < count; ++k) {
+      const known: MotionDefinition = motion.definition(k, this.time);
+      putBody(numbers, k * bodyNumbers, { ...options, ...known, radius: sizes[k]! }, call);
+    }
+    return this.addNumbers(numbers);
+  }
+  /** A body that never moves. */
+  addFixed(shape: Shape, options: { solid?: boolean; sensorClass?: number; userData?: number } = {}): BodyId {
+    return this.fixed(shape, false, options, "addFixed");
+  }
+  /** Touches nobody, and tells who comes in and goes: sensor_enter and sensor_leave at distance 0. */
+  addZone(shape: Shape, userData = 0): BodyId {
+    return this.fixed(shape, true, { userData }, "addZone");
+  }
+  remove(body: BodyId): void {
+    this.change("world_remove", body);
+  }
+  /** From now on the body has this velocity; what the probe says has to agree. */
+  setVelocity(body: BodyId, velocity: Vec3): void {
+    this.change("world_set_velocity", body, vector(velocity, "velocity", "setVelocity"));
+  }
+  teleport(body: BodyId, state: State): void {
+    this.change("world_teleport", body, sixOf(state, "teleport"));
+  }
+  setRadius(body: BodyId, radius: number): void {
+    const module = theModule();
+    module.require(module.call("world_set_radius", this.address, body, radius));
+  }
+  setMotionLimits(body: BodyId, limits: MotionLimits): void {
+    this.change("world_set_motion_limits", body, [
+      limits.accelerationLimit ?? 0,
+      ...vector(limits.plannedAcceleration ?? [0, 0, 0], "plannedAcceleration", "setMotionLimits"),
+      limits.positionError ?? 0,
+      limits.velocityError ?? 0,
+    ]);
+  }
+  /** It touches nobody and is never asked. */
+  disable(body: BodyId): void {
+    this.change("world_disable", body);
+  }
+  enable(body: BodyId, state: State): void {
+    this.change("world_enable", body, sixOf(state, "enable"));
+  }
+  /** It stays where it is, and is not asked, until something wakes it. */
+  rest(body: BodyId): void {
+    this.change("world_rest", body);
+  }
+  wake(body: BodyId): void {
+    this.change("world_wake", body);
+  }
+  /** At these distances (length >= 0) all bodies of the class sense others. */
+  setSensor(sensorClass: number, distances: ArrayLike<number>): void {
+    const module = theModule();
+    const number = whole(sensorClass, 255, "sensorClass", "setSensor");
+    module.with((scratch) =>
+      module.require(module.call("world_set_sensor", this.address, number, distances.length, scratch.numbers(distances))));
+  }
+
+  /** Goes on to the next event, or to `until`: then there is none. */
+  advance(until: number, probe: Probe): Event | null {
+    const module = theModule();
+    const motion = probe instanceof Motion ? probe.address : 0;
+    const result = module.callWith(asking(module, motion === 0 ? (probe as ProbeFunction) : null, null),
+                                   "world_advance", this.address, until, motion);
+    if (result < 0) throw module.error();
+    return result === 0 ? null : new Event(module.answer());
+  }
+  /** The events up to `until`, for a loop in which bodies may be changed. Left early, the world stands at the last one. */
+  *events(until: number, probe: Probe): Generator<Event, void, undefined> {
+    for (let event = this.advance(until, probe); event !== null; event = this.advance(until, probe)) yield event;
+  }
+  /**
+   * Goes on to `until` by itself, inside the module where bodies bounce: the fastest way. Returns all events,
+   * and hands them to `sink`, if there is one, also when something goes wrong: those that came before.
+   */
+  run(until: number, options: RunOptions, sink?: (events: Events) => void): Events {
+    const module = theModule();
+    const [responding, bounces, scene, asked] = responded(options.respond);
+    return module.with((scratch) => {
+      const masses = bounces.masses ?? [];
+      const values = [this.address, until, options.motion.address, responding, scratch.numbers(masses),
+                      masses.length, bounces.restitution ?? 1, bounces.restingSpeed ?? 0, scene];
+      let failure: { value: unknown } | null = null;
+      try {
+        if (module.callWith(asking(module, null, asked), "world_run", ...values) === 0)
+          failure = { value: module.error() };
+      } catch (value) {
+        failure = { value };
+      }
+      const events = new Events(module.answer());
+      sink?.(events);
+      if (failure !== null) throw failure.value;
+      return events;
+    });
+  }
+
+  /** From now on all that goes into this world and comes out of it is recorded. */
+  startRecording(): void {
+    const module = theModule();
+    module.require(module.call("world_start_recording", this.address));
+  }
+  /** For Replay, here or in any other program. */
+  stopRecording(): Uint8Array {
+    const module = theModule();
+    module.require(module.call("world_stop_recording", this.address));
+    return module.bytes();
+  }
+
+  private change(name: string, body: BodyId, numbers?: number[]): void {
+    const module = theModule();
+    module.with((scratch: Scratch) =>
+      module.require(module.call(name, this.address, body, ...(numbers === undefined ? [] : [scratch.numbers(numbers)]))));
+  }
+  private addNumbers(numbers: Float64Array): Float64Array {
+    const module = theModule();
+    return module.with((scratch) => {
+      module.require(module.call("world_add_all", this.address, numbers.length / bodyNumbers, scratch.numbers(numbers)));
+      return module.answer();
+    });
+  }
+  private fixed(shape: Shape, isZone: boolean, options: { solid?: boolean; sensorClass?: number; userData?: number },
+                call: string): BodyId {
+    const module = theModule();
+    const [kind, numbers] = shapeNumbers(shape, call);
+    const id = module.with((scratch) =>
+      module.call("world_add_fixed", this.address, kind, scratch.numbers(numbers), isZone ? 1 : 0,
+                  options.solid === false ? 0 : 1, whole(options.sensorClass ?? 0, 255, "sensorClass", call),
+                  whole(options.userData ?? 0, 2 ** 53, "userData", call)));
+    if (id < 0) throw module.error();
+    return id;
+  }
+}
+
+function create(definition: WorldDefinition): number {
+  const module = theModule();
+  return module.with((scratch) =>
+    module.require(module.call("world_create", scratch.numbers(definitionNumbers(definition)))));
+}
+
+function responded(respond: RunOptions["respond"]): [number, Bounces, number, RespondFunction | null] {
+  if (respond === undefined) return [respondings.nothing, {}, 0, null];
+  if (respond instanceof Scene) return [respondings.asInScene, {}, respond.address, null];
+  if (typeof respond === "function") return [respondings.asksJavaScript, {}, 0, respond];
+  return [respondings.bounces, respond, 0, null];
+}
+
+function asking(module: Module, probe: ProbeFunction | null, respond: RespondFunction | null) {
+  return {
+    probe(count: number, ids: number, time: number, states: number): void {
+      if (typeof probe !== "function") throw new TypeError("advance: probe must be a function or a Motion");
+      // The function may call the module, whose memory may grow then.
+      const answer = new Float64Array(6 * count).fill(NaN);
+      probe(module.numbersAt(ids, count).slice(), time, answer);
+      module.numbersAt(states, 6 * count).set(answer);
+    },
+    respond(event: number, velocities: number): void {
+      const answer = respond!(new Event(module.numbersAt(event, eventNumbers).slice()));
+      const numbers = new Float64Array(8);
+      for (const [velocity, at] of [[answer?.first, 0], [answer?.second, 4]] as const) {
+        if (velocity === undefined) continue;
+        numbers.set(vector(velocity, "velocity", "respond"), at);
+        numbers[at + 3] = 1;
+      }
+      module.numbersAt(velocities, 8).set(numbers);
+    },
+  };
+}
