@@ -1,18 +1,22 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that are missing here. Where none is, it does nothing, without network.
-# Usage: setup.sh run | mpi | bench | test | coverage
+# Usage: setup.sh run | mpi | browser | bench | test | coverage
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libhwy-dev libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev libgeographiclib-dev)
 mpi=(libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev)
-testing=("${mpi[@]}" libgtest-dev libtbb-dev librapidcheck-dev clang clang-format clang-tidy pkg-config valgrind)
+browser=(emscripten nodejs)
+# That of Node.js itself brings npm along.
+if ! command -v npm >/dev/null; then browser+=(npm); fi
+testing=("${mpi[@]}" "${browser[@]}" libgtest-dev libtbb-dev librapidcheck-dev clang clang-format clang-tidy pkg-config valgrind)
 case ${1:-} in
   run) ;;
   mpi) packages+=("${mpi[@]}") ;;
+  browser) packages+=("${browser[@]}") ;;
   bench) packages+=(gnuplot-nox libbullet-dev) ;;
   test) packages+=("${testing[@]}") ;;
   coverage) packages+=("${testing[@]}" gcovr) ;;
-  *) echo "setup: usage: setup.sh run | mpi | bench | test | coverage" >&2 && exit 2 ;;
+  *) echo "setup: usage: setup.sh run | mpi | browser | bench | test | coverage" >&2 && exit 2 ;;
 esac
 
 if ! command -v apt-get >/dev/null; then

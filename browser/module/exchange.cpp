@@ -11,7 +11,7 @@ namespace {
 constexpr double two_to_32 = 4294967296.0;
 
 struct LastError {
-  int code = 0;
+  std::string code;
   double body = no_id;
   std::string argument;
   std::string message;
@@ -30,7 +30,7 @@ BodyId body_of(double number) {
 }
 
 bool fail(const Error& error) {
-  last_error = {static_cast<int>(error.code), number_of(error.body), std::string(error.argument),
+  last_error = {std::string(name_of(error.code)), number_of(error.body), std::string(error.argument),
                 error.message};
   return false;
 }
@@ -90,7 +90,7 @@ Event event_at(const double* numbers) {
   return event;
 }
 
-KINESPHERE_EXPORT(error_code) int error_code() { return last_error.code; }
+KINESPHERE_EXPORT(error_code) const char* error_code() { return last_error.code.c_str(); }
 KINESPHERE_EXPORT(error_body) double error_body() { return last_error.body; }
 KINESPHERE_EXPORT(error_argument) const char* error_argument() { return last_error.argument.c_str(); }
 KINESPHERE_EXPORT(error_message) const char* error_message() { return last_error.message.c_str(); }

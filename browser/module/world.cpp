@@ -10,10 +10,11 @@
 namespace kinesphere::browser {
 namespace {
 
+// Both say whether the function of JavaScript's returned, and did not throw.
 KINESPHERE_IMPORT(probe)
-void javascript_probe(std::size_t count, const double* ids, double time, double* states);
+bool javascript_probe(std::size_t count, const double* ids, double time, double* states);
 KINESPHERE_IMPORT(respond)
-void javascript_respond(const double* event, double* velocities);
+bool javascript_respond(const double* event, double* velocities);
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -23,7 +24,7 @@ void ask_javascript(std::span<const BodyId> ids, double time, std::span<State> s
   std::vector<double> numbers;
   for (const BodyId id : ids) numbers.push_back(number_of(id));
   std::vector<double> answers(6 * ids.size(), nan);
-  javascript_probe(ids.size(), numbers.data(), time, answers.data());
+  (void)javascript_probe(ids.size(), numbers.data(), time, answers.data());
   for (std::size_t k = 0; k < ids.size(); ++k) states[k] = state_at(answers.data() + 6 * k);
 }
 
@@ -55,7 +56,8 @@ Answer ask_javascript(const Event& event) {
   put(event, numbers);
   // Of each of the two a velocity, and whether there is one.
   double velocities[8] = {};
-  javascript_respond(numbers, velocities);
+  // One that throws leaves NaN too.
+  if (!javascript_respond(numbers, velocities)) return {Vec3{nan, nan, nan}, std::nullopt};
   return {velocity_at(velocities), velocity_at(velocities + 4)};
 }
 
@@ -255,8 +257,8 @@ enum class Responding : int { nothing, bounces, asks_javascript, as_in_scene };
 KINESPHERE_EXPORT(world_run)
 bool world_run(World* world, double until, MotionHandle* handle, Responding responding, const double* masses,
                std::size_t mass_count, double restitution, double resting_speed, const Scene* scene) {
-  std::vector<double>& told = answer();
-  told.clear();
+  // Functions of JavaScript's may ask for other answers meanwhile.
+  std::vector<double> told;
   MotionByIndex mover(*handle->motion);
   const auto respond = [&](const Event& event) -> Answer {
     switch (responding) {
@@ -275,7 +277,9 @@ bool world_run(World* world, double until, MotionHandle* handle, Responding resp
     told.resize(told.size() + event_numbers);
     put(event, told.data() + told.size() - event_numbers);
   };
-  return is_good(world->run(until, mover, respond, sink));
+  const auto done = world->run(until, mover, respond, sink);
+  answer() = std::move(told);
+  return is_good(done);
 }
 
 KINESPHERE_EXPORT(world_bodies) void world_bodies(const World* world) {

@@ -1,3 +1,4 @@
+/// <reference lib="esnext.disposable" preserve="true" />
 // The WebAssembly module: its memory, its functions, and its errors as exceptions.
 
 /** Why a call failed: one of the error codes of the library (kinesphere/result.hpp). */
@@ -7,15 +8,6 @@ export type ErrorCode =
   | "filter_in_progress" | "run_in_progress" | "workers_busy" | "no_threads" | "null_probe" | "null_callback"
   | "callback_threw" | "rank_failed" | "moved_from" | "unsupported" | "bad_snapshot" | "bad_bytes"
   | "recording" | "not_recording" | "bad_recording" | "diverged";
-
-/** In the order of the library. */
-const errorCodes: readonly ErrorCode[] = [
-  "not_finite", "out_of_range", "time_backwards", "unknown_body", "stale_body", "foreign_body",
-  "disabled_body", "enabled_body", "fixed_body", "outside_domain", "overlapping", "probe_in_progress",
-  "filter_in_progress", "run_in_progress", "workers_busy", "no_threads", "null_probe", "null_callback",
-  "callback_threw", "rank_failed", "moved_from", "unsupported", "bad_snapshot", "bad_bytes",
-  "recording", "not_recording", "bad_recording", "diverged",
-];
 
 /** What the library refuses. Its message names the call, the argument, the body, and what came. */
 export class KinesphereError extends Error {
@@ -73,17 +65,20 @@ export class Module {
   readonly memory: WebAssembly.Memory;
   private readonly exports: Exports;
   private readonly decoder = new TextDecoder();
-  /** Those of calls that are under way, the innermost last. */
-  private readonly callbacks: Callbacks[] = [];
+  /** Of calls that are under way, the innermost last: what they ask, and of which object they are. */
+  private readonly asking: { callbacks: Callbacks; address: number }[] = [];
   private thrown: { value: unknown } | null = null;
   private written = "";
 
   constructor(compiled: WebAssembly.Module, readonly simd: boolean) {
-    const asked = <K extends keyof Callbacks>(name: K) => (...values: Parameters<Callbacks[K]>) => {
+    // Whether it did not throw: an exception does not pass through the module, it is thrown again behind it.
+    const asked = <K extends keyof Callbacks>(name: K) => (...values: Parameters<Callbacks[K]>): number => {
       try {
-        (this.callbacks.at(-1)![name] as (...values: unknown[]) => void)(...values);
+        (this.asking.at(-1)!.callbacks[name] as (...values: unknown[]) => void)(...values);
+        return 1;
       } catch (value) {
         this.thrown ??= { value };
+        return 0;
       }
     };
     const instance = new WebAssembly.Instance(compiled, {
@@ -110,19 +105,24 @@ export class Module {
   }
 
   /** A call that asks for states or answers meanwhile. What a function threw is thrown again. */
-  callWith(callbacks: Callbacks, name: string, ...values: number[]): number {
-    this.callbacks.push(callbacks);
+  callWith(callbacks: Callbacks, name: string, address: number, ...values: number[]): number {
+    this.asking.push({ callbacks, address });
     const before = this.thrown;
     this.thrown = null;
     try {
-      const result = this.call(name, ...values);
+      const result = this.call(name, address, ...values);
       const thrown = this.thrown as { value: unknown } | null;
       if (thrown !== null) throw thrown.value;
       return result;
     } finally {
-      this.callbacks.pop();
+      this.asking.pop();
       this.thrown = before;
     }
+  }
+
+  /** Whether the object is in the middle of a call. */
+  isInUse(address: number): boolean {
+    return this.asking.some((call) => call.address === address);
   }
 
   /** The error of the last call that failed. */
@@ -130,7 +130,7 @@ export class Module {
     const body = this.call("error_body");
     return new KinesphereError(
       this.text(this.call("error_message")),
-      errorCodes[this.call("error_code")]!,
+      this.text(this.call("error_code")) as ErrorCode,
       this.text(this.call("error_argument")),
       body < 0 ? null : body,
     );
@@ -263,6 +263,8 @@ export abstract class Owned {
   /** Gives its memory back. Nothing else may be done with it then. */
   free(): void {
     if (this.#address === 0) return;
+    if (theModule().isInUse(this.#address))
+      throw new Error("kinesphere: an object cannot be freed while it asks for states or answers");
     forgotten.unregister(this);
     theModule().call(this.#free, this.#address);
     this.#address = 0;

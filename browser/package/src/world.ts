@@ -464,9 +464,10 @@ export class World extends WorldView {
   /** Goes on to the next event, or to `until`: then there is none. */
   advance(until: number, probe: Probe): Event | null {
     const module = theModule();
-    const motion = probe instanceof Motion ? probe.address : 0;
-    const result = module.callWith(asking(module, motion === 0 ? (probe as ProbeFunction) : null, null),
-                                   "world_advance", this.address, until, motion);
+    if (!(probe instanceof Motion) && typeof probe !== "function")
+      throw new TypeError("advance: probe must be a function or a Motion");
+    const [asked, motion] = probe instanceof Motion ? [null, probe.address] : [probe, 0];
+    const result = module.callWith(asking(module, asked, null), "world_advance", this.address, until, motion);
     if (result < 0) throw module.error();
     return result === 0 ? null : new Event(module.answer());
   }
@@ -480,14 +481,15 @@ export class World extends WorldView {
    */
   run(until: number, options: RunOptions, sink?: (events: Events) => void): Events {
     const module = theModule();
+    if (!(options?.motion instanceof Motion)) throw new TypeError("run: motion must be a Motion");
     const [responding, bounces, scene, asked] = responded(options.respond);
     return module.with((scratch) => {
       const masses = bounces.masses ?? [];
-      const values = [this.address, until, options.motion.address, responding, scratch.numbers(masses),
+      const values = [until, options.motion.address, responding, scratch.numbers(masses),
                       masses.length, bounces.restitution ?? 1, bounces.restingSpeed ?? 0, scene];
       let failure: { value: unknown } | null = null;
       try {
-        if (module.callWith(asking(module, null, asked), "world_run", ...values) === 0)
+        if (module.callWith(asking(module, null, asked), "world_run", this.address, ...values) === 0)
           failure = { value: module.error() };
       } catch (value) {
         failure = { value };
@@ -552,10 +554,9 @@ function responded(respond: RunOptions["respond"]): [number, Bounces, number, Re
 function asking(module: Module, probe: ProbeFunction | null, respond: RespondFunction | null) {
   return {
     probe(count: number, ids: number, time: number, states: number): void {
-      if (typeof probe !== "function") throw new TypeError("advance: probe must be a function or a Motion");
       // The function may call the module, whose memory may grow then.
       const answer = new Float64Array(6 * count).fill(NaN);
-      probe(module.numbersAt(ids, count).slice(), time, answer);
+      probe!(module.numbersAt(ids, count).slice(), time, answer);
       module.numbersAt(states, 6 * count).set(answer);
     },
     respond(event: number, velocities: number): void {

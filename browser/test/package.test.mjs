@@ -1,0 +1,260 @@
+// The package as a stranger would use it, wrongly too.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { kinesphere } from "./package_under_test.mjs";
+
+const {
+  Ballistic, EventHash, KinesphereError, load, RandomForces, Replay, Scene, Steered, version, World,
+} = kinesphere;
+
+test("nothing works before load()", () => {
+  assert.throws(() => new World(), /load\(\) must be awaited/);
+});
+
+test("load() may be awaited twice, and knows its version", async () => {
+  await load();
+  await load();
+  assert.match(version(), /^\d+\.\d+\.\d+$/);
+});
+
+const box = { lower: [0, 0, 0], upper: [100, 100, 100] };
+
+/** Two that meet head on after (distance - 2) / 2. */
+function pair(distance = 10) {
+  const motion = new Ballistic({ positions: [20, 50, 50, 20 + distance, 50, 50], velocities: [1, 0, 0, -1, 0, 0] });
+  const world = new World({ box });
+  const [first, second] = world.addMotion(motion, 1);
+  return { world, motion, first, second };
+}
+
+/** The error of `action` names these. */
+function refuses(action, code, argument, body = null) {
+  assert.throws(action, (error) => {
+    assert.ok(error instanceof KinesphereError, `${error}`);
+    assert.equal(error.code, code, error.message);
+    assert.equal(error.argument, argument, error.message);
+    if (body !== null) assert.equal(error.body, body);
+    assert.ok(error.message.length > 10);
+    return true;
+  });
+}
+
+test("events come from a loop in which bodies turn", () => {
+  const { world, motion, first, second } = pair();
+  const kinds = [];
+  for (const event of world.events(100, motion)) {
+    kinds.push(event.kind);
+    if (event.kind !== "contact_begin") break;
+    assert.ok(Math.abs(event.time - 4) < 1e-5);
+    assert.deepEqual([event.first, event.second, event.wall], [first, second, null]);
+    assert.deepEqual(Array.from(event.normal), [1, 0, 0]);
+    for (const [body, velocity] of [[first, [-1, 0, 0]], [second, [1, 0, 0]]]) {
+      motion.setVelocity(body, event.time, velocity);
+      world.setVelocity(body, velocity);
+    }
+  }
+  assert.deepEqual(kinds, ["contact_begin", "contact_end"]);
+});
+
+test("a function answers for bodies in typed arrays", () => {
+  const world = new World();
+  const ids = world.addAll({
+    positions: Float32Array.of(0, 0, 0, 10, 0, 0),
+    velocities: Float32Array.of(1, 0, 0, 0, 0, 0),
+    radii: [1, 2],
+    accelerationLimits: 0.5,
+  });
+  assert.equal(ids.length, 2);
+  let asked = 0;
+  const probe = (some, time, states) => {
+    asked += some.length;
+    some.forEach((id, k) => states.set(id === ids[0] ? [time, 0, 0, 1, 0, 0] : [10, 0, 0, 0, 0, 0], 6 * k));
+  };
+  const event = world.advance(100, probe);
+  assert.equal(event.kind, "contact_begin");
+  assert.ok(Math.abs(event.time - 7) < 1e-5);
+  assert.equal(world.counters.probes, asked);
+  assert.deepEqual(Array.from(world.touching(ids[0])), [ids[1]]);
+  assert.equal(world.advance(7.5, probe), null);
+  assert.equal(world.time, 7.5);
+});
+
+test("a broken promise is told with its size", () => {
+  const world = new World();
+  world.addAll({ positions: [0, 0, 0, 10, 0, 0], velocities: [1, 0, 0, 0, 0, 0] });
+  const probe = (ids, time, states) =>
+    ids.forEach((id, k) => states.set(id === 0 ? [time, time, 0, 1, 1, 0] : [10, 0, 0, 0, 0, 0], 6 * k));
+  const event = world.advance(100, probe);
+  assert.equal(event.kind, "bound_violation");
+  assert.ok(event.positionExcess > 0);
+});
+
+test("what a probe throws comes out, and the world goes on", () => {
+  const { world, motion } = pair();
+  assert.throws(() => world.advance(100, () => { throw new TypeError("the sensor is broken"); }), /sensor is broken/);
+  refuses(() => world.advance(100, () => {}), "not_finite", "position");
+  assert.equal(world.advance(100, motion).kind, "contact_begin");
+});
+
+test("what respond throws comes out after the events before it", () => {
+  const { world, motion } = pair();
+  const respond = (event) => {
+    if (event.kind === "wall_begin") throw new RangeError("no walls here");
+    return event.kind === "contact_begin" ? { first: [-1, 0, 0], second: [1, 0, 0] } : undefined;
+  };
+  const seen = [];
+  assert.throws(() => world.run(200, { motion, respond }, (events) => seen.push(...events)), /no walls here/);
+  assert.deepEqual(seen.map((event) => event.kind), ["contact_begin", "contact_end"]);
+});
+
+test("a world may not be used from inside its probe", () => {
+  const { world } = pair();
+  assert.throws(() => world.advance(100, () => world.free()), /cannot be freed while/);
+  assert.throws(() => world.advance(100, () => world.remove(0)), (error) => error.code === "probe_in_progress");
+  assert.throws(() => world.advance(100, () => world.advance(100, () => {})), (error) => error.code === "probe_in_progress");
+});
+
+test("wrong input is named", () => {
+  const { world, motion, first } = pair();
+  refuses(() => new World({ contactTolerance: -1 }), "out_of_range", "contact_tolerance");
+  refuses(() => new World({ box: { lower: [1, 0, 0], upper: [0, 1, 1] } }), "out_of_range", "box");
+  refuses(() => world.add({ position: [1, 2, NaN] }), "not_finite", "position");
+  refuses(() => world.add({ position: [1, 2, 3], radius: -1 }), "out_of_range", "radius");
+  refuses(() => world.setVelocity(77, [0, 0, 0]), "unknown_body", "body");
+  refuses(() => world.setVelocity(0.5, [0, 0, 0]), "unknown_body", "body");
+  refuses(() => world.setVelocity(-1, [0, 0, 0]), "unknown_body", "body");
+  refuses(() => world.setVelocity(first, [Infinity, 0, 0]), "not_finite", "velocity", first);
+  refuses(() => world.advance(-1, motion), "time_backwards", "until");
+  refuses(() => world.setSensor(1, [-3]), "out_of_range", "sensor");
+  refuses(() => motion.setVelocity(9, 0, [0, 0, 0]), "unknown_body", "body");
+  refuses(() => new RandomForces({ positions: [0, 0, 0] }, { accelerationLimits: -1 }), "out_of_range", "acceleration_limits");
+  refuses(() => World.restore(new Uint8Array(10)), "bad_snapshot", "snapshot");
+  refuses(() => new Replay(new Uint8Array(10)), "bad_recording", "recording");
+  refuses(() => world.stopRecording(), "not_recording", "world");
+  assert.throws(() => world.add({ position: [1, 2] }), /add: position must have three numbers, but has 2/);
+  assert.throws(() => world.addAll({ positions: [1, 2] }), /positions must have three numbers for each body/);
+  assert.throws(() => world.addAll({ positions: [1, 2, 3], radii: [1, 2] }), /radii must have a number for each of 1/);
+  assert.throws(() => world.add({ position: [1, 2, 3], userData: -4 }), /userData must be a whole number/);
+  assert.throws(() => world.advance(1, null), /probe must be a function or a Motion/);
+  assert.throws(() => world.run(1, {}), /run: motion must be a Motion/);
+  assert.throws(() => world.addFixed({}), /shape must be/);
+  assert.throws(() => new Scene("nonsense"), /must be one of paper1/);
+  assert.throws(() => new Scene("paper1", { bodies: 1.5 }), /bodies must be a whole number/);
+  refuses(() => new Scene("paper1", { bodies: 1e6 }), "out_of_range", "bodies");
+});
+
+test("a removed body's id is stale, and its place is taken again", () => {
+  const { world, first } = pair();
+  world.remove(first);
+  refuses(() => world.body(first), "stale_body", "body", first);
+  const next = world.add({ position: [70, 70, 70] });
+  assert.notEqual(next, first);
+  assert.equal(next % 2 ** 32, first);
+  assert.ok(world.contains(next) && !world.contains(first));
+});
+
+test("a freed object says so, and may be freed twice", () => {
+  const { world, motion } = pair();
+  world.free();
+  world.free();
+  assert.throws(() => world.time, /has been freed/);
+  motion.free();
+  assert.throws(() => motion.state(0, 0), /has been freed/);
+});
+
+test("snapshots and clones go on alike", () => {
+  const scene = new Scene("paper1", { bodies: 150, seconds: 2 });
+  const world = new World(scene.definition);
+  const motion = scene.motion();
+  world.addMotion(motion, scene.radii);
+  world.run(1, { motion, respond: scene });
+  const copies = [world.clone(), World.restore(world.save())].map((copy) => [copy, motion.clone()]);
+  const rest = (one, moved) => new EventHash().add(one.run(2, { motion: moved, respond: scene })).value;
+  const hash = rest(world, motion);
+  for (const [copy, moved] of copies) assert.equal(rest(copy, moved), hash);
+  assert.equal(world.audit(), null);
+});
+
+test("a recording made here replays", () => {
+  const { world, motion } = pair();
+  world.startRecording();
+  const events = [...world.events(5, motion)];
+  const replay = new Replay(world.stopRecording());
+  const again = [];
+  while (!replay.finished) {
+    const event = replay.advance();
+    if (event !== null) again.push(event);
+  }
+  assert.deepEqual(again.map((event) => event.time), events.map((event) => event.time));
+  assert.equal(replay.world.time, 5);
+  assert.equal(replay.world.body(0).radius, 1);
+});
+
+test("zones, fixed shapes and sensors tell", () => {
+  const world = new World();
+  const motion = new Ballistic({ positions: [0, 0, 0], velocities: [10, 0, 0] });
+  const [ball] = world.addMotion(motion, 0.5, { sensorClass: 1 });
+  const zone = world.addZone({ box: { lower: [5, -1, -1], upper: [5.001, 1, 1] } });
+  const wall = world.addFixed({ halfSpace: { normal: [-1, 0, 0], offset: -20 } });
+  world.setSensor(1, [2]);
+  const seen = [];
+  for (const event of world.events(3, motion)) {
+    seen.push([event.kind, event.second]);
+    if (event.kind === "contact_begin") break;
+  }
+  assert.deepEqual(seen.map(([kind]) => kind), ["sensor_enter", "sensor_enter", "sensor_leave", "sensor_leave", "sensor_enter", "contact_begin"]);
+  assert.deepEqual(seen.at(-1), ["contact_begin", wall]);
+  assert.ok(seen.some(([, other]) => other === zone) && ball === 0);
+});
+
+test("certificates say until when nothing happens", () => {
+  const { world, motion, first, second } = pair(10);
+  world.run(1, { motion });
+  const until = world.safeUntil(first, second);
+  assert.ok(until > 3.9 && until <= 4);
+  assert.ok(world.safeUntil() <= until);
+  assert.deepEqual(world.earliestContact(first).partner, second);
+  assert.ok(world.earliestApproach(first, 2).time < until);
+  assert.equal(world.nearest([20, 50, 50], 1)[0].body, first);
+  assert.ok(world.overlapping([20, 50, 50], 3).some((found) => found.body === first));
+  assert.equal(world.rayCast([0, 50, 50], [1, 0, 0], 100)[0].body, first);
+  const view = world.body(first);
+  assert.ok(view.boxEnd > 1 && view.box.lower[0] < 21 && view.box.upper[0] > 21);
+  assert.ok(world.cells().length % 7 === 0 && world.cells().length > 0);
+});
+
+test("ships are steered, and bodies added later", () => {
+  const motion = new Steered({ positions: [0, 0, 0] }, { accelerationLimits: 5 });
+  const world = new World();
+  world.addMotion(motion);
+  motion.steer(0, 0, [5, 0, 0]);
+  world.run(1, { motion });
+  assert.ok(Math.abs(motion.state(0, 1).position[0] - 2.5) < 1e-9);
+  const number = motion.add(1, { position: [50, 0, 0], velocity: [0, 0, 0] }, 5);
+  assert.equal(number, 1);
+  assert.equal(world.add({ ...motion.definition(1, 1), radius: 1 }), 1);
+  assert.equal(world.advance(10, motion).kind, "contact_begin");
+  assert.throws(() => motion.steer(0, world.time, [9, 0, 0]), (error) => error.code === "out_of_range");
+});
+
+test("a hash of nothing is that of no events", () => {
+  const hash = new EventHash();
+  assert.match(hash.value, /^[0-9a-f]{16}$/);
+  const { world, motion } = pair();
+  const events = world.run(50, { motion, respond: {} });
+  const one = new EventHash().add(events).value;
+  const other = new EventHash();
+  for (const event of events) other.add(event);
+  assert.equal(other.value, one);
+  assert.equal(other.count, events.length);
+  assert.equal(events.at(-1).time, [...events].at(-1).time);
+  assert.equal(events.at(events.length), undefined);
+});
+
+test("memory comes back from thousands of worlds", () => {
+  const { world, motion } = pair();
+  for (let k = 0; k < 3000; ++k) world.clone().free();
+  for (let k = 0; k < 3000; ++k) motion.clone().free();
+  assert.ok(world.size === 2);
+});

@@ -1,0 +1,30 @@
+// The package as it was built, and the native program beside it.
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+
+function required(name) {
+  const value = process.env[name];
+  if (!value) throw new Error(`${name} must be set: see browser/test/run.sh`);
+  return value;
+}
+
+export const packageFolder = required("KINESPHERE_PACKAGE");
+export const kinesphere = await import(pathToFileURL(join(packageFolder, "dist/index.js")).href);
+
+/** What the native program prints. */
+export function program(...options) {
+  return execFileSync(required("KINESPHERE_PROGRAM"), options, { encoding: "utf8" }).trim();
+}
+
+/** Calls `action` with a new folder, which goes with it. */
+export function inFolder(action) {
+  const folder = mkdtempSync(join(tmpdir(), "kinesphere-"));
+  try {
+    return action(folder);
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+}
