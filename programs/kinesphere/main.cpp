@@ -16,6 +16,7 @@
 #include "standard_output.hpp"
 #include "tracks.hpp"
 #include "verify.hpp"
+#include "view.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -34,12 +35,14 @@ int main(int argc, char** argv) {
   ReplayOptions replay_options;
   VerifyOptions verify_options;
   TracksOptions tracks_options;
+  ViewOptions view_options;
   BenchCommands bench_commands;
   const CLI::App* const run_command = add_run_command(app, run_options);
   const CLI::App* const replay_command = add_replay_command(app, replay_options);
   const CLI::App* const tracks_command = add_tracks_command(app, tracks_options);
   const CLI::App* const verify_command = add_verify_command(app, verify_options);
   const CLI::App* const scenes_command = add_scenes_command(app);
+  const CLI::App* const view_command = add_view_command(app, view_options);
   const CLI::App* const bench_command = add_bench_command(app, bench_commands);
   try {
     app.parse(argc, argv);
@@ -61,8 +64,9 @@ int main(int argc, char** argv) {
   if (*tracks_command) return finished(tracks(tracks_options));
   if (*verify_command) return finished(verify(verify_options));
   if (*scenes_command) return finished(list_scenes());
+  if (*view_command) return finished(view(view_options));
   if (*bench_command) return finished(bench(*bench_command, bench_commands));
-  throw ProgramError("expected a command: run, replay, tracks, verify, scenes or bench (see --help)");
+  throw ProgramError("expected a command: run, replay, tracks, verify, scenes, view or bench (see --help)");
 }
 
 }  // namespace
