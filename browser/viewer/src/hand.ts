@@ -1,0 +1,123 @@
+// Grabbing a sphere with the pointer and throwing it.
+import { Plane, Raycaster, Vector2, Vector3 } from "three";
+import type { Simulation } from "./simulation.ts";
+import type { Stage } from "./stage.ts";
+
+/** The held sphere is to be where the pointer is after this long. */
+const reach = 0.1;
+/** Pixels beside a sphere at which it is still grabbed. */
+const slack = 12;
+
+export class Hand {
+  /** The body that is held. */
+  body: number | null = null;
+  private readonly ray = new Raycaster();
+  private readonly pointer = new Vector2();
+  private readonly plane = new Plane();
+  /** From the place of the pointer on the plane to the middle of the sphere. */
+  private readonly offset = new Vector3();
+  private pointerId = -1;
+
+  /** `simulation` is null while nothing can be pushed. */
+  constructor(private readonly stage: Stage, private readonly simulation: () => Simulation | null) {
+    const { canvas } = stage;
+    // Before the controls of the camera hear of it.
+    canvas.addEventListener("pointerdown", (event) => this.grab(event), { capture: true });
+    canvas.addEventListener("pointermove", (event) => this.follow(event));
+    for (const name of ["pointerup", "pointercancel", "lostpointercapture"] as const)
+      canvas.addEventListener(name, (event) => {
+        if (event.pointerId === this.pointerId) this.release();
+      });
+  }
+
+  /** Gives the held sphere the velocity that brings it to the pointer, when a second lasts `speed` simulated ones. */
+  pull(speed: number): void {
+    const simulation = this.simulation();
+    if (this.body === null || simulation === null) return;
+    const target = this.target();
+    if (target === null) return;
+    const radius = simulation.radii()[this.body]!;
+    const { box } = simulation;
+    const positions = simulation.positions();
+    const velocity = new Vector3();
+    for (let axis = 0; axis < 3; ++axis) {
+      let goal = target.getComponent(axis);
+      if (box !== null) goal = Math.min(Math.max(goal, box.lower[axis]! + radius), box.upper[axis]! - radius);
+      velocity.setComponent(axis, (goal - positions[3 * this.body + axis]!) / (reach * speed));
+    }
+    velocity.clampLength(0, (3 * this.stage.extent.radius) / Math.max(speed, 1e-3));
+    simulation.setVelocity(this.body, velocity.toArray());
+  }
+
+  release(): void {
+    this.body = null;
+    this.pointerId = -1;
+    this.stage.controls.enabled = true;
+    this.stage.canvas.classList.remove("holding");
+  }
+
+  /** The body that is seen at a place of the page, if there is one. */
+  bodyAt(x: number, y: number): number | null {
+    const simulation = this.simulation();
+    if (simulation === null) return null;
+    this.aim(x, y);
+    const { origin, direction } = this.ray.ray;
+    const positions = simulation.positions();
+    const radii = simulation.radii();
+    const { camera, canvas } = this.stage;
+    const slackPerDistance = (2 * slack * Math.tan((camera.fov * Math.PI) / 360)) / canvas.clientHeight;
+    const middle = new Vector3();
+    let found: number | null = null;
+    let foundHit = false;
+    let least = Infinity;
+    for (let k = 0; k < radii.length; ++k) {
+      middle.fromArray(positions, 3 * k).sub(origin);
+      const along = middle.dot(direction);
+      if (along <= camera.near) continue;
+      const aside = Math.sqrt(Math.max(middle.lengthSq() - along * along, 0)) - radii[k]!;
+      const near = slackPerDistance * along;
+      if (aside > near) continue;
+      // Whoever is hit comes before all that are only near to the ray.
+      const hit = aside <= 0;
+      const order = hit ? along - radii[k]! : aside / near;
+      if (hit === foundHit ? order < least : hit) {
+        least = order;
+        found = k;
+        foundHit = hit;
+      }
+    }
+    return found;
+  }
+
+  private grab(event: PointerEvent): void {
+    if (this.body !== null || event.button !== 0) return;
+    const body = this.bodyAt(event.clientX, event.clientY);
+    const simulation = this.simulation();
+    if (body === null || simulation === null) return;
+    const middle = new Vector3().fromArray(simulation.positions(), 3 * body);
+    this.plane.setFromNormalAndCoplanarPoint(this.stage.camera.getWorldDirection(new Vector3()), middle);
+    const under = this.ray.ray.intersectPlane(this.plane, new Vector3());
+    if (under === null) return;
+    this.offset.subVectors(middle, under);
+    this.body = body;
+    this.pointerId = event.pointerId;
+    this.stage.controls.enabled = false;
+    this.stage.canvas.classList.add("holding");
+    this.stage.canvas.setPointerCapture(event.pointerId);
+  }
+
+  private follow(event: PointerEvent): void {
+    if (event.pointerId === this.pointerId) this.aim(event.clientX, event.clientY);
+  }
+
+  private aim(x: number, y: number): void {
+    const frame = this.stage.canvas.getBoundingClientRect();
+    this.pointer.set((2 * (x - frame.left)) / frame.width - 1, 1 - (2 * (y - frame.top)) / frame.height);
+    this.stage.camera.updateMatrixWorld();
+    this.ray.setFromCamera(this.pointer, this.stage.camera);
+  }
+
+  private target(): Vector3 | null {
+    return this.ray.ray.intersectPlane(this.plane, new Vector3())?.add(this.offset) ?? null;
+  }
+}

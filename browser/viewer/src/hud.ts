@@ -1,0 +1,95 @@
+// The numbers at the edge of the picture, and messages.
+import type { Shown } from "./shown.ts";
+
+interface Row {
+  value: HTMLElement;
+  note: HTMLElement;
+  row: HTMLElement;
+}
+
+/** Means over the last pictures, in milliseconds. */
+export interface Times {
+  engine: number;
+  drawing: number;
+  /** From one picture to the next. */
+  frame: number;
+}
+
+const whole = new Intl.NumberFormat("en", { maximumFractionDigits: 0 });
+
+function short(count: number): string {
+  return count < 100_000 ? whole.format(count) : `${(count / 1000).toFixed(0)}k`;
+}
+
+export class Hud {
+  private readonly title = document.querySelector<HTMLElement>("#title")!;
+  private readonly about = document.querySelector<HTMLElement>("#about")!;
+  private readonly message = document.querySelector<HTMLElement>("#message")!;
+  private readonly messageText = document.querySelector<HTMLElement>("#message-text")!;
+  private readonly list = document.querySelector<HTMLElement>("#numbers")!;
+  private readonly time = this.row("time", "Simulated seconds");
+  private readonly contacts = this.row("contacts", "Contacts of two bodies, each told at its exact time");
+  private readonly missed = this.row("missed by 60 Hz", "Contacts that a loop which looks 60 times per second would not see", "bad");
+  private readonly crossings = this.row("crossings", "Flights through the zone, each told");
+  private readonly probes = this.row("states asked", "Per second of simulated time; a loop asks every body 60 times");
+  private readonly engine = this.row("engine", "Time of the library for one picture");
+  private readonly drawing = this.row("drawing", "Time of the page for one picture, and pictures per second");
+  private readonly violations = this.row("broken promises", "Bodies that moved as they had promised not to");
+  private readonly hash = this.row("hash", "Of all events so far: the same for every run of the scene, here and in the native library");
+
+  constructor() {
+    document.querySelector("#message-close")!.addEventListener("click", () => this.hideMessage());
+  }
+
+  show(shown: Shown): void {
+    this.title.textContent = shown.title;
+    this.about.textContent = shown.about;
+    this.crossings.row.hidden = shown.zone === null;
+  }
+
+  update(shown: Shown, times: Times): void {
+    const { tally, bodyCount } = shown;
+    this.put(this.time, `${shown.time.toFixed(3)} s`, `${whole.format(bodyCount)} bodies`);
+    this.put(this.contacts, short(tally.contacts), tally.wallContacts > 0 ? `+ ${short(tally.wallContacts)} at walls` : "");
+    const share = tally.contacts === 0 ? 0 : tally.missed / tally.contacts;
+    this.put(this.missed, short(tally.missed), tally.contacts === 0 ? "" : `${(100 * share).toFixed(0)} %`);
+    if (shown.zone !== null)
+      this.put(this.crossings, short(tally.crossings), `a loop sees ${short(tally.crossings - tally.missedCrossings)}`);
+    const asked = shown.probesPerSecond;
+    const ofLoop = 60 * bodyCount;
+    this.put(this.probes, `${short(asked)} /s`, asked > 0 ? `loop: ${short(ofLoop)}, ${(ofLoop / asked).toFixed(0)}×` : "");
+    this.put(this.engine, `${times.engine.toFixed(2)} ms`, "per picture");
+    this.put(this.drawing, `${times.drawing.toFixed(2)} ms`, times.frame > 0 ? `${(1000 / times.frame).toFixed(0)} fps` : "");
+    this.put(this.violations, short(tally.violations), "");
+    this.violations.row.classList.toggle("bad", tally.violations > 0);
+    this.put(this.hash, shown.hash, "");
+  }
+
+  say(text: string, isError = false): void {
+    this.messageText.textContent = text;
+    this.message.classList.toggle("error", isError);
+    this.message.hidden = false;
+  }
+  hideMessage(): void {
+    this.message.hidden = true;
+  }
+
+  private row(label: string, hint: string, kind = ""): Row {
+    const row = document.createElement("div");
+    row.className = `row ${kind}`;
+    row.title = hint;
+    const name = document.createElement("dt");
+    name.textContent = label;
+    const value = document.createElement("dd");
+    const note = document.createElement("dd");
+    note.className = "note";
+    row.append(name, value, note);
+    row.dataset["name"] = label;
+    this.list.append(row);
+    return { value, note, row };
+  }
+  private put(row: Row, value: string, note: string): void {
+    if (row.value.textContent !== value) row.value.textContent = value;
+    if (row.note.textContent !== note) row.note.textContent = note;
+  }
+}

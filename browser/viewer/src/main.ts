@@ -1,0 +1,251 @@
+// The page: what is shown, and what keys, buttons and files do.
+import { KinesphereError, load } from "kinesphere";
+import { Color } from "three";
+import { along, bright, dark, type Palette, placeOfDuration, placesOfSizes, safeDurations } from "./colours.ts";
+import { Hand } from "./hand.ts";
+import { Hud, type Times } from "./hud.ts";
+import { Overlays } from "./overlays.ts";
+import { makePanel } from "./panel.ts";
+import { Recording } from "./recording.ts";
+import { sceneAbout, scenes } from "./scenes.ts";
+import { type Colouring, firstSettings, type Theme } from "./settings.ts";
+import type { Shown, Told } from "./shown.ts";
+import { Simulation } from "./simulation.ts";
+import { Stage } from "./stage.ts";
+import "./style.css";
+
+/** Milliseconds that the engine may take for one picture; what is not done then is left for the next. */
+const engineBudget = 14;
+/** Seconds between two pictures that simulated time follows at most. */
+const longestFrame = 0.05;
+
+const element = <E extends HTMLElement>(id: string): E => document.querySelector<E>(`#${id}`)!;
+
+const calmQuery = matchMedia("(prefers-reduced-motion: reduce)");
+const darkQuery = matchMedia("(prefers-color-scheme: dark)");
+
+const settings = firstSettings();
+const hud = new Hud();
+try {
+  await load();
+} catch (error) {
+  hud.say(`The library could not be loaded. ${(error as Error).message}`, true);
+  throw error;
+}
+const stage = new Stage(element<HTMLCanvasElement>("picture"));
+const overlays = new Overlays(stage.scene);
+let palette: Palette = dark;
+let shown: Shown;
+let sizePlaces: Float64Array = new Float64Array(0);
+let told: Told[] = [];
+const times: Times = { engine: 0, drawing: 0, frame: 0 };
+const hand = new Hand(stage, () => (shown instanceof Simulation ? shown : null));
+
+function show(next: Shown): void {
+  hand.release();
+  shown?.free();
+  shown = next;
+  sizePlaces = placesOfSizes(shown.radii());
+  told = [];
+  stage.show(shown);
+  overlays.show(shown);
+  hud.show(shown);
+  hud.update(shown, times);
+}
+
+function restart(): void {
+  try {
+    show(new Simulation({ name: settings.scene, bodies: settings.bodies, seed: settings.seed }));
+  } catch (error) {
+    sayError(error);
+  }
+}
+
+function chooseScene(): void {
+  const { bodies, speed } = sceneAbout(settings.scene);
+  settings.bodies = bodies;
+  settings.speed = speed;
+  refreshPanel();
+  restart();
+}
+
+function repaint(): void {
+  const isDark = settings.theme === "system" ? darkQuery.matches : settings.theme === "dark";
+  palette = isDark ? dark : bright;
+  document.documentElement.dataset["theme"] = isDark ? "dark" : "bright";
+  stage.paint(palette);
+  overlays.paint(palette, isDark);
+}
+
+function sayError(error: unknown): void {
+  hud.say(error instanceof Error ? error.message : String(error), true);
+}
+
+function setPlaying(playing: boolean): void {
+  settings.playing = playing;
+  element("play").setAttribute("aria-label", playing ? "Pause" : "Play");
+  document.querySelector("#play-shape")!.setAttribute("d", playing ? "M7 5h4v14H7zM13 5h4v14h-4z" : "M7 4.5l12 7.5-12 7.5z");
+}
+
+/** What the engine is asked to do; what it refuses is said, and stops the play. */
+function attempt(action: () => Told[] | void): void {
+  const start = performance.now();
+  try {
+    told.push(...(action() ?? []));
+  } catch (error) {
+    setPlaying(false);
+    sayError(error);
+  }
+  times.engine += 0.1 * (performance.now() - start - times.engine);
+}
+
+const next = () => {
+  setPlaying(false);
+  attempt(() => shown.nextEvent());
+  hud.update(shown, times);
+};
+const back = () => {
+  hand.release();
+  attempt(() => shown.back(1));
+  hud.update(shown, times);
+};
+
+async function openRecording(file: File): Promise<void> {
+  try {
+    show(new Recording(file.name, new Uint8Array(await file.arrayBuffer())));
+    hud.hideMessage();
+    setPlaying(true);
+  } catch (error) {
+    const message = error instanceof Error ? error.message : String(error);
+    hud.say(error instanceof KinesphereError ? `${file.name} cannot be shown. ${message}` : message, true);
+  }
+}
+
+const panel = makePanel(settings, { chooseScene, restart, repaint, openFile: () => element("file").click() });
+const refreshPanel = () => panel.controllersRecursive().forEach((controller) => controller.updateDisplay());
+
+const cycle = <T>(values: readonly T[], value: T): T => values[(values.indexOf(value) + 1) % values.length]!;
+
+const keys: Record<string, () => void> = {
+  " ": () => setPlaying(!settings.playing),
+  ".": next,
+  ",": back,
+  r: restart,
+  v: () => stage.lookFromFront(),
+  c: () => void (settings.colouring = cycle<Colouring>(["size", "asked", "safe"], settings.colouring)),
+  b: () => void (settings.overlays.bounds = !settings.overlays.bounds),
+  l: () => void (settings.overlays.certificates = !settings.overlays.certificates),
+  t: () => {
+    settings.theme = cycle<Theme>(["dark", "bright"], palette === dark ? "dark" : "bright");
+    repaint();
+  },
+  "?": () => element<HTMLDialogElement>("help").showModal(),
+  ...Object.fromEntries(scenes.map(({ name }, k) => [String(k + 1), () => {
+    settings.scene = name;
+    chooseScene();
+  }])),
+};
+addEventListener("keydown", (event) => {
+  if (event.ctrlKey || event.metaKey || event.altKey || element<HTMLDialogElement>("help").open) return;
+  const target = event.target as HTMLElement;
+  if (target.matches("input, select, textarea") || (event.key === " " && target.matches("button"))) return;
+  const action = keys[event.key.toLowerCase()];
+  if (action === undefined) return;
+  event.preventDefault();
+  action();
+  refreshPanel();
+});
+for (const [id, key] of [["restart", "r"], ["back", ","], ["play", " "], ["next", "."], ["help-open", "?"]] as const)
+  element(id).addEventListener("click", keys[key]!);
+element<HTMLInputElement>("file").addEventListener("change", (event) => {
+  const input = event.target as HTMLInputElement;
+  const file = input.files?.[0];
+  if (file !== undefined) void openRecording(file);
+  input.value = "";
+});
+addEventListener("dragover", (event) => {
+  event.preventDefault();
+  document.body.classList.add("dropping");
+});
+addEventListener("dragleave", (event) => {
+  if (event.relatedTarget === null) document.body.classList.remove("dropping");
+});
+addEventListener("drop", (event) => {
+  event.preventDefault();
+  document.body.classList.remove("dropping");
+  const file = event.dataTransfer?.files[0];
+  if (file !== undefined) void openRecording(file);
+});
+darkQuery.addEventListener("change", repaint);
+
+const colour = new Color();
+
+function draw(seconds: number): void {
+  const { overlays: on, colouring } = settings;
+  const needsViews = on.probes || on.bounds || on.boxes || on.certificates || colouring !== "size";
+  const views = needsViews ? shown.views() : null;
+  const positions = shown.positions();
+  const radii = shown.radii();
+  // Bodies may come and go in a recording.
+  if (sizePlaces.length !== radii.length) sizePlaces = placesOfSizes(radii);
+  overlays.tell(told, shown, stage.extent.radius);
+  told = [];
+  const { clientHeight } = stage.canvas;
+  const pixels = (clientHeight * Math.min(devicePixelRatio, 2)) / (2 * Math.tan((stage.camera.fov * Math.PI) / 360));
+  overlays.update(shown, views, positions, settings, seconds, calmQuery.matches, pixels);
+  const safe = colouring === "safe" ? safeDurations(shown, views!) : null;
+  const { time } = shown.view;
+  stage.draw(positions, radii, (body) => {
+    if (body === hand.body) return colour.copy(palette.held);
+    if (safe !== null) along(palette.times, placeOfDuration(safe[body]!), colour);
+    else if (colouring === "asked") along(palette.times, placeOfDuration(time - views![body]!.reportTime), colour);
+    else along(palette.sizes, sizePlaces[body]!, colour);
+    const glow = overlays.glow[body] ?? 0;
+    return glow > 0.01 ? colour.lerp(palette.probe, 0.6 * glow) : colour;
+  });
+  stage.render();
+}
+
+let last = performance.now();
+let hudTime = 0;
+
+function frame(now: number): void {
+  requestAnimationFrame(frame);
+  const seconds = Math.min(Math.max((now - last) / 1000, 0), longestFrame);
+  times.frame += 0.1 * (now - last - times.frame);
+  last = now;
+  if (settings.playing) {
+    attempt(() => {
+      hand.pull(settings.speed);
+      return shown.run(shown.time + seconds * settings.speed, performance.now() + engineBudget);
+    });
+    if (shown.time >= shown.endTime) setPlaying(false);
+  }
+  const start = performance.now();
+  draw(seconds);
+  times.drawing += 0.1 * (performance.now() - start - times.drawing);
+  viewer.firstPicture ??= performance.now();
+  if (now - hudTime < 200) return;
+  hudTime = now;
+  hud.update(shown, times);
+}
+
+/** For tests, and for whoever looks at it in the console. */
+const viewer = {
+  get simulation(): Shown { return shown; },
+  settings,
+  stage,
+  hand,
+  times,
+  setPlaying,
+  /** Milliseconds from the start of the page's loading. */
+  firstPicture: null as number | null,
+};
+declare global {
+  interface Window { kinesphereViewer: typeof viewer }
+}
+window.kinesphereViewer = viewer;
+
+repaint();
+chooseScene();
+requestAnimationFrame(frame);

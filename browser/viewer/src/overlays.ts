@@ -1,0 +1,287 @@
+// What the engine knows and tells, drawn over the spheres.
+import type { BodyView, Box } from "kinesphere";
+import {
+  BoxGeometry, BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, InstancedMesh, LineBasicMaterial, LineSegments,
+  Mesh, MeshBasicMaterial, NormalBlending, Points, type Scene, ShaderMaterial, AdditiveBlending,
+} from "three";
+import { along, type Palette, placeOfDuration } from "./colours.ts";
+import type { Settings } from "./settings.ts";
+import { type Shown, type Told, wrapInto } from "./shown.ts";
+import { putSphere, unitSphere } from "./stage.ts";
+
+const sparkCount = 512;
+
+const sparkVertices = `
+  attribute vec4 tint;
+  attribute float size;
+  uniform float pixels;
+  varying vec4 colour;
+  void main() {
+    colour = tint;
+    vec4 place = modelViewMatrix * vec4(position, 1.0);
+    gl_Position = projectionMatrix * place;
+    gl_PointSize = clamp(size * pixels / -place.z, 0.0, 96.0);
+  }`;
+const sparkFragments = `
+  varying vec4 colour;
+  void main() {
+    float away = 2.0 * length(gl_PointCoord - 0.5);
+    float shine = smoothstep(1.0, 0.0, away);
+    gl_FragColor = vec4(colour.rgb, colour.a * shine * shine);
+    #include <colorspace_fragment>
+  }`;
+
+/** Lines of which the number changes from picture to picture. */
+class Lines {
+  readonly object: LineSegments<BufferGeometry, LineBasicMaterial>;
+  private points = new Float32Array(0);
+  private colours = new Float32Array(0);
+  private count = 0;
+  constructor(opacity: number) {
+    this.object = new LineSegments(new BufferGeometry(),
+      new LineBasicMaterial({ vertexColors: true, transparent: true, opacity, depthWrite: false }));
+    this.object.frustumCulled = false;
+    this.object.visible = false;
+  }
+  begin(lines: number): void {
+    this.count = 0;
+    if (6 * lines <= this.points.length) return;
+    this.points = new Float32Array(9 * lines);
+    this.colours = new Float32Array(9 * lines);
+    this.object.geometry.dispose();
+    this.object.geometry = new BufferGeometry()
+      .setAttribute("position", new BufferAttribute(this.points, 3).setUsage(DynamicDrawUsage))
+      .setAttribute("color", new BufferAttribute(this.colours, 3).setUsage(DynamicDrawUsage));
+  }
+  point(x: number, y: number, z: number, colour: Color): void {
+    const at = 3 * this.count++;
+    this.points[at] = x;
+    this.points[at + 1] = y;
+    this.points[at + 2] = z;
+    this.colours[at] = colour.r;
+    this.colours[at + 1] = colour.g;
+    this.colours[at + 2] = colour.b;
+  }
+  /** The twelve edges of a box. */
+  box(lower: ArrayLike<number>, upper: ArrayLike<number>, colour: Color): void {
+    const corner = (bits: number) => this.point((bits & 1 ? upper : lower)[0]!, (bits & 2 ? upper : lower)[1]!,
+                                                (bits & 4 ? upper : lower)[2]!, colour);
+    for (let from = 0; from < 8; ++from) {
+      for (const bit of [1, 2, 4]) {
+        if (from & bit) continue;
+        corner(from);
+        corner(from | bit);
+      }
+    }
+  }
+  end(): void {
+    const { geometry } = this.object;
+    geometry.setDrawRange(0, this.count);
+    for (const name of ["position", "color"]) {
+      const attribute = geometry.getAttribute(name);
+      if (attribute !== undefined) attribute.needsUpdate = true;
+    }
+    this.object.visible = this.count > 0;
+  }
+  hide(): void {
+    this.object.visible = false;
+  }
+}
+
+export class Overlays {
+  /** By body from 0 to 1: it has been asked just now. */
+  glow = new Float32Array(0);
+  private reportTimes = new Float64Array(0);
+  private bounds: InstancedMesh | null = null;
+  private readonly boundMaterial = new MeshBasicMaterial({ transparent: true, opacity: 0.13, depthWrite: false });
+  private readonly boxes = new Lines(0.45);
+  private readonly cells = new Lines(0.35);
+  private readonly certificates = new Lines(0.9);
+  private readonly zoneMaterial = new MeshBasicMaterial({ transparent: true, opacity: 0.2, depthWrite: false });
+  private zone: Mesh | null = null;
+  private zoneFlash = 0;
+  /** Of each spark: how much of its life is left, from 1 to 0, and how bright it begins. */
+  private readonly life = new Float32Array(sparkCount);
+  private readonly strength = new Float32Array(sparkCount);
+  private readonly places = new BufferAttribute(new Float32Array(3 * sparkCount), 3);
+  private readonly tints = new BufferAttribute(new Float32Array(4 * sparkCount), 4);
+  private readonly sizes = new BufferAttribute(new Float32Array(sparkCount), 1);
+  private readonly sparkMaterial = new ShaderMaterial({
+    vertexShader: sparkVertices, fragmentShader: sparkFragments, transparent: true, depthWrite: false, depthTest: false,
+    uniforms: { pixels: { value: 1000 } },
+  });
+  private nextSpark = 0;
+  private palette: Palette | null = null;
+  private readonly colour = new Color();
+
+  constructor(private readonly scene: Scene) {
+    const sparks = new Points(new BufferGeometry().setAttribute("position", this.places)
+      .setAttribute("tint", this.tints).setAttribute("size", this.sizes), this.sparkMaterial);
+    sparks.frustumCulled = false;
+    sparks.renderOrder = 3;
+    scene.add(sparks, this.boxes.object, this.cells.object, this.certificates.object);
+  }
+
+  paint(palette: Palette, isDark: boolean): void {
+    this.palette = palette;
+    this.boundMaterial.color = palette.zone;
+    this.zoneMaterial.color = palette.zone;
+    this.sparkMaterial.blending = isDark ? AdditiveBlending : NormalBlending;
+  }
+
+  show(shown: Shown): void {
+    this.life.fill(0);
+    this.glow = new Float32Array(0);
+    if (this.zone !== null) {
+      this.scene.remove(this.zone);
+      this.zone.geometry.dispose();
+      this.zone = null;
+    }
+    if (shown.zone !== null) this.zone = this.zoneMesh(shown.zone);
+  }
+
+  /** Sparks where things have touched. */
+  tell(told: readonly Told[], shown: Shown, extent: number): void {
+    for (const { event, missed } of told) {
+      if (event.kind === "sensor_enter") {
+        this.zoneFlash = 1;
+        this.spark(event.firstState.position, this.palette!.zone, 0.9, extent / 16);
+      } else if (event.kind === "contact_begin") {
+        const point = wrapInto(event.point.slice(), shown.box, shown.periodic);
+        const colour = missed ? this.palette!.missed : this.palette!.contact;
+        this.spark(point, colour, missed ? 1 : 0.75, extent / (missed ? 14 : 22));
+      } else if (event.kind === "wall_begin") {
+        this.spark(event.point, this.palette!.contact, 0.3, extent / 30);
+      }
+    }
+  }
+
+  /** `views` are there when something is on that needs them. */
+  update(shown: Shown, views: readonly BodyView[] | null, positions: Float64Array, settings: Settings,
+         seconds: number, calm: boolean, pixels: number): void {
+    const on = settings.overlays;
+    this.fadeSparks(on.contacts ? seconds : Infinity, calm);
+    this.sparkMaterial.uniforms["pixels"]!.value = pixels;
+    this.zoneFlash *= Math.exp(-seconds / (calm ? 2 : 0.25));
+    this.zoneMaterial.opacity = 0.16 + (calm ? 0.12 : 0.45) * this.zoneFlash;
+    if (views !== null && on.probes) this.followProbes(views, seconds, calm);
+    else this.glow.fill(0);
+    if (views !== null && on.bounds) this.drawBounds(shown, views);
+    else if (this.bounds !== null) this.bounds.visible = false;
+    if (views !== null && on.boxes) this.drawBoxes(views);
+    else this.boxes.hide();
+    if (on.cells) this.drawCells(shown);
+    else this.cells.hide();
+    if (views !== null && on.certificates) this.drawCertificates(shown, views, positions);
+    else this.certificates.hide();
+  }
+
+  private zoneMesh(box: Box): Mesh {
+    const size = [0, 1, 2].map((axis) => box.upper[axis]! - box.lower[axis]!);
+    const mesh = new Mesh(new BoxGeometry(size[0], size[1], size[2]), this.zoneMaterial);
+    mesh.position.set((box.lower[0]! + box.upper[0]!) / 2, (box.lower[1]! + box.upper[1]!) / 2,
+                      (box.lower[2]! + box.upper[2]!) / 2);
+    mesh.renderOrder = 2;
+    this.scene.add(mesh);
+    return mesh;
+  }
+
+  private spark(place: ArrayLike<number>, colour: Color, strength: number, size: number): void {
+    const k = this.nextSpark;
+    this.nextSpark = (k + 1) % sparkCount;
+    this.life[k] = 1;
+    this.strength[k] = strength;
+    this.places.setXYZ(k, place[0]!, place[1]!, place[2]!);
+    this.tints.setXYZW(k, colour.r, colour.g, colour.b, 0);
+    this.sizes.setX(k, size);
+  }
+
+  private fadeSparks(seconds: number, calm: boolean): void {
+    const duration = calm ? 3 : 0.6;
+    for (let k = 0; k < sparkCount; ++k) {
+      this.life[k] = Math.max(0, this.life[k]! - seconds / duration);
+      // Calm ones come up slowly as well.
+      const shape = calm ? 0.35 * Math.min(1, 4 * (1 - this.life[k]!)) : 1;
+      this.tints.setW(k, this.strength[k]! * this.life[k]! * shape);
+    }
+    for (const attribute of [this.places, this.tints, this.sizes]) attribute.needsUpdate = true;
+  }
+
+  private followProbes(views: readonly BodyView[], seconds: number, calm: boolean): void {
+    if (this.glow.length !== views.length) {
+      this.glow = new Float32Array(views.length);
+      this.reportTimes = Float64Array.from(views, (view) => view.reportTime);
+    }
+    const fade = Math.exp(-seconds / (calm ? 1.5 : 0.18));
+    for (let k = 0; k < views.length; ++k) {
+      this.glow[k]! *= fade;
+      if (views[k]!.reportTime === this.reportTimes[k]) continue;
+      this.reportTimes[k] = views[k]!.reportTime;
+      this.glow[k] = calm ? Math.min(0.3, this.glow[k]! + 0.4 * seconds) : 1;
+    }
+  }
+
+  private drawBounds(shown: Shown, views: readonly BodyView[]): void {
+    if (this.bounds === null || this.bounds.instanceMatrix.count !== views.length) {
+      if (this.bounds !== null) {
+        this.scene.remove(this.bounds);
+        this.bounds.geometry.dispose();
+        this.bounds.dispose();
+      }
+      this.bounds = new InstancedMesh(unitSphere(4 * views.length), this.boundMaterial, views.length);
+      this.bounds.frustumCulled = false;
+      this.bounds.renderOrder = 1;
+      this.scene.add(this.bounds);
+    }
+    const centre = new Float64Array(3);
+    for (let k = 0; k < views.length; ++k) {
+      centre.set(views[k]!.centre);
+      wrapInto(centre, shown.box, shown.periodic);
+      putSphere(this.bounds.instanceMatrix.array, k, centre[0]!, centre[1]!, centre[2]!, views[k]!.boundRadius * 1.01);
+    }
+    this.bounds.instanceMatrix.needsUpdate = true;
+    this.bounds.visible = true;
+  }
+
+  private drawBoxes(views: readonly BodyView[]): void {
+    this.boxes.begin(12 * views.length);
+    for (const { box } of views) this.boxes.box(box.lower, box.upper, this.palette!.line);
+    this.boxes.end();
+  }
+
+  private drawCells(shown: Shown): void {
+    const cells = shown.view.cells();
+    this.cells.begin((12 * cells.length) / 7);
+    for (let at = 0; at < cells.length; at += 7) {
+      const full = Math.log2(1 + cells[at + 6]!) / 5;
+      this.cells.box(cells.subarray(at, at + 3), cells.subarray(at + 3, at + 6),
+                     along(this.palette!.times, 0.8 - full, this.colour));
+    }
+    this.cells.end();
+  }
+
+  /** Lines between pairs, in the colour of how long they are safe. */
+  private drawCertificates(shown: Shown, views: readonly BodyView[], positions: Float64Array): void {
+    const certificates = shown.view.certificates();
+    const places = new Map(views.map((view, k) => [view.id, k]));
+    const { box, periodic } = shown;
+    this.certificates.begin(certificates.length / 3);
+    for (let at = 0; at < certificates.length; at += 3) {
+      const first = places.get(certificates[at]!);
+      const second = places.get(certificates[at + 1]!);
+      if (first === undefined || second === undefined) continue;
+      along(this.palette!.times, placeOfDuration(certificates[at + 2]! - shown.view.time), this.colour);
+      const from = positions.subarray(3 * first, 3 * first + 3);
+      const to = positions.slice(3 * second, 3 * second + 3);
+      // Where space repeats, the line goes to the nearest image.
+      for (let axis = 0; box !== null && axis < 3; ++axis) {
+        if (!periodic[axis]) continue;
+        const size = box.upper[axis]! - box.lower[axis]!;
+        to[axis]! -= size * Math.round((to[axis]! - from[axis]!) / size);
+      }
+      this.certificates.point(from[0]!, from[1]!, from[2]!, this.colour);
+      this.certificates.point(to[0]!, to[1]!, to[2]!, this.colour);
+    }
+    this.certificates.end();
+  }
+}

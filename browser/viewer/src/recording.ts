@@ -1,0 +1,102 @@
+// A recording that is shown: bodies are drawn in the middle of their bounds, as nothing else is recorded of them.
+import { type BodyView, type Box, EventHash, Replay, type WorldView } from "kinesphere";
+import { isMissedByLoop } from "./missed.ts";
+import { emptyTally, RecentRate, type Shown, type Tally, type Told, wrapInto } from "./shown.ts";
+
+export class Recording implements Shown {
+  readonly about = "A recording, gone through again. Bodies are drawn in the middle of their bounds.";
+  readonly zone = null;
+  readonly box: Box | null;
+  readonly periodic: readonly boolean[];
+  private replay: Replay;
+  private events = new EventHash();
+  private counts = emptyTally();
+  private rate = new RecentRate();
+  private shownTime: number;
+
+  /** Throws KinesphereError for bytes that are no recording. */
+  constructor(readonly title: string, private readonly bytes: Uint8Array) {
+    this.replay = new Replay(bytes);
+    const { box, periodic } = this.replay.world.definition;
+    this.box = box ?? null;
+    this.periodic = [periodic.x === true, periodic.y === true, periodic.z === true];
+    // Bodies are added in the first steps.
+    while (!this.replay.finished && this.replay.world.size === 0) this.step([]);
+    this.shownTime = this.replay.world.time;
+  }
+
+  get time(): number { return this.shownTime; }
+  get endTime(): number { return this.replay.finished ? this.replay.world.time : Infinity; }
+  get view(): WorldView { return this.replay.world; }
+  get tally(): Tally { return this.counts; }
+  get hash(): string { return this.events.value; }
+  get probesPerSecond(): number { return this.rate.value; }
+  get bodyCount(): number { return this.replay.world.size; }
+
+  radii(): Float64Array {
+    return Float64Array.from(this.views(), (view) => view.radius);
+  }
+  positions(): Float64Array {
+    const views = this.views();
+    const positions = new Float64Array(3 * views.length);
+    // The world stands at the end of a recorded step, which may be a little later than what is shown.
+    const early = this.replay.world.time - this.shownTime;
+    views.forEach(({ centre, reported }, k) => {
+      for (let axis = 0; axis < 3; ++axis) positions[3 * k + axis] = centre[axis]! - early * reported.velocity[axis]!;
+    });
+    return wrapInto(positions, this.box, this.periodic);
+  }
+  views(): BodyView[] {
+    return this.replay.world.bodyViews().filter((view) => !view.fixed);
+  }
+
+  run(until: number, deadline = Infinity): Told[] {
+    const told: Told[] = [];
+    while (!this.replay.finished && this.replay.world.time < until && performance.now() <= deadline) this.step(told);
+    this.shownTime = Math.min(until, this.replay.world.time);
+    return told;
+  }
+
+  nextEvent(): Told[] {
+    const told: Told[] = [];
+    while (!this.replay.finished && told.length === 0) this.step(told);
+    this.shownTime = this.replay.world.time;
+    return told;
+  }
+
+  /** A recording is gone through from its start again. */
+  back(seconds: number): void {
+    const target = this.shownTime - seconds;
+    this.replay.free();
+    this.replay = new Replay(this.bytes);
+    this.events = new EventHash();
+    this.counts = emptyTally();
+    this.rate.clear();
+    while (!this.replay.finished && this.replay.world.size === 0) this.step([]);
+    this.run(Math.max(target, this.replay.world.time));
+  }
+
+  free(): void {
+    this.replay.free();
+  }
+
+  private step(told: Told[]): void {
+    const event = this.replay.advance();
+    const { world } = this.replay;
+    this.rate.add(world.time, world.counters.probes);
+    if (event === null) return;
+    this.events.add(event);
+    let missed = false;
+    if (event.kind === "contact_begin") {
+      const [first, second] = world.bodyViews([event.first, event.second!]);
+      missed = isMissedByLoop(event, first!.radius + second!.radius);
+      this.counts.contacts += 1;
+      if (missed) this.counts.missed += 1;
+    } else if (event.kind === "wall_begin") {
+      this.counts.wallContacts += 1;
+    } else if (event.kind === "bound_violation") {
+      this.counts.violations += 1;
+    }
+    told.push({ event, missed });
+  }
+}

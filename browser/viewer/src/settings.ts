@@ -1,0 +1,32 @@
+// What can be chosen on the page.
+export type Colouring = "size" | "asked" | "safe";
+export type Theme = "system" | "dark" | "bright";
+
+export interface Settings {
+  scene: string;
+  bodies: number;
+  seed: number;
+  speed: number;
+  playing: boolean;
+  colouring: Colouring;
+  theme: Theme;
+  overlays: {
+    contacts: boolean;
+    probes: boolean;
+    bounds: boolean;
+    boxes: boolean;
+    cells: boolean;
+    certificates: boolean;
+  };
+}
+
+export const firstSettings = (): Settings => ({
+  scene: "paper1",
+  bodies: 500,
+  seed: 1,
+  speed: 2,
+  playing: true,
+  colouring: "size",
+  theme: "system",
+  overlays: { contacts: true, probes: true, bounds: false, boxes: false, cells: false, certificates: false },
+});
