@@ -46,7 +46,7 @@ export const bright: Palette = {
   zone: new Color("#009f98"),
   sizes: colours("#f0b429", "#ee7445", "#d24480", "#7c4fd0", "#2f68d8"),
   times: colours("#e2382c", "#ee9a2b", "#45b392", "#4a8ad8", "#a9b6d3"),
-  light: 1.15,
+  light: 1.45,
 };
 
 /** Sets `colour` to the place in the row of colours, from 0 to 1. */
@@ -61,7 +61,7 @@ export function placeOfDuration(seconds: number): number {
   return Math.log10(Math.max(seconds, 1e-3) / 1e-3) / 3;
 }
 
-/** By body from 0 to 1: sizes by their logarithm; equal ones differ by their numbers. */
+/** By body from 0 to 1: smallest to largest; equal ones differ by their numbers. */
 export function placesOfSizes(radii: Float64Array): Float64Array {
   let least = Infinity;
   let most = 0;
@@ -70,7 +70,7 @@ export function placesOfSizes(radii: Float64Array): Float64Array {
     most = Math.max(most, radius);
   }
   if (most <= least * 1.001) return radii.map((_, k) => (k * 0.618034) % 1);
-  return radii.map((radius) => Math.log(radius / least) / Math.log(most / least));
+  return radii.map((radius) => (radius - least) / (most - least));
 }
 
 /** By body, how long it certainly touches nobody: a lower bound that costs little. */

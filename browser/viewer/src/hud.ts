@@ -57,7 +57,7 @@ export class Hud {
       this.put(this.crossings, short(tally.crossings), `a loop sees ${short(tally.crossings - tally.missedCrossings)}`);
     const asked = shown.probesPerSecond;
     const ofLoop = 60 * bodyCount;
-    this.put(this.probes, `${short(asked)} /s`, asked > 0 ? `loop: ${short(ofLoop)}, ${(ofLoop / asked).toFixed(0)}×` : "");
+    this.put(this.probes, `${short(asked)} /s`, `60 Hz: ${short(ofLoop)}`);
     this.put(this.engine, `${times.engine.toFixed(2)} ms`, "per picture");
     this.put(this.drawing, `${times.drawing.toFixed(2)} ms`, times.frame > 0 ? `${(1000 / times.frame).toFixed(0)} fps` : "");
     this.put(this.violations, short(tally.violations), "");

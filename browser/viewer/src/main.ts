@@ -201,7 +201,7 @@ function draw(seconds: number): void {
     else if (colouring === "asked") along(palette.times, placeOfDuration(time - views![body]!.reportTime), colour);
     else along(palette.sizes, sizePlaces[body]!, colour);
     const glow = overlays.glow[body] ?? 0;
-    return glow > 0.01 ? colour.lerp(palette.probe, 0.6 * glow) : colour;
+    return glow > 0.01 ? colour.lerp(palette.probe, 0.4 * glow) : colour;
   });
   stage.render();
 }
@@ -211,7 +211,8 @@ let hudTime = 0;
 
 function frame(now: number): void {
   requestAnimationFrame(frame);
-  const seconds = Math.min(Math.max((now - last) / 1000, 0), longestFrame);
+  const passed = Math.max((now - last) / 1000, 0);
+  const seconds = Math.min(passed, longestFrame);
   times.frame += 0.1 * (now - last - times.frame);
   last = now;
   if (settings.playing) {
@@ -222,7 +223,7 @@ function frame(now: number): void {
     if (shown.time >= shown.endTime) setPlaying(false);
   }
   const start = performance.now();
-  draw(seconds);
+  draw(passed);
   times.drawing += 0.1 * (performance.now() - start - times.drawing);
   viewer.firstPicture ??= performance.now();
   if (now - hudTime < 200) return;

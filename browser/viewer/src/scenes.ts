@@ -26,10 +26,10 @@ export interface SceneAbout {
 }
 
 export const scenes: readonly SceneAbout[] = [
-  { name: "paper1", title: "Random forces, sizes 1 to 100", bodies: 500, speed: 2,
-    about: "Spheres pushed by forces that nobody knows in advance. Only their limits are promised." },
-  { name: "paper2", title: "Random forces, from rest", bodies: 500, speed: 1,
-    about: "Larger forces and sizes 1 to 10, from rest." },
+  { name: "paper1", title: "Random forces", bodies: 500, speed: 2,
+    about: "Sizes 1 to 100, pushed by forces that nobody knows in advance: only their limits are promised." },
+  { name: "paper2", title: "Strong forces, from rest", bodies: 500, speed: 1,
+    about: "Larger forces, and sizes that differ less." },
   { name: "gas", title: "Gas in a box", bodies: 600, speed: 2,
     about: "Equal spheres that fly freely: hardly any of them has to be asked between two contacts." },
   { name: "periodic_gas", title: "Dense gas, periodic", bodies: 400, speed: 0.5,

@@ -1,10 +1,11 @@
 // The picture: camera, light, fog, the box and the spheres.
 import {
-  BackSide, BoxGeometry, type Color, DirectionalLight, EdgesGeometry, Fog, Group, HemisphereLight, IcosahedronGeometry,
-  InstancedMesh, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshStandardMaterial, PerspectiveCamera,
+  BackSide, BoxGeometry, type BufferGeometry, type Color, DirectionalLight, EdgesGeometry, Fog, Group, HemisphereLight, IcosahedronGeometry,
+  InstancedMesh, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshPhongMaterial, PerspectiveCamera,
   Scene, Sphere, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { mergeVertices } from "three/addons/utils/BufferGeometryUtils.js";
 import type { Palette } from "./colours.ts";
 import type { Shown } from "./shown.ts";
 
@@ -20,9 +21,11 @@ export function putSphere(matrices: ArrayLike<number> & { fill(value: number, fr
   matrices[at + 15] = 1;
 }
 
-/** A unit sphere with fewer triangles where there are many of them. */
-export function unitSphere(count: number): IcosahedronGeometry {
-  return new IcosahedronGeometry(1, count > 2000 ? 2 : count > 300 ? 3 : 5);
+/** A unit sphere with fewer triangles where there are many of them, which share their corners. */
+export function unitSphere(count: number): BufferGeometry {
+  const sphere = new IcosahedronGeometry(1, count > 2000 ? 2 : count > 150 ? 3 : 6);
+  sphere.deleteAttribute("uv");
+  return mergeVertices(sphere);
 }
 
 export class Stage {
@@ -38,7 +41,7 @@ export class Stage {
   private readonly surroundings = new Group();
   private readonly lineMaterial = new LineBasicMaterial({ transparent: true, opacity: 0.7 });
   private readonly wallMaterial = new MeshBasicMaterial({ transparent: true, opacity: 0.07, side: BackSide, depthWrite: false, fog: false });
-  private readonly bodyMaterial = new MeshStandardMaterial({ roughness: 0.42, metalness: 0.05 });
+  private readonly bodyMaterial = new MeshPhongMaterial({ shininess: 45, specular: 0x2c2c34 });
   private bodies: InstancedMesh | null = null;
 
   constructor(readonly canvas: HTMLCanvasElement) {
@@ -93,12 +96,15 @@ export class Stage {
     const { center, radius } = this.extent;
     const half = (this.camera.fov * Math.PI) / 360;
     const narrow = Math.min(Math.atan(Math.tan(half) * this.camera.aspect), half);
-    const distance = (0.93 * radius) / Math.sin(narrow);
+    const distance = radius / Math.sin(narrow);
     this.camera.position.set(0.55, -1, 0.42).setLength(distance).add(center);
     this.camera.near = radius / 100;
     this.camera.far = distance + radius * 12;
     this.camera.updateProjectionMatrix();
-    this.controls.target.copy(center);
+    // A little below the middle, as the buttons cover the lower edge.
+    const lift = new Vector3(0, 0, -0.07 * radius);
+    this.camera.position.add(lift);
+    this.controls.target.copy(center).add(lift);
     this.controls.minDistance = radius / 20;
     this.controls.maxDistance = radius * 8;
     this.controls.update();
