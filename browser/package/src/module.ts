@@ -209,7 +209,7 @@ async function compiled(source: BufferSource | WebAssembly.Module | URL | string
   const url = new URL(source, import.meta.url);
   if (url.protocol === "file:") {
     const { readFile } = await import("node:fs/promises");
-    return WebAssembly.compile(await readFile(url));
+    return WebAssembly.compile(new Uint8Array(await readFile(url)));
   }
   const response = await fetch(url);
   if (!response.ok) throw new Error(`kinesphere: ${url.href} could not be fetched: ${response.status}`);
