@@ -46,7 +46,7 @@ export const bright: Palette = {
   zone: new Color("#009f98"),
   sizes: colours("#f0b429", "#ee7445", "#d24480", "#7c4fd0", "#2f68d8"),
   times: colours("#e2382c", "#ee9a2b", "#45b392", "#4a8ad8", "#a9b6d3"),
-  light: 1.45,
+  light: 1.2,
 };
 
 /** Sets `colour` to the place in the row of colours, from 0 to 1. */

@@ -29,7 +29,7 @@ export class Hud {
   private readonly list = document.querySelector<HTMLElement>("#numbers")!;
   private readonly time = this.row("time", "Simulated seconds");
   private readonly contacts = this.row("contacts", "Contacts of two bodies, each told at its exact time");
-  private readonly missed = this.row("missed by 60 Hz", "Contacts that a loop which looks 60 times per second would not see", "bad");
+  private readonly missed = this.row("missed by 60 Hz", "Contacts that a loop which looks 60 times per second would not see");
   private readonly crossings = this.row("crossings", "Flights through the zone, each told");
   private readonly probes = this.row("states asked", "Per second of simulated time; a loop asks every body 60 times");
   private readonly engine = this.row("engine", "Time of the library for one picture");
@@ -52,7 +52,8 @@ export class Hud {
     this.put(this.time, `${shown.time.toFixed(3)} s`, `${whole.format(bodyCount)} bodies`);
     this.put(this.contacts, short(tally.contacts), tally.wallContacts > 0 ? `+ ${short(tally.wallContacts)} at walls` : "");
     const share = tally.contacts === 0 ? 0 : tally.missed / tally.contacts;
-    this.put(this.missed, short(tally.missed), tally.contacts === 0 ? "" : `${(100 * share).toFixed(0)} %`);
+    this.put(this.missed, short(tally.missed), tally.contacts === 0 ? "" : `${(100 * share).toFixed(share < 0.1 ? 1 : 0)} %`);
+    this.missed.row.classList.toggle("bad", tally.missed > 0);
     if (shown.zone !== null)
       this.put(this.crossings, short(tally.crossings), `a loop sees ${short(tally.crossings - tally.missedCrossings)}`);
     const asked = shown.probesPerSecond;
@@ -74,9 +75,9 @@ export class Hud {
     this.message.hidden = true;
   }
 
-  private row(label: string, hint: string, kind = ""): Row {
+  private row(label: string, hint: string): Row {
     const row = document.createElement("div");
-    row.className = `row ${kind}`;
+    row.className = "row";
     row.title = hint;
     const name = document.createElement("dt");
     name.textContent = label;

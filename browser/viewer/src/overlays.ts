@@ -1,13 +1,13 @@
 // What the engine knows and tells, drawn over the spheres.
 import type { BodyView, Box } from "kinesphere";
 import {
-  BoxGeometry, BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, InstancedMesh, LineBasicMaterial, LineSegments,
+  BoxGeometry, BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, LineBasicMaterial, LineSegments,
   Mesh, MeshBasicMaterial, NormalBlending, Points, type Scene, ShaderMaterial, AdditiveBlending,
 } from "three";
 import { along, type Palette, placeOfDuration } from "./colours.ts";
 import type { Settings } from "./settings.ts";
 import { type Shown, type Told, wrapInto } from "./shown.ts";
-import { putSphere, unitSphere } from "./stage.ts";
+import { Spheres } from "./spheres.ts";
 
 const sparkCount = 512;
 
@@ -92,8 +92,7 @@ export class Overlays {
   /** By body from 0 to 1: it has been asked just now. */
   glow = new Float32Array(0);
   private reportTimes = new Float64Array(0);
-  private bounds: InstancedMesh | null = null;
-  private readonly boundMaterial = new MeshBasicMaterial({ transparent: true, opacity: 0.13, depthWrite: false });
+  private readonly bounds = new Spheres(0.4);
   private readonly boxes = new Lines(0.45);
   private readonly cells = new Lines(0.35);
   private readonly certificates = new Lines(0.9);
@@ -119,12 +118,11 @@ export class Overlays {
       .setAttribute("tint", this.tints).setAttribute("size", this.sizes), this.sparkMaterial);
     sparks.frustumCulled = false;
     sparks.renderOrder = 3;
-    scene.add(sparks, this.boxes.object, this.cells.object, this.certificates.object);
+    scene.add(sparks, this.bounds.object, this.boxes.object, this.cells.object, this.certificates.object);
   }
 
   paint(palette: Palette, isDark: boolean): void {
     this.palette = palette;
-    this.boundMaterial.color = palette.zone;
     this.zoneMaterial.color = palette.zone;
     this.sparkMaterial.blending = isDark ? AdditiveBlending : NormalBlending;
   }
@@ -167,7 +165,7 @@ export class Overlays {
     if (views !== null && on.probes) this.followProbes(views, seconds, calm);
     else this.glow.fill(0);
     if (views !== null && on.bounds) this.drawBounds(shown, views);
-    else if (this.bounds !== null) this.bounds.visible = false;
+    else this.bounds.object.visible = false;
     if (views !== null && on.boxes) this.drawBoxes(views);
     else this.boxes.hide();
     if (on.cells) this.drawCells(shown);
@@ -222,25 +220,14 @@ export class Overlays {
   }
 
   private drawBounds(shown: Shown, views: readonly BodyView[]): void {
-    if (this.bounds === null || this.bounds.instanceMatrix.count !== views.length) {
-      if (this.bounds !== null) {
-        this.scene.remove(this.bounds);
-        this.bounds.geometry.dispose();
-        this.bounds.dispose();
-      }
-      this.bounds = new InstancedMesh(unitSphere(4 * views.length), this.boundMaterial, views.length);
-      this.bounds.frustumCulled = false;
-      this.bounds.renderOrder = 1;
-      this.scene.add(this.bounds);
-    }
+    this.bounds.resize(views.length);
     const centre = new Float64Array(3);
     for (let k = 0; k < views.length; ++k) {
       centre.set(views[k]!.centre);
       wrapInto(centre, shown.box, shown.periodic);
-      putSphere(this.bounds.instanceMatrix.array, k, centre[0]!, centre[1]!, centre[2]!, views[k]!.boundRadius * 1.01);
+      this.bounds.put(k, centre[0]!, centre[1]!, centre[2]!, views[k]!.boundRadius, this.palette!.zone);
     }
-    this.bounds.instanceMatrix.needsUpdate = true;
-    this.bounds.visible = true;
+    this.bounds.done();
   }
 
   private drawBoxes(views: readonly BodyView[]): void {

@@ -1,32 +1,12 @@
 // The picture: camera, light, fog, the box and the spheres.
 import {
-  BackSide, BoxGeometry, type BufferGeometry, type Color, DirectionalLight, EdgesGeometry, Fog, Group, HemisphereLight, IcosahedronGeometry,
-  InstancedMesh, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshPhongMaterial, PerspectiveCamera,
-  Scene, Sphere, Vector3, WebGLRenderer,
+  BackSide, BoxGeometry, type Color, EdgesGeometry, Fog, Group, LineBasicMaterial, LineSegments, Mesh,
+  MeshBasicMaterial, PerspectiveCamera, Scene, Sphere, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { mergeVertices } from "three/addons/utils/BufferGeometryUtils.js";
 import type { Palette } from "./colours.ts";
 import type { Shown } from "./shown.ts";
-
-/** The matrix of a sphere with this middle and radius, as the instance of a unit sphere. */
-export function putSphere(matrices: ArrayLike<number> & { fill(value: number, from: number, to: number): unknown; [k: number]: number },
-                          k: number, x: number, y: number, z: number, radius: number): void {
-  const at = 16 * k;
-  matrices.fill(0, at, at + 16);
-  matrices[at] = matrices[at + 5] = matrices[at + 10] = radius;
-  matrices[at + 12] = x;
-  matrices[at + 13] = y;
-  matrices[at + 14] = z;
-  matrices[at + 15] = 1;
-}
-
-/** A unit sphere with fewer triangles where there are many of them, which share their corners. */
-export function unitSphere(count: number): BufferGeometry {
-  const sphere = new IcosahedronGeometry(1, count > 2000 ? 2 : count > 150 ? 3 : 6);
-  sphere.deleteAttribute("uv");
-  return mergeVertices(sphere);
-}
+import { Spheres } from "./spheres.ts";
 
 export class Stage {
   readonly scene = new Scene();
@@ -35,14 +15,12 @@ export class Stage {
   /** The smallest sphere around all that is shown. */
   readonly extent = new Sphere(new Vector3(), 1);
   private readonly renderer: WebGLRenderer;
-  private readonly sky = new HemisphereLight(0xffffff, 0x4a5578, 1.5);
-  private readonly sun = new DirectionalLight(0xffffff, 2.1);
   private readonly fog = new Fog(0, 1, 2);
   private readonly surroundings = new Group();
   private readonly lineMaterial = new LineBasicMaterial({ transparent: true, opacity: 0.7 });
   private readonly wallMaterial = new MeshBasicMaterial({ transparent: true, opacity: 0.07, side: BackSide, depthWrite: false, fog: false });
-  private readonly bodyMaterial = new MeshPhongMaterial({ shininess: 45, specular: 0x2c2c34 });
-  private bodies: InstancedMesh | null = null;
+  private readonly bodies = new Spheres();
+  private lightStrength = 1;
 
   constructor(readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
@@ -52,7 +30,7 @@ export class Stage {
     this.controls.enableDamping = true;
     this.controls.dampingFactor = 0.12;
     this.scene.fog = this.fog;
-    this.scene.add(this.sky, this.sun, this.sun.target, this.surroundings);
+    this.scene.add(this.surroundings, this.bodies.object);
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
   }
@@ -62,8 +40,7 @@ export class Stage {
     this.fog.color = palette.background;
     this.lineMaterial.color = palette.line;
     this.wallMaterial.color = palette.wall;
-    this.sky.intensity = 1.5 * palette.light;
-    this.sun.intensity = 2.1 * palette.light;
+    this.lightStrength = palette.light;
   }
 
   /** Makes room for what is shown from now on, and looks at it from the front. */
@@ -112,24 +89,10 @@ export class Stage {
 
   /** Three numbers of each body, and its colour. */
   draw(positions: Float64Array, radii: Float64Array, colourOf: (body: number) => Color): void {
-    const count = radii.length;
-    if (this.bodies === null || this.bodies.instanceMatrix.count !== count) {
-      if (this.bodies !== null) {
-        this.scene.remove(this.bodies);
-        this.bodies.geometry.dispose();
-        this.bodies.dispose();
-      }
-      this.bodies = new InstancedMesh(unitSphere(count), this.bodyMaterial, count);
-      this.bodies.frustumCulled = false;
-      this.scene.add(this.bodies);
-    }
-    const matrices = this.bodies.instanceMatrix.array;
-    for (let k = 0; k < count; ++k) {
-      putSphere(matrices, k, positions[3 * k]!, positions[3 * k + 1]!, positions[3 * k + 2]!, radii[k]!);
-      this.bodies.setColorAt(k, colourOf(k));
-    }
-    this.bodies.instanceMatrix.needsUpdate = true;
-    if (this.bodies.instanceColor !== null) this.bodies.instanceColor.needsUpdate = true;
+    this.bodies.resize(radii.length);
+    for (let k = 0; k < radii.length; ++k)
+      this.bodies.put(k, positions[3 * k]!, positions[3 * k + 1]!, positions[3 * k + 2]!, radii[k]!, colourOf(k));
+    this.bodies.done();
   }
 
   render(): void {
@@ -138,10 +101,8 @@ export class Stage {
     const distance = this.camera.position.distanceTo(center);
     this.fog.near = Math.max(distance - 0.6 * radius, 0.1 * radius);
     this.fog.far = distance + 2.6 * radius;
-    // The light comes from above, to the left of whoever looks.
-    this.sun.position.set(-0.6, 0.9, 0.7).applyQuaternion(this.camera.quaternion).add(new Vector3(0, 0, 0.6))
-      .multiplyScalar(radius).add(center);
-    this.sun.target.position.copy(center);
+    const above = new Vector3(0, 0, 1).transformDirection(this.camera.matrixWorldInverse);
+    this.bodies.light(above, this.fog.color, this.fog.near, this.fog.far, this.lightStrength);
     this.renderer.render(this.scene, this.camera);
   }
 
