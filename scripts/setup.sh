@@ -8,7 +8,7 @@ mpi=(libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev)
 browser=(emscripten nodejs)
 # That of Node.js itself brings npm along.
 if ! command -v npm >/dev/null; then browser+=(npm); fi
-testing=("${mpi[@]}" "${browser[@]}" libgtest-dev libtbb-dev librapidcheck-dev clang clang-format clang-tidy pkg-config valgrind)
+testing=("${mpi[@]}" "${browser[@]}" chromium libgtest-dev libtbb-dev librapidcheck-dev clang clang-format clang-tidy pkg-config valgrind)
 case ${1:-} in
   run) ;;
   mpi) packages+=("${mpi[@]}") ;;

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds the library in WebAssembly and its npm package, and tests them in Node.js, with and without SIMD.
+# Builds the library in WebAssembly, its npm package and the viewer, and tests them: in Node.js, with and without SIMD, and
+# the viewer in chromium.
 # Usage: run.sh <native program, for the hashes>
 set -euo pipefail
 
@@ -10,7 +11,11 @@ trap 'rm -f "$log"' EXIT
 { cmake --preset browser && cmake --build --preset browser; } >"$log" 2>&1 || { cat "$log"; exit 1; }
 
 export KINESPHERE_PROGRAM=$program KINESPHERE_PACKAGE=$PWD/build/browser/browser/package
+export KINESPHERE_VIEWER=$PWD/build/browser/browser/viewer
+export PLAYWRIGHT=$PWD/build/browser/browser/viewer-sources/node_modules/playwright-core
 cd browser/test
 node --test package.test.mjs consumer.test.mjs
 KINESPHERE_SIMD=1 node --test scenes.test.mjs
 KINESPHERE_SIMD=0 node --test scenes.test.mjs
+cd ../viewer/test
+node --test viewer.test.mjs

@@ -94,7 +94,8 @@ void prepare(httplib::Server& server, const std::string& folder) {
        {"X-Content-Type-Options", "nosniff"},
        {"Content-Security-Policy",
         "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
-        "img-src 'self' data: blob:; worker-src 'self' blob:; frame-ancestors 'none'"}});
+        "img-src 'self' data: blob:; font-src 'self' data:; worker-src 'self' blob:; frame-ancestors "
+        "'none'"}});
   server.set_file_extension_and_mimetype_mapping("js", "text/javascript");
   server.set_file_extension_and_mimetype_mapping("mjs", "text/javascript");
   server.set_file_extension_and_mimetype_mapping("wasm", "application/wasm");
