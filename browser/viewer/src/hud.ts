@@ -52,7 +52,7 @@ export class Hud {
     this.put(this.time, `${shown.time.toFixed(3)} s`, `${whole.format(bodyCount)} bodies`);
     this.put(this.contacts, short(tally.contacts), tally.wallContacts > 0 ? `+ ${short(tally.wallContacts)} at walls` : "");
     const share = tally.contacts === 0 ? 0 : tally.missed / tally.contacts;
-    this.put(this.missed, short(tally.missed), tally.contacts === 0 ? "" : `${(100 * share).toFixed(share < 0.1 ? 1 : 0)} %`);
+    this.put(this.missed, short(tally.missed), tally.contacts === 0 ? "" : `${(100 * share).toFixed(share > 0 && share < 0.1 ? 1 : 0)} %`);
     this.missed.row.classList.toggle("bad", tally.missed > 0);
     if (shown.zone !== null)
       this.put(this.crossings, short(tally.crossings), `a loop sees ${short(tally.crossings - tally.missedCrossings)}`);

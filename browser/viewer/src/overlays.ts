@@ -143,7 +143,9 @@ export class Overlays {
     for (const { event, missed } of told) {
       if (event.kind === "sensor_enter") {
         this.zoneFlash = 1;
-        this.spark(event.firstState.position, this.palette!.zone, 0.9, extent / 16);
+        this.spark(event.firstState.position, this.palette!.zone, 0.4, extent / 16);
+      } else if (event.kind === "sensor_leave" && missed) {
+        this.spark(event.firstState.position, this.palette!.missed, 1, extent / 18);
       } else if (event.kind === "contact_begin") {
         const point = wrapInto(event.point.slice(), shown.box, shown.periodic);
         const colour = missed ? this.palette!.missed : this.palette!.contact;

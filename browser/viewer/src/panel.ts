@@ -26,6 +26,6 @@ export function makePanel(settings: Settings, actions: PanelActions): GUI {
   overlays.add(settings.overlays, "cells").name("cells");
   gui.add(settings, "theme", ["system", "dark", "bright"]).onChange(actions.repaint);
   gui.add({ open: actions.openFile }, "open").name("open a recording …");
-  if (matchMedia("(max-width: 720px)").matches) gui.close();
+  if (matchMedia("(max-width: 900px)").matches) gui.close();
   return gui;
 }

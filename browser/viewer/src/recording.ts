@@ -4,7 +4,7 @@ import { isMissedByLoop } from "./missed.ts";
 import { emptyTally, RecentRate, type Shown, type Tally, type Told, wrapInto } from "./shown.ts";
 
 export class Recording implements Shown {
-  readonly about = "A recording, gone through again. Bodies are drawn in the middle of their bounds.";
+  readonly about = "A recording, gone through again. Bodies are drawn in the middle of their bounds. R leads back to the scene.";
   readonly zone = null;
   readonly box: Box | null;
   readonly periodic: readonly boolean[];

@@ -3,14 +3,14 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { createServer } from "node:http";
-import { extname, join, normalize } from "node:path";
+import { extname, join, normalize, resolve } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
 
-const folder = process.env.KINESPHERE_VIEWER ?? new URL("../dist", import.meta.url).pathname;
+const folder = resolve(process.env.KINESPHERE_VIEWER ?? new URL("../dist", import.meta.url).pathname);
 const playwright = process.env.PLAYWRIGHT;
 const { chromium } = await import(
-  playwright === undefined ? "playwright-core" : pathToFileURL(join(playwright, "index.mjs")).href);
+  playwright === undefined ? "playwright-core" : pathToFileURL(resolve(playwright, "index.mjs")).href);
 
 const kinds = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm" };
 const policy = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; " +
