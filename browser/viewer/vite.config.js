@@ -11,5 +11,11 @@ export default defineConfig({
   base: "./",
   resolve: { alias: { kinesphere: resolve(library, "dist/index.js") } },
   server: { fs: { allow: [here, library] } },
-  build: { target: "es2022", modulePreload: { polyfill: false }, chunkSizeWarningLimit: 1000 },
+  build: {
+    target: "es2022",
+    modulePreload: { polyfill: false },
+    chunkSizeWarningLimit: 1000,
+    // The licences of what the page contains, beside it.
+    license: { fileName: "licenses.md" },
+  },
 });

@@ -66,9 +66,9 @@ export class Hud {
     this.put(this.hash, shown.hash, "");
   }
 
-  say(text: string, isError = false): void {
+  /** What went wrong. */
+  say(text: string): void {
     this.messageText.textContent = text;
-    this.message.classList.toggle("error", isError);
     this.message.hidden = false;
   }
   hideMessage(): void {

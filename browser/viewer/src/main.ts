@@ -29,10 +29,16 @@ const hud = new Hud();
 try {
   await load();
 } catch (error) {
-  hud.say(`The library could not be loaded. ${(error as Error).message}`, true);
+  hud.say(`The library could not be loaded. ${(error as Error).message}`);
   throw error;
 }
-const stage = new Stage(element<HTMLCanvasElement>("picture"));
+let stage: Stage;
+try {
+  stage = new Stage(element<HTMLCanvasElement>("picture"));
+} catch (error) {
+  hud.say(`Nothing can be drawn: the browser offers no WebGL 2. ${(error as Error).message}`);
+  throw error;
+}
 const overlays = new Overlays(stage.scene);
 let palette: Palette = dark;
 let shown: Shown;
@@ -62,11 +68,13 @@ function restart(): void {
 }
 
 function chooseScene(): void {
+  hud.hideMessage();
   const { bodies, speed } = sceneAbout(settings.scene);
   settings.bodies = bodies;
   settings.speed = speed;
   refreshPanel();
   restart();
+  setPlaying(true);
 }
 
 function repaint(): void {
@@ -78,7 +86,7 @@ function repaint(): void {
 }
 
 function sayError(error: unknown): void {
-  hud.say(error instanceof Error ? error.message : String(error), true);
+  hud.say(error instanceof Error ? error.message : String(error));
 }
 
 function setPlaying(playing: boolean): void {
@@ -117,7 +125,7 @@ async function openRecording(file: File): Promise<void> {
     setPlaying(true);
   } catch (error) {
     const message = error instanceof Error ? error.message : String(error);
-    hud.say(error instanceof KinesphereError ? `${file.name} cannot be shown. ${message}` : message, true);
+    hud.say(error instanceof KinesphereError ? `${file.name} cannot be shown. ${message}` : message);
   }
 }
 

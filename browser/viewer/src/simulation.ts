@@ -73,7 +73,6 @@ export class Simulation implements Shown {
   get hash(): string { return this.now.hash.value; }
   get probesPerSecond(): number { return this.rate.value; }
   get bodyCount(): number { return this.setup.radii.length; }
-  get snapshotCount(): number { return this.snapshots.length; }
 
   radii(): Float64Array {
     return this.setup.radii;
@@ -83,10 +82,6 @@ export class Simulation implements Shown {
     const positions = new Float64Array(states.length / 2);
     for (let k = 0; k < positions.length / 3; ++k) positions.set(states.subarray(6 * k, 6 * k + 3), 3 * k);
     return wrapInto(positions, this.box, this.periodic);
-  }
-  /** Not in the box where space repeats, but where the body has come to. */
-  positionOf(body: BodyId): Vec3 {
-    return this.now.motion.state(body, this.time).position;
   }
   views(): BodyView[] {
     const views = this.now.world.bodyViews();

@@ -160,12 +160,31 @@ test("a broken file is refused with a message, and the scene goes on", async () 
     files.items.add(new File([new Uint8Array([1, 2, 3, 4, 5])], "broken.rec"));
     window.dispatchEvent(new DragEvent("drop", { dataTransfer: files, cancelable: true }));
   });
-  await page.waitForSelector("#message.error:not([hidden])");
+  await page.waitForSelector("#message:not([hidden])");
   const text = await page.textContent("#message-text");
   assert.match(text, /broken\.rec cannot be shown\. .+/);
   const { time, playing } = await state();
   assert.equal(playing, true);
   await page.waitForFunction((time) => window.kinesphereViewer.simulation.time > time, time, { timeout: 60_000 });
+});
+
+test("a recording is shown to its end", async () => {
+  const made = await page.evaluate(() => {
+    const { simulation } = window.kinesphereViewer;
+    simulation.view.startRecording();
+    const contacts = simulation.run(simulation.time + 0.5).filter(({ event }) => event.kind === "contact_begin").length;
+    const files = new DataTransfer();
+    files.items.add(new File([simulation.view.stopRecording()], "own.rec"));
+    window.dispatchEvent(new DragEvent("drop", { dataTransfer: files, cancelable: true }));
+    return { contacts, time: simulation.time, bodies: simulation.bodyCount };
+  });
+  await page.waitForFunction(() => window.kinesphereViewer.simulation.title === "own.rec");
+  const shown = await page.evaluate(() => {
+    const { simulation } = window.kinesphereViewer;
+    simulation.run(Infinity);
+    return { contacts: simulation.tally.contacts, time: simulation.time, bodies: simulation.bodyCount };
+  });
+  assert.deepEqual(shown, made);
 });
 
 test("every scene can be chosen", async () => {
