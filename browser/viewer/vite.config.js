@@ -15,7 +15,5 @@ export default defineConfig({
     target: "es2022",
     modulePreload: { polyfill: false },
     chunkSizeWarningLimit: 1000,
-    // The licences of what the page contains, beside it.
-    license: { fileName: "licenses.md" },
   },
 });
