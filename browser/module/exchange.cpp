@@ -79,6 +79,19 @@ void put(const Event& event, double* numbers) {
   numbers[32] = static_cast<double>(event.second_user_data);
 }
 
+void answer_ids(std::span<const BodyId> ids) {
+  answer().clear();
+  for (const BodyId id : ids) answer().push_back(number_of(id));
+}
+
+int answer_event(const Result<std::optional<Event>>& event) {
+  if (!is_good(event)) return -1;
+  if (!*event) return 0;
+  answer().resize(event_numbers);
+  put(**event, answer().data());
+  return 1;
+}
+
 Event event_at(const double* numbers) {
   Event event;
   event.kind = static_cast<EventKind>(numbers[0]);

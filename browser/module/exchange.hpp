@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,13 +33,16 @@ bool is_good(const Result<T>& result) {
 /// What the last call gave back, of any length.
 std::vector<double>& answer();
 std::vector<std::byte>& answer_bytes();
+void answer_ids(std::span<const BodyId> ids);
+/// 0: there is none; 1: it is in answer(); -1: an error.
+int answer_event(const Result<std::optional<Event>>& event);
 
 inline Vec3 vector_at(const double* numbers) { return {numbers[0], numbers[1], numbers[2]}; }
 inline State state_at(const double* numbers) { return {vector_at(numbers), vector_at(numbers + 3)}; }
 void put(const Vec3& vector, double* numbers);
 void put(const State& state, double* numbers);
 
-/// Numbers for an event, in the order of EventField in package/src/event.ts.
+/// How many numbers an event takes; the class Event in package/src/event.ts reads them.
 constexpr std::size_t event_numbers = 33;
 void put(const Event& event, double* numbers);
 Event event_at(const double* numbers);

@@ -22,11 +22,14 @@ MotionHandle* handle_of(Result<Created> created) {
   return new MotionHandle{std::make_unique<Created>(std::move(*created))};
 }
 
+bool has(const Motion& motion, double body) {
+  return body >= 0.0 && body < static_cast<double>(motion.size()) &&
+         motion.contains(static_cast<std::uint32_t>(body));
+}
+
 /// What Motion says of itself by exceptions, which there are none of here.
 bool knows(const MotionHandle& handle, double body) {
-  if (body >= 0.0 && body < static_cast<double>(handle.motion->size()) &&
-      handle.motion->contains(static_cast<std::uint32_t>(body)))
-    return true;
+  if (has(*handle.motion, body)) return true;
   return fail(
       {ErrorCode::unknown_body, "body", no_body, "Motion: body must be that of a body of the motion"});
 }
@@ -75,9 +78,7 @@ void motion_states(const MotionHandle* handle, double time, std::size_t count, c
   const Motion& motion = *handle->motion;
   for (std::size_t k = 0; k < count; ++k) {
     const double body = bodies != nullptr ? bodies[k] : static_cast<double>(k);
-    const bool is_there = body >= 0.0 && body < static_cast<double>(motion.size()) &&
-                          motion.contains(static_cast<std::uint32_t>(body));
-    if (is_there) {
+    if (has(motion, body)) {
       const auto number = static_cast<std::uint32_t>(body);
       put(motion.state(number, std::max(time, motion.departure(number).time)), states + 6 * k);
     } else {

@@ -1,4 +1,4 @@
-// Motions whose bodies JavaScript may steer, and scenes with all that happens in them.
+// A motion in the hands of JavaScript.
 #pragma once
 
 #include <memory>

@@ -44,12 +44,6 @@ KINESPHERE_EXPORT(scene_motion) MotionHandle* scene_motion(const Scene* scene) {
   return new MotionHandle{scene->motion->clone()};
 }
 KINESPHERE_EXPORT(scene_end_time) double scene_end_time(const Scene* scene) { return scene->end_time; }
-KINESPHERE_EXPORT(scene_restitution) double scene_restitution(const Scene* scene) {
-  return scene->response == Response::bounce ? scene->restitution : -1.0;
-}
-KINESPHERE_EXPORT(scene_resting_speed) double scene_resting_speed(const Scene* scene) {
-  return scene->resting_speed;
-}
 KINESPHERE_EXPORT(scene_radii) void scene_radii(const Scene* scene) {
   answer().clear();
   for (const SceneBody& body : scene->bodies) answer().push_back(body.radius);

@@ -180,8 +180,7 @@ bool world_add_all(World* world, std::size_t count, const double* bodies) {
   for (std::size_t k = 0; k < count; ++k) definitions.push_back(body_at(bodies + k * body_numbers));
   const auto ids = world->add_all(definitions);
   if (!is_good(ids)) return false;
-  answer().clear();
-  for (const BodyId id : *ids) answer().push_back(number_of(id));
+  answer_ids(*ids);
   return true;
 }
 
@@ -242,12 +241,7 @@ KINESPHERE_EXPORT(world_advance) int world_advance(World* world, double until, M
       mover.states(ids, time, states);
     });
   };
-  const auto event = advance();
-  if (!is_good(event)) return -1;
-  if (!*event) return 0;
-  answer().resize(event_numbers);
-  put(**event, answer().data());
-  return 1;
+  return answer_event(advance());
 }
 
 /// What bodies do at events in world_run().
@@ -282,12 +276,9 @@ bool world_run(World* world, double until, MotionHandle* handle, Responding resp
   return is_good(done);
 }
 
-KINESPHERE_EXPORT(world_bodies) void world_bodies(const World* world) {
-  answer().clear();
-  for (const BodyId id : world->bodies()) answer().push_back(number_of(id));
-}
+KINESPHERE_EXPORT(world_bodies) void world_bodies(const World* world) { answer_ids(world->bodies()); }
 
-/// Of each body, in the order of `bodyViewNumbers` in package/src/world.ts.
+/// Of each body; WorldView.bodyViews() in package/src/world.ts reads them.
 constexpr std::size_t view_numbers = 28;
 KINESPHERE_EXPORT(world_views) bool world_views(const World* world, std::size_t count, const double* bodies) {
   auto& numbers = answer();
@@ -318,8 +309,7 @@ KINESPHERE_EXPORT(world_views) bool world_views(const World* world, std::size_t 
 KINESPHERE_EXPORT(world_touching) bool world_touching(const World* world, double body) {
   const auto ids = world->touching(body_of(body));
   if (!is_good(ids)) return false;
-  answer().clear();
-  for (const BodyId id : *ids) answer().push_back(number_of(id));
+  answer_ids(*ids);
   return true;
 }
 
@@ -436,12 +426,7 @@ KINESPHERE_EXPORT(replay_open) Replay* replay_open(const std::byte* recording, s
 }
 KINESPHERE_EXPORT(replay_free) void replay_free(Replay* replay) { delete replay; }
 KINESPHERE_EXPORT(replay_advance) int replay_advance(Replay* replay) {
-  const auto event = replay->advance();
-  if (!is_good(event)) return -1;
-  if (!*event) return 0;
-  answer().resize(event_numbers);
-  put(**event, answer().data());
-  return 1;
+  return answer_event(replay->advance());
 }
 KINESPHERE_EXPORT(replay_finished) bool replay_finished(const Replay* replay) { return replay->finished(); }
 KINESPHERE_EXPORT(replay_step) std::size_t replay_step(const Replay* replay) { return replay->step(); }
