@@ -99,7 +99,20 @@ Event event_at(const double* numbers) {
   event.first = body_of(numbers[2]);
   event.second = body_of(numbers[3]);
   event.wall = static_cast<Wall>(numbers[4]);
+  event.repeated = numbers[5] != 0.0;
+  event.jammed = numbers[6] != 0.0;
+  event.senses = static_cast<decltype(event.senses)>(numbers[7]);
+  event.first_state = state_at(numbers + 8);
+  event.second_state = state_at(numbers + 14);
+  event.point = vector_at(numbers + 20);
+  event.normal = vector_at(numbers + 23);
+  event.gap = numbers[26];
+  event.approach_speed = numbers[27];
+  event.position_excess = numbers[28];
+  event.velocity_excess = numbers[29];
   event.distance = numbers[30];
+  event.first_user_data = static_cast<std::uint64_t>(numbers[31]);
+  event.second_user_data = static_cast<std::uint64_t>(numbers[32]);
   return event;
 }
 

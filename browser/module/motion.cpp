@@ -1,8 +1,15 @@
 #include "motion.hpp"
 
+#include <algorithm>
+#include <limits>
+#include <string>
+
 #include "exchange.hpp"
+#include "input/input_check.hpp"
 #include "kinesphere/motion/ballistic.hpp"
+#include "kinesphere/motion/frames.hpp"
 #include "kinesphere/motion/random_forces.hpp"
+#include "kinesphere/motion/recorded_tracks.hpp"
 #include "kinesphere/motion/steered.hpp"
 
 namespace kinesphere::browser {
@@ -22,19 +29,57 @@ MotionHandle* handle_of(Result<Created> created) {
   return new MotionHandle{std::make_unique<Created>(std::move(*created))};
 }
 
+Error unknown_body() {
+  return {ErrorCode::unknown_body, "body", no_body, "Motion: body must be that of a body of the motion"};
+}
+
 bool has(const Motion& motion, double body) {
   return body >= 0.0 && body < static_cast<double>(motion.size()) &&
          motion.contains(static_cast<std::uint32_t>(body));
 }
 
-/// What Motion says of itself by exceptions, which there are none of here.
 bool knows(const MotionHandle& handle, double body) {
-  if (has(*handle.motion, body)) return true;
-  return fail(
-      {ErrorCode::unknown_body, "body", no_body, "Motion: body must be that of a body of the motion"});
+  return has(*handle.motion, body) || fail(unknown_body());
 }
 
+/// The motion itself where it is of that kind; otherwise none, and an error that says what it cannot do.
+template <class Kind>
+Kind* as(const MotionHandle& handle, const char* refusal) {
+  auto* const motion = dynamic_cast<Kind*>(handle.motion.get());
+  if (motion == nullptr) fail({ErrorCode::unsupported, "motion", no_body, refusal});
+  return motion;
+}
+
+struct Span {
+  double begin;
+  double end;
+};
+
+/// The times at which the motion has states of the body.
+Span known_span(const Motion& motion, std::uint32_t body) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (!can_be_changed(motion)) return {-infinity, infinity};
+  const auto* const frames = dynamic_cast<const Frames*>(&motion);
+  return {motion.departure(body).time, frames != nullptr ? frames->latest_time() : infinity};
+}
+
+double clamped(double time, const Span& span) { return std::min(std::max(time, span.begin), span.end); }
+
 }  // namespace
+
+bool can_be_changed(const Motion& motion) { return dynamic_cast<const PiecewiseMotion*>(&motion) == nullptr; }
+
+std::optional<Error> why_unknown(const Motion& motion, double body, double time) {
+  if (!has(motion, body)) return unknown_body();
+  const auto number = static_cast<std::uint32_t>(body);
+  const Span span = known_span(motion, number);
+  if (span.begin <= time && time <= span.end) return std::nullopt;
+  return Error{ErrorCode::out_of_range,
+               "motion",
+               {number, 0},
+               "Motion: body " + std::to_string(number) + " is known from time " + text_of(span.begin) +
+                   " to " + text_of(span.end) + ", but is asked for at " + text_of(time)};
+}
 
 KINESPHERE_EXPORT(motion_ballistic)
 MotionHandle* motion_ballistic(std::size_t count, const double* states, const double* gravity, double start) {
@@ -59,6 +104,32 @@ MotionHandle* motion_steered(std::size_t count, const double* states, const doub
                                     .start_time = start}));
 }
 
+KINESPHERE_EXPORT(motion_frames)
+MotionHandle* motion_frames(std::size_t count, const double* states, const double* limits, double interval,
+                            double position_error, double start) {
+  FramesDefinition definition{.start = {},
+                              .acceleration_limits = {limits, limits + count},
+                              .interval = interval,
+                              .position_error = position_error,
+                              .start_time = start};
+  for (const State& state : states_at(states, count)) {
+    definition.start.push_back(state.position);
+    definition.velocities.push_back(state.velocity);
+  }
+  return handle_of(Frames::create(std::move(definition)));
+}
+
+/// Four numbers for each sample: its time and position. `lengths` says how many samples each track has.
+KINESPHERE_EXPORT(motion_tracks)
+MotionHandle* motion_tracks(std::size_t count, const double* lengths, const double* samples) {
+  std::vector<Track> tracks(count);
+  for (std::size_t body = 0; body < count; ++body) {
+    for (auto left = static_cast<std::size_t>(lengths[body]); left > 0; --left, samples += 4)
+      tracks[body].push_back({samples[0], vector_at(samples + 1)});
+  }
+  return handle_of(RecordedTracks::create(tracks));
+}
+
 KINESPHERE_EXPORT(motion_clone) MotionHandle* motion_clone(const MotionHandle* handle) {
   return new MotionHandle{handle->motion->clone()};
 }
@@ -70,8 +141,8 @@ KINESPHERE_EXPORT(motion_contains) bool motion_contains(const MotionHandle* hand
   return handle->motion->contains(body);
 }
 
-/// Of bodies 0, 1, ... where `bodies` is null. A body that is not there gets NaN. Times before its last
-/// change are answered as that.
+/// Of bodies 0, 1, ... where `bodies` is null. A body that is not there gets NaN. Times at which the motion
+/// has no state are answered as the nearest at which it has.
 KINESPHERE_EXPORT(motion_states)
 void motion_states(const MotionHandle* handle, double time, std::size_t count, const double* bodies,
                    double* states) {
@@ -80,7 +151,7 @@ void motion_states(const MotionHandle* handle, double time, std::size_t count, c
     const double body = bodies != nullptr ? bodies[k] : static_cast<double>(k);
     if (has(motion, body)) {
       const auto number = static_cast<std::uint32_t>(body);
-      put(motion.state(number, std::max(time, motion.departure(number).time)), states + 6 * k);
+      put(motion.state(number, clamped(time, known_span(motion, number))), states + 6 * k);
     } else {
       std::fill_n(states + 6 * k, 6, std::numeric_limits<double>::quiet_NaN());
     }
@@ -92,8 +163,8 @@ KINESPHERE_EXPORT(motion_definition)
 bool motion_definition(const MotionHandle* handle, double body, double time, double* numbers) {
   if (!knows(*handle, body)) return false;
   const auto number = static_cast<std::uint32_t>(body);
-  const double from = handle->motion->departure(number).time;
-  const BodyDefinition definition = handle->motion->definition(number, std::max(time, from));
+  const BodyDefinition definition =
+      handle->motion->definition(number, clamped(time, known_span(*handle->motion, number)));
   numbers[0] = definition.acceleration_limit;
   put(definition.planned_acceleration, numbers + 1);
   numbers[4] = definition.position_error;
@@ -128,16 +199,58 @@ double motion_add(MotionHandle* handle, double time, const double* state, double
     added = forces->add(time, state_at(state), limit);
   if (auto* const steered = dynamic_cast<Steered*>(handle->motion.get()))
     added = steered->add(time, state_at(state), limit);
+  if (auto* const frames = dynamic_cast<Frames*>(handle->motion.get()))
+    added = frames->add(time, state_at(state), limit);
   return is_good(added) ? *added : no_id;
 }
 
 KINESPHERE_EXPORT(motion_steer)
 bool motion_steer(MotionHandle* handle, double body, double time, const double* acceleration) {
-  auto* const steered = dynamic_cast<Steered*>(handle->motion.get());
-  if (steered == nullptr)
-    return fail({ErrorCode::unsupported, "motion", no_body, "steer: this motion cannot be steered"});
-  return knows(*handle, body) &&
+  auto* const steered = as<Steered>(*handle, "steer: this motion cannot be steered");
+  return steered != nullptr && knows(*handle, body) &&
          is_good(steered->steer(static_cast<std::uint32_t>(body), time, vector_at(acceleration)));
+}
+
+KINESPHERE_EXPORT(frames_push)
+bool frames_push(MotionHandle* handle, std::size_t count, const double* positions) {
+  auto* const frames = as<Frames>(*handle, "push: this motion has no frames");
+  if (frames == nullptr) return false;
+  std::vector<Vec3> next;
+  for (std::size_t k = 0; k < count; ++k) next.push_back(vector_at(positions + 3 * k));
+  return is_good(frames->push(next));
+}
+
+/// The times of the last frame but one and of the last, then three numbers for each body: where it is at the
+/// last.
+KINESPHERE_EXPORT(frames_latest) bool frames_latest(const MotionHandle* handle) {
+  const auto* const frames = as<const Frames>(*handle, "latest: this motion has no frames");
+  if (frames == nullptr) return false;
+  answer() = {frames->previous_time(), frames->latest_time()};
+  for (const Vec3& position : frames->latest())
+    answer().insert(answer().end(), {position.x, position.y, position.z});
+  return true;
+}
+
+/// Six numbers for each: body, excess, acceleration, velocity.
+KINESPHERE_EXPORT(frames_violations) bool frames_violations(const MotionHandle* handle) {
+  const auto* const frames = as<const Frames>(*handle, "violations: this motion has no frames");
+  if (frames == nullptr) return false;
+  answer().clear();
+  for (const FrameViolation& violation : frames->violations()) {
+    const Vec3& velocity = violation.velocity;
+    answer().insert(answer().end(), {static_cast<double>(violation.body), violation.excess,
+                                     violation.acceleration, velocity.x, velocity.y, velocity.z});
+  }
+  return true;
+}
+
+/// The times of the first and the last sample.
+KINESPHERE_EXPORT(tracks_span) bool tracks_span(const MotionHandle* handle, double body) {
+  const auto* const tracks = as<const RecordedTracks>(*handle, "span: this motion has no tracks");
+  if (tracks == nullptr || !knows(*handle, body)) return false;
+  const auto number = static_cast<std::uint32_t>(body);
+  answer() = {tracks->first_time(number), tracks->last_time(number)};
+  return true;
 }
 
 }  // namespace kinesphere::browser

@@ -28,22 +28,41 @@ void ask_javascript(std::span<const BodyId> ids, double time, std::span<State> s
   for (std::size_t k = 0; k < ids.size(); ++k) states[k] = state_at(answers.data() + 6 * k);
 }
 
-/// Bodies of a motion whose number there is the index of their id; a body that it does not have gets NaN.
+/// Bodies of a motion whose number there is the index of their id. A body whose state the motion does not
+/// have gets NaN, which the world refuses; so does an answer to an event where bodies cannot be changed.
+/// refused() is the motion's own reason then.
 class MotionByIndex final : public Mover {
  public:
   explicit MotionByIndex(Motion& motion) : motion_(motion) {}
   void states(std::span<const BodyId> ids, double time, std::span<State> states) override {
-    for (std::size_t k = 0; k < ids.size(); ++k)
-      states[k] = motion_.contains(ids[k].index) ? motion_.state(ids[k].index, time)
-                                                 : State{{nan, nan, nan}, {nan, nan, nan}};
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      const std::uint32_t number = ids[k].index;
+      if (auto reason = why_unknown(motion_, number, time)) {
+        refused_ = std::move(reason);
+        states[k] = {{nan, nan, nan}, {nan, nan, nan}};
+      } else {
+        states[k] = motion_.state(number, time);
+      }
+    }
   }
   Departure departure(BodyId body) const override { return motion_.departure(body.index); }
   void depart(BodyId body, const Departure& departure) override {
     (void)motion_.depart(body.index, departure);
   }
 
+  /// What may be done to the motion of what is to be done.
+  Answer possible(const Answer& answer) {
+    if ((!answer.first_velocity && !answer.second_velocity) || can_be_changed(motion_)) return answer;
+    refused_ = {ErrorCode::unsupported, "respond", no_body,
+                "run: respond: the bodies of this motion go their own way, and cannot be given velocities"};
+    return {Vec3{nan, nan, nan}, std::nullopt};
+  }
+
+  const std::optional<Error>& refused() const { return refused_; }
+
  private:
   Motion& motion_;
+  std::optional<Error> refused_;
 };
 
 std::optional<Vec3> velocity_at(const double* numbers) {
@@ -234,14 +253,14 @@ bool world_set_sensor(World* world, int sensor_class, std::size_t count, const d
 
 /// 0: nothing until then; 1: an event in answer(); -1: an error. Without a motion JavaScript is asked.
 KINESPHERE_EXPORT(world_advance) int world_advance(World* world, double until, MotionHandle* handle) {
-  const auto advance = [&] {
-    if (handle == nullptr) return world->advance(until, static_cast<Probe::Function>(ask_javascript));
-    MotionByIndex mover(*handle->motion);
-    return world->advance(until, [&](std::span<const BodyId> ids, double time, std::span<State> states) {
-      mover.states(ids, time, states);
-    });
-  };
-  return answer_event(advance());
+  if (handle == nullptr)
+    return answer_event(world->advance(until, static_cast<Probe::Function>(ask_javascript)));
+  MotionByIndex mover(*handle->motion);
+  const auto event = world->advance(until, [&](std::span<const BodyId> ids, double time,
+                                               std::span<State> states) { mover.states(ids, time, states); });
+  if (event || !mover.refused()) return answer_event(event);
+  fail(*mover.refused());
+  return -1;
 }
 
 /// What bodies do at events in world_run().
@@ -254,7 +273,7 @@ bool world_run(World* world, double until, MotionHandle* handle, Responding resp
   // Functions of JavaScript's may ask for other answers meanwhile.
   std::vector<double> told;
   MotionByIndex mover(*handle->motion);
-  const auto respond = [&](const Event& event) -> Answer {
+  const auto answered = [&](const Event& event) -> Answer {
     switch (responding) {
       case Responding::nothing:
         return {};
@@ -267,13 +286,27 @@ bool world_run(World* world, double until, MotionHandle* handle, Responding resp
     }
     return {};
   };
+  const auto respond = [&](const Event& event) { return mover.possible(answered(event)); };
   const auto sink = [&](const Event& event) {
     told.resize(told.size() + event_numbers);
     put(event, told.data() + told.size() - event_numbers);
   };
   const auto done = world->run(until, mover, respond, sink);
   answer() = std::move(told);
+  if (!done && mover.refused()) return fail(*mover.refused());
   return is_good(done);
+}
+
+/// The velocities of two bodies of these masses after a contact; with a resting speed > 0 as settle() has it.
+KINESPHERE_EXPORT(event_bounce)
+void event_bounce(const double* event, double first_mass, double second_mass, double restitution,
+                  double resting_speed, double* velocities) {
+  const Event contact = event_at(event);
+  const Bounce after = resting_speed > 0.0
+                           ? settle(contact, first_mass, second_mass, restitution, resting_speed)
+                           : bounce(contact, first_mass, second_mass, restitution);
+  put(after.first_velocity, velocities);
+  put(after.second_velocity, velocities + 3);
 }
 
 KINESPHERE_EXPORT(world_bodies) void world_bodies(const World* world) { answer_ids(world->bodies()); }

@@ -5,7 +5,8 @@ import { test } from "node:test";
 import { kinesphere } from "./package_under_test.mjs";
 
 const {
-  Ballistic, EventHash, KinesphereError, load, RandomForces, Replay, Scene, Steered, version, World,
+  Ballistic, bounce, EventHash, Frames, KinesphereError, load, RandomForces, RecordedTracks, Replay, Scene, Steered, version,
+  World,
 } = kinesphere;
 
 test("nothing works before load()", () => {
@@ -236,6 +237,86 @@ test("ships are steered, and bodies added later", () => {
   assert.equal(world.add({ ...motion.definition(1, 1), radius: 1 }), 1);
   assert.equal(world.advance(10, motion).kind, "contact_begin");
   assert.throws(() => motion.steer(0, world.time, [9, 0, 0]), (error) => error.code === "out_of_range");
+});
+
+test("a game hands over its frames, and answers contacts between them", () => {
+  const dt = 1 / 60;
+  const positions = Float64Array.of(50, 50, 30, 50, 50, 33);
+  const velocities = Float64Array.of(0, 0, 90, 0, 0, 0);
+  const frames = new Frames({ positions, velocities }, { accelerationLimits: 10 });
+  const world = new World({ box, contacts: "impacts" });
+  world.addMotion(frames, 1);
+  let contacts = 0;
+  for (let frame = 1; frame <= 60; ++frame) {
+    for (let k = 0; k < 2; ++k) {
+      velocities[3 * k + 2] -= 9.81 * dt;
+      for (let axis = 0; axis < 3; ++axis) positions[3 * k + axis] += velocities[3 * k + axis] * dt;
+    }
+    frames.push(positions);
+    assert.deepEqual(frames.violations(), []);
+    for (const event of world.events(frames.latestTime, frames)) {
+      assert.ok(event.time > frames.previousTime - 1e-12 && event.time <= frames.latestTime);
+      ++contacts;
+      const after = bounce(event);
+      for (const [body, velocity] of [[event.first, after.first], [event.second, after.second]]) {
+        if (body === null) continue;
+        frames.setVelocity(body, event.time, velocity);
+        world.setVelocity(body, velocity);
+        velocities.set(velocity, 3 * body);
+      }
+    }
+    positions.set(frames.latest());
+  }
+  assert.ok(contacts >= 2 && positions[5] - positions[2] > 2 - 1e-5);
+  assert.equal(world.counters.events.bound_violation, 0);
+  // A jump of the game's own making is reported, and a copy knows it too.
+  positions[0] += 5;
+  frames.push(positions);
+  for (const one of [frames, frames.clone()]) {
+    const [jump] = one.violations();
+    assert.ok(jump.body === 0 && jump.excess > 4.9 && jump.velocity[0] > 290);
+  }
+  assert.throws(() => frames.push([1, 2, 3]), (error) => error.code === "out_of_range" && error.argument === "positions");
+});
+
+test("recorded tracks are gone along", () => {
+  const times = [0, 1, 2, 3];
+  const tracks = new RecordedTracks([
+    { times, positions: [0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0] },
+    { times, positions: new Float32Array([3, 0, 0, 2, 0, 0, 1, 0, 0, 0, 0, 0]) },
+  ]);
+  assert.deepEqual(tracks.span(1), { begin: 0, end: 3 });
+  const world = new World({ dimensions: 2 });
+  world.addMotion(tracks, 0.25);
+  const [begin, end] = world.run(3, { motion: tracks });
+  assert.ok(Math.abs(begin.time - 1.25) < 1e-5 && Math.abs(end.time - 1.75) < 1e-5);
+  refuses(() => tracks.setVelocity(0, 0, [0, 0, 0]), "unsupported", "body", 0);
+  refuses(() => new World({ dimensions: 2 }).add({ ...tracks.definition(7, 0) }), "unknown_body", "body");
+  assert.throws(() => new RecordedTracks([{ times, positions: [1, 2] }]), /positions of body 0 must have three numbers for each of 4/);
+  assert.throws(() => new RecordedTracks([{ times: [0, 0], positions: [0, 0, 0, 1, 1, 1] }]), (error) => error.code === "out_of_range");
+  const other = new World({ dimensions: 2 });
+  const again = tracks.clone();
+  other.addMotion(again, 0.25);
+  refuses(() => other.run(3, { motion: again, respond: { restitution: 1 } }), "unsupported", "respond");
+});
+
+test("a motion that does not know the time says so, and the world goes on", () => {
+  const { world, motion, first } = pair();
+  const later = motion.clone();
+  later.setVelocity(first, 50, [1, 0, 0]);
+  refuses(() => world.run(20, { motion: later }), "out_of_range", "motion", first);
+  refuses(() => world.advance(20, later), "out_of_range", "motion", first);
+  const frames = new Frames({ positions: [20, 50, 50, 30, 50, 50], velocities: [1, 0, 0, -1, 0, 0] }, { accelerationLimits: 0 });
+  assert.throws(() => world.advance(20, frames), /Motion: body \d is known from time 0 to 0, but is asked for at/);
+  assert.equal(world.advance(20, motion).kind, "contact_begin");
+});
+
+test("a copy of a motion can do what the motion can", () => {
+  const motion = new Steered({ positions: [0, 0, 0] }, { accelerationLimits: 5 });
+  const copy = motion.clone();
+  copy.steer(0, 0, [1, 0, 0]);
+  assert.equal(copy.state(0, 2).position[0], 2);
+  assert.equal(motion.state(0, 2).position[0], 0);
 });
 
 test("a hash of nothing is that of no events", () => {

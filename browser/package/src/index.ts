@@ -1,7 +1,12 @@
 // Kinesphere: finds every collision among moving spheres whose trajectories nobody knows in advance.
 export { type ErrorCode, KinesphereError, load, type LoadOptions, usesSimd, version } from "./module.js";
 export { type BodyId, Event, EventHash, type EventKind, eventKinds, Events, type State, type Vec3, type Wall } from "./event.js";
-export { Ballistic, Motion, type MotionDefinition, type PerBody, RandomForces, type States, Steered } from "./motion.js";
+export {
+  Ballistic, type BallisticOptions, Frames, type FramesOptions, type FrameViolation, type LimitedMotion, Motion,
+  type MotionDefinition, type PerBody, RandomForces, type RandomForcesOptions, RecordedTracks, type States, Steered,
+  type Track,
+} from "./motion.js";
+export { bounce, type Bounce, type BounceOptions } from "./response.js";
 export {
   type Answer, type BodyBatch, type BodyDefinition, type BodyOptions, type BodyView, type Bounces,
   type Certain, type Counters, type Earliest, type Located, type MotionLimits, type Probe, type ProbeFunction,

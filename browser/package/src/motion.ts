@@ -30,6 +30,12 @@ export function vector(values: Vec3, what: string, call: string): [number, numbe
   return [values[0]!, values[1]!, values[2]!];
 }
 
+/** Where in the module a motion is that has been made there. */
+export class Made {
+  /** @internal */
+  constructor(readonly address: number) {}
+}
+
 function sixes(states: States, call: string): Float64Array {
   const count = countOf(states.positions, call);
   const { positions, velocities } = states;
@@ -53,8 +59,8 @@ export function sixOf(state: State, call: string): number[] {
 /** How bodies move. Bodies are named by their numbers 0, 1, 2, ..., which are their ids in a world to which they were added in this order. */
 export class Motion extends Owned {
   /** @internal */
-  constructor(address: number) {
-    super(address, "motion_free");
+  constructor(made: Made) {
+    super(made.address, "motion_free");
   }
 
   /** All bodies have smaller numbers than this. */
@@ -65,8 +71,8 @@ export class Motion extends Owned {
     return body >= 0 && body < this.size && theModule().call("motion_contains", this.address, body) !== 0;
   }
   /**
-   * Six numbers for each: position and velocity, at `time` or when the body was last changed if that was later;
-   * NaN for bodies that are not there. Of all bodies when none are named.
+   * Six numbers for each: position and velocity, at `time` or, where the motion does not know a body then, at the
+   * nearest time at which it does; NaN for bodies that are not there. Of all bodies when none are named.
    */
   states(time: number, bodies?: ArrayLike<number>): Float64Array {
     const module = theModule();
@@ -128,8 +134,9 @@ export class Motion extends Owned {
     return body;
   }
   /** A copy that goes its own way. */
-  clone(): Motion {
-    return new Motion(theModule().call("motion_clone", this.address));
+  clone(): this {
+    const kind = this.constructor as new (made: Made) => this;
+    return new kind(new Made(theModule().call("motion_clone", this.address)));
   }
 }
 
@@ -140,44 +147,73 @@ export interface MotionDefinition extends State {
   velocityError: number;
 }
 
+/** What bodies have at the start whose acceleration is limited. */
+export interface LimitedMotion {
+  /** >= 0 (length / time^2): no acceleration is longer. */
+  accelerationLimits: PerBody;
+  startTime?: number;
+}
+
+/** Makes the motion of bodies with limits by the function of this name; `more` are its last arguments. */
+function limited(name: string, call: string, start: States, options: LimitedMotion, ...more: number[]): Made {
+  const numbers = sixes(start, call);
+  const count = numbers.length / 6;
+  const limits = each(options.accelerationLimits, count, "accelerationLimits", call);
+  const module = theModule();
+  return new Made(module.with((scratch) => module.require(
+    module.call(name, count, scratch.numbers(numbers), scratch.numbers(limits), ...more, options.startTime ?? 0))));
+}
+
+export interface BallisticOptions {
+  /** Length / time^2. */
+  gravity?: Vec3;
+  startTime?: number;
+}
+
 /** Bodies that fly freely under a common gravity. */
 export class Ballistic extends Motion {
-  constructor(start: States, options: { gravity?: Vec3; startTime?: number } = {}) {
-    const call = "Ballistic";
-    const numbers = sixes(start, call);
-    const gravity = vector(options.gravity ?? [0, 0, 0], "gravity", call);
-    const module = theModule();
-    super(module.with((scratch) =>
-      module.require(module.call("motion_ballistic", numbers.length / 6, scratch.numbers(numbers),
-                                 scratch.numbers(gravity), options.startTime ?? 0))));
+  constructor(start: States, options?: BallisticOptions);
+  /** @internal */
+  constructor(made: Made);
+  constructor(start: States | Made, options: BallisticOptions = {}) {
+    super(start instanceof Made ? start : flying(start, options));
   }
+}
+
+function flying(start: States, options: BallisticOptions): Made {
+  const call = "Ballistic";
+  const numbers = sixes(start, call);
+  const gravity = vector(options.gravity ?? [0, 0, 0], "gravity", call);
+  const module = theModule();
+  return new Made(module.with((scratch) => module.require(
+    module.call("motion_ballistic", numbers.length / 6, scratch.numbers(numbers), scratch.numbers(gravity),
+                options.startTime ?? 0))));
+}
+
+export interface RandomForcesOptions extends LimitedMotion {
+  /** > 0 (time): how long each force lasts; by default 0.2. */
+  interval?: number;
+  seed?: number;
 }
 
 /** Bodies pushed around by random forces that change at fixed times. */
 export class RandomForces extends Motion {
-  constructor(start: States, options: { accelerationLimits: PerBody; interval?: number; seed?: number; startTime?: number }) {
-    const call = "RandomForces";
-    const numbers = sixes(start, call);
-    const count = numbers.length / 6;
-    const limits = each(options.accelerationLimits, count, "accelerationLimits", call);
-    const module = theModule();
-    super(module.with((scratch) =>
-      module.require(module.call("motion_random_forces", count, scratch.numbers(numbers), scratch.numbers(limits),
-                                 options.interval ?? 0.2, options.seed ?? 1, options.startTime ?? 0))));
+  constructor(start: States, options: RandomForcesOptions);
+  /** @internal */
+  constructor(made: Made);
+  constructor(start: States | Made, options?: RandomForcesOptions) {
+    super(start instanceof Made ? start
+      : limited("motion_random_forces", "RandomForces", start, options!, options!.interval ?? 0.2, options!.seed ?? 1));
   }
 }
 
 /** Bodies steered by hand: each keeps its acceleration, at first zero, until it is steered again. */
 export class Steered extends Motion {
-  constructor(start: States, options: { accelerationLimits: PerBody; startTime?: number }) {
-    const call = "Steered";
-    const numbers = sixes(start, call);
-    const count = numbers.length / 6;
-    const limits = each(options.accelerationLimits, count, "accelerationLimits", call);
-    const module = theModule();
-    super(module.with((scratch) =>
-      module.require(module.call("motion_steered", count, scratch.numbers(numbers), scratch.numbers(limits),
-                                 options.startTime ?? 0))));
+  constructor(start: States, options: LimitedMotion);
+  /** @internal */
+  constructor(made: Made);
+  constructor(start: States | Made, options?: LimitedMotion) {
+    super(start instanceof Made ? start : limited("motion_steered", "Steered", start, options!));
   }
   /** The acceleration from `time` on, no longer than the body's limit. The world need not hear of it. */
   steer(body: number, time: number, acceleration: Vec3): void {
@@ -186,4 +222,124 @@ export class Steered extends Motion {
     module.with((scratch) =>
       module.require(module.call("motion_steer", this.address, body, time, scratch.numbers(numbers))));
   }
+}
+
+export interface FramesOptions extends LimitedMotion {
+  /** > 0 (time): from one frame to the next; by default 1 / 60. */
+  interval?: number;
+  /** >= 0 (length): how far off the game's positions may be. */
+  positionError?: number;
+}
+
+/** A position with which a body broke its promise; see `FrameViolation` in kinesphere/motion/frames.hpp. */
+export interface FrameViolation {
+  body: number;
+  /** > 0 (length): by how much the position lies beyond where the limit lets the body be. */
+  excess: number;
+  /** (length / time^2): the limit that would have allowed it. */
+  acceleration: number;
+  /** Of the body in the frame that was pushed. */
+  velocity: Float64Array;
+}
+
+/**
+ * The motion of a game that moves its bodies in fixed steps: straight lines between its last two frames, so the world
+ * is one frame late.
+ *
+ *     const frames = new Frames({ positions, velocities }, { accelerationLimits: 10 });
+ *     world.addMotion(frames, radii);
+ *     // each frame, after the game has moved its bodies:
+ *     frames.push(positions);
+ *     for (const event of world.events(frames.latestTime, frames)) ...
+ *     positions.set(frames.latest());  // where changes at events have left the bodies
+ *
+ * A velocity that is changed at an event is told to both: frames.setVelocity(body, event.time, velocity) and
+ * world.setVelocity(body, velocity).
+ */
+export class Frames extends Motion {
+  constructor(start: States, options: FramesOptions);
+  /** @internal */
+  constructor(made: Made);
+  constructor(start: States | Made, options?: FramesOptions) {
+    super(start instanceof Made ? start
+      : limited("motion_frames", "Frames", start, options!, options!.interval ?? 1 / 60, options!.positionError ?? 0));
+  }
+  /** The next frame: three numbers for each body. */
+  push(positions: ArrayLike<number>): void {
+    const count = countOf(positions, "push");
+    const module = theModule();
+    module.with((scratch) =>
+      module.require(module.call("frames_push", this.address, count, scratch.numbers(positions))));
+  }
+  /** Three numbers for each body: where it is at latestTime, changes since the push included. */
+  latest(): Float64Array {
+    return this.frame().subarray(2);
+  }
+  /** Of the last frame but one: states are known from here to latestTime. */
+  get previousTime(): number {
+    return this.frame()[0]!;
+  }
+  get latestTime(): number {
+    return this.frame()[1]!;
+  }
+  /**
+   * Who broke its promise in the frame that was pushed last: by jumps of its velocity that the game has made by
+   * itself. The world must be told before it goes on: world.setVelocity(body, velocity) of each.
+   */
+  violations(): FrameViolation[] {
+    const module = theModule();
+    module.require(module.call("frames_violations", this.address));
+    const numbers = module.answer();
+    return Array.from({ length: numbers.length / 6 }, (_, k) => {
+      const [body, excess, acceleration] = numbers.subarray(6 * k, 6 * k + 3);
+      return { body: body!, excess: excess!, acceleration: acceleration!, velocity: numbers.subarray(6 * k + 3, 6 * k + 6) };
+    });
+  }
+  private frame(): Float64Array {
+    const module = theModule();
+    module.require(module.call("frames_latest", this.address));
+    return module.answer();
+  }
+}
+
+/** The samples of one body in the order of their times: at least two. */
+export interface Track {
+  times: ArrayLike<number>;
+  /** Three numbers for each sample. */
+  positions: ArrayLike<number>;
+}
+
+/**
+ * Motion along recorded tracks: the smoothest curve through the samples of each body, a natural cubic spline. Before
+ * its first sample and after its last a body goes straight on. It takes no other velocities.
+ */
+export class RecordedTracks extends Motion {
+  constructor(tracks: readonly Track[]);
+  /** @internal */
+  constructor(made: Made);
+  constructor(tracks: readonly Track[] | Made) {
+    super(tracks instanceof Made ? tracks : alongTracks(tracks));
+  }
+  /** The times of the body's first and last sample. */
+  span(body: number): { begin: number; end: number } {
+    const module = theModule();
+    module.require(module.call("tracks_span", this.address, body));
+    const [begin, end] = module.answer();
+    return { begin: begin!, end: end! };
+  }
+}
+
+function alongTracks(tracks: readonly Track[]): Made {
+  const samples: number[] = [];
+  for (const [body, { times, positions }] of tracks.entries()) {
+    if (positions.length !== 3 * times.length)
+      throw new RangeError(`RecordedTracks: positions of body ${body} must have three numbers for each of ` +
+                           `${times.length} times, but has ${positions.length}`);
+    for (let k = 0; k < times.length; ++k)
+      samples.push(times[k]!, positions[3 * k]!, positions[3 * k + 1]!, positions[3 * k + 2]!);
+  }
+  const module = theModule();
+  return new Made(module.with((scratch) => module.require(
+    module.call("motion_tracks", tracks.length, scratch.numbers(tracks.map(({ times }) => times.length)),
+                scratch.numbers(samples)))));
 }

@@ -1,7 +1,7 @@
 // The built-in scenes of the program `kinesphere`: what happens in them is the same, to the last bit.
 import { type Definition, definitionAt } from "./definition.js";
 import { Owned, theModule } from "./module.js";
-import { Motion } from "./motion.js";
+import { Made, Motion } from "./motion.js";
 
 /** What may differ from the built-in scene; see `kinesphere run --help`. */
 export interface SceneSettings {
@@ -72,6 +72,6 @@ export class Scene extends Owned {
   }
   /** The bodies' motion from the start, each time anew. */
   motion(): Motion {
-    return new Motion(theModule().call("scene_motion", this.address));
+    return new Motion(new Made(theModule().call("scene_motion", this.address)));
   }
 }
