@@ -46,13 +46,15 @@ struct CellView {
   std::size_t bodies = 0;  ///< the middles of whose boxes lie in it
 };
 
-/// What is recorded of a pair: whether the two touch or sense each other does not change before `until`, as
-/// long as both keep their promises and nobody changes them. Pairs of which nothing is recorded are apart at
-/// least until the box of one of them ends (BodyView::box_end).
+/// What is recorded of a pair, or of a body and the walls: whether the two touch or sense each other, or
+/// which walls the body touches, does not change before `until`, as long as they keep their promises and
+/// nobody changes them. Pairs of which nothing is recorded are apart at least until the box of one of them
+/// ends (BodyView::box_end); a body of whose walls nothing is recorded reaches or leaves none until its box
+/// ends.
 struct Certificate {
-  BodyId first;  ///< first < second
-  BodyId second;
-  double until;  ///< may be infinite
+  BodyId first;   ///< first < second
+  BodyId second;  ///< no_body for the walls
+  double until;   ///< may be infinite
 };
 
 }  // namespace kinesphere

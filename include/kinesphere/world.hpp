@@ -307,7 +307,8 @@ class World {
   Memory memory() const;
   /// Cost: all bodies.
   std::vector<CellView> cells() const;
-  /// Of pairs that may change before the first box_end of the two, in no particular order. Cost: all of them.
+  /// Of pairs, and of bodies with the walls, that may change before the first box_end of the two, in no
+  /// particular order. Cost: all of them.
   std::vector<Certificate> certificates() const;
   /// Timing costs two looks at the clock a call of advance() and a probe; at first it is off, and costs
   /// nothing. Switched on it begins from zero. It is no part of snapshots, clones and recordings. Errors:

@@ -43,8 +43,9 @@ Memory World::Engine::memory() const {
 std::vector<Certificate> World::Engine::certificates() const {
   std::vector<Certificate> all;
   for (const HotPair& pair : everybody_.hot_pairs()) {
-    if (!pair.has_second()) continue;
-    const auto [first, second] = std::minmax({bodies().id_of(pair.first), bodies().id_of(pair.second)});
+    if (pair.second == HotPair::renewal) continue;
+    const BodyId other = pair.second == HotPair::walls ? no_body : bodies().id_of(pair.second);
+    const auto [first, second] = std::minmax({bodies().id_of(pair.first), other});
     all.push_back({first, second, pair.time});
   }
   return all;

@@ -58,7 +58,10 @@ std::vector<BodyId> given_out(Playground& p) {
   for (const Found& found : p.world.overlapping({0, 0, 0}, 100.0).value()) ids.push_back(found.body);
   for (const Near& near : p.world.nearest({0, 0, 0}, 5).value()) ids.push_back(near.body);
   for (const Hit& hit : p.world.ray_cast({-50, 0, 0}, {1, 0, 0}, 100.0).value()) ids.push_back(hit.body);
-  for (const Certificate& each : p.world.certificates()) ids.insert(ids.end(), {each.first, each.second});
+  for (const Certificate& each : p.world.certificates()) {
+    ids.push_back(each.first);
+    if (each.second != no_body) ids.push_back(each.second);
+  }
   return ids;
 }
 

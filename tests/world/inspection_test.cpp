@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <stdexcept>
 #include <thread>
 
+#include "kinesphere/random.hpp"
 #include "support/expect_error.hpp"
 #include "world/crowd.hpp"
 
@@ -82,7 +84,8 @@ TEST(Certificates, AreTrueOfTheTruth) {
   for (const Certificate& certificate : all) {
     ASSERT_LT(certificate.first, certificate.second);
     EXPECT_GE(certificate.until, crowd.world.time());
-    if (crowd.gap(certificate.first, certificate.second) <= 5 * Crowd::eps) continue;
+    if (certificate.second == no_body || crowd.gap(certificate.first, certificate.second) <= 5 * Crowd::eps)
+      continue;
     const double end = std::min(certificate.until, crowd.world.time() + 10.0);
     for (int k = 0; k <= 20; ++k, ++checked) {
       const double time = crowd.world.time() + (end - crowd.world.time()) * k / 20;
@@ -93,9 +96,38 @@ TEST(Certificates, AreTrueOfTheTruth) {
   EXPECT_TRUE(World::create({}).value().certificates().empty());
 }
 
+TEST(Certificates, OfWallsAreTrueOfTheTruth) {
+  Playground p({.box = Box{{0, 0, 0}, {20, 20, 20}}});
+  Random random(11);
+  for (int k = 0; k < 60; ++k) {
+    p.add({.radius = 0.1,
+           .acceleration_limit = 2,
+           .position = Vec3{10, 10, 10} + 8 * random.point_in_ball(),
+           .velocity = 4 * random.point_in_ball(),
+           .filter = {.group = -1}});
+  }
+  std::map<BodyId, double> safe_until;
+  std::size_t recorded = 0, walls = 0;
+  for (double time = 0.05; time < 6.0; time += 0.05) {
+    for (const Event& event : p.run(time)) {
+      if (event.kind != EventKind::wall_begin && event.kind != EventKind::wall_end) continue;
+      ++walls;
+      EXPECT_GE(event.time, safe_until.at(event.first)) << event.first;
+    }
+    for (const BodyId id : p.world.bodies()) safe_until[id] = p.world.body(id).value().box_end;
+    for (const Certificate& certificate : p.world.certificates()) {
+      ASSERT_EQ(certificate.second, no_body) << "nothing else may touch";
+      safe_until[certificate.first] = std::min(safe_until[certificate.first], certificate.until);
+      ++recorded;
+    }
+  }
+  EXPECT_GT(recorded, 100u);
+  EXPECT_GT(walls, 20u);
+}
+
 TEST(Certificates, OfBodiesThatAreKickedAreGone) {
   BusyCrowd crowd;
-  const auto kicked = [](BodyId id) { return id.index % 3 == 0; };
+  const auto kicked = [](BodyId id) { return id != no_body && id.index % 3 == 0; };
   for (const BodyId id : crowd.world.bodies())
     if (kicked(id)) crowd.set_velocity(id, {1, 1, 1});
   ASSERT_FALSE(crowd.world.certificates().empty());

@@ -251,7 +251,7 @@ export class WorldView extends Owned {
       repeatedContacts: numbers[after + 11]!,
     };
   }
-  /** Three numbers for each pair that may change soon: two ids, and the time before which it does not. */
+  /** Three numbers for each pair that may change soon: two ids, -1 for the walls, and the time before which it does not. */
   certificates(): Float64Array {
     const module = theModule();
     module.call("world_certificates", this.address);
