@@ -33,20 +33,26 @@ export class Hand {
   /** Gives the held sphere the velocity that brings it to the pointer, when a second lasts `speed` simulated ones. */
   pull(speed: number): void {
     const simulation = this.simulation();
-    if (this.body === null || simulation === null) return;
-    const target = this.target();
-    if (target === null) return;
-    const radius = simulation.radii()[this.body]!;
-    const { box } = simulation;
+    const goal = this.goal();
+    if (this.body === null || simulation === null || goal === null) return;
     const positions = simulation.positions();
     const velocity = new Vector3();
-    for (let axis = 0; axis < 3; ++axis) {
-      let goal = target.getComponent(axis);
-      if (box !== null) goal = Math.min(Math.max(goal, box.lower[axis]! + radius), box.upper[axis]! - radius);
-      velocity.setComponent(axis, (goal - positions[3 * this.body + axis]!) / (reach * speed));
-    }
+    for (let axis = 0; axis < 3; ++axis)
+      velocity.setComponent(axis, (goal[axis]! - positions[3 * this.body + axis]!) / (reach * speed));
     velocity.clampLength(0, (3 * this.stage.extent.radius) / Math.max(speed, 1e-3));
     simulation.setVelocity(this.body, velocity.toArray());
+  }
+
+  /** Where the middle of the held sphere is to go: to the pointer, inside the walls. */
+  goal(): Float64Array | null {
+    const simulation = this.simulation();
+    if (this.body === null || simulation === null) return null;
+    const target = this.target();
+    if (target === null) return null;
+    const radius = simulation.radii()[this.body]!;
+    const { box } = simulation;
+    return Float64Array.from(target.toArray(), (goal, axis) =>
+      box === null ? goal : Math.min(Math.max(goal, box.lower[axis]! + radius), box.upper[axis]! - radius));
   }
 
   release(): void {
@@ -71,6 +77,7 @@ export class Hand {
     let foundHit = false;
     let least = Infinity;
     for (let k = 0; k < radii.length; ++k) {
+      if (Number.isNaN(positions[3 * k])) continue;
       middle.fromArray(positions, 3 * k).sub(origin);
       const along = middle.dot(direction);
       if (along <= camera.near) continue;

@@ -31,6 +31,7 @@ export class Hud {
   private readonly contacts = this.row("contacts", "Contacts of two bodies, each told at its exact time");
   private readonly missed = this.row("missed by 60 Hz", "Contacts that a loop which looks 60 times per second would not see");
   private readonly crossings = this.row("crossings", "Flights through the zone, each told");
+  private readonly alarms = this.row("alarms", "Pairs that may have been too near to each other; none comes late");
   private readonly probes = this.row("states asked", "Per second of simulated time; a loop asks every body 60 times");
   private readonly engine = this.row("engine", "Time of the library for one picture");
   private readonly drawing = this.row("drawing", "Time of the page for one picture, and pictures per second");
@@ -45,6 +46,8 @@ export class Hud {
     this.title.textContent = shown.title;
     this.about.textContent = shown.about;
     this.crossings.row.hidden = shown.zone === null;
+    this.alarms.row.hidden = shown.alarms === null;
+    this.missed.row.hidden = shown.alarms !== null;
   }
 
   update(shown: Shown, times: Times): void {
@@ -56,6 +59,7 @@ export class Hud {
     this.missed.row.classList.toggle("bad", tally.missed > 0);
     if (shown.zone !== null)
       this.put(this.crossings, short(tally.crossings), `a loop sees ${short(tally.crossings - tally.missedCrossings)}`);
+    if (shown.alarms !== null) this.put(this.alarms, short(tally.alarms), `${short(tally.warnings)} warnings`);
     const asked = shown.probesPerSecond;
     const ofLoop = 60 * bodyCount;
     this.put(this.probes, `${short(asked)} /s`, `60 Hz: ${short(ofLoop)}`);

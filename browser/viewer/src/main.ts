@@ -7,7 +7,8 @@ import { Hud, type Times } from "./hud.ts";
 import { Overlays } from "./overlays.ts";
 import { makePanel } from "./panel.ts";
 import { Recording } from "./recording.ts";
-import { sceneAbout, scenes } from "./scenes.ts";
+import type { TrackTable } from "./scenes/crowd.ts";
+import { sceneAbout, scenes } from "./scenes/list.ts";
 import { type Colouring, firstSettings, type Theme } from "./settings.ts";
 import type { Shown, Told } from "./shown.ts";
 import { Simulation } from "./simulation.ts";
@@ -45,7 +46,9 @@ let shown: Shown;
 let sizePlaces: Float64Array = new Float64Array(0);
 let told: Told[] = [];
 const times: Times = { engine: 0, drawing: 0, frame: 0 };
-const hand = new Hand(stage, () => (shown instanceof Simulation ? shown : null));
+const hand = new Hand(stage, () => (shown instanceof Simulation && shown.canBePushed ? shown : null));
+/** Tracks that the server has been given. */
+let opened: TrackTable | null = null;
 
 function show(next: Shown): void {
   hand.release();
@@ -59,22 +62,28 @@ function show(next: Shown): void {
   hud.update(shown, times);
 }
 
+/** What was chosen before stays where the scene cannot be made. */
+let chosen = { ...settings };
 function restart(): void {
+  hud.hideMessage();
   try {
-    show(new Simulation({ name: settings.scene, bodies: settings.bodies, seed: settings.seed }));
+    show(new Simulation({ name: settings.scene, bodies: settings.bodies, seed: settings.seed }, opened));
+    settings.bodies = shown.radii().length;
+    chosen = { ...settings };
   } catch (error) {
+    const { scene, bodies, seed, speed } = chosen;
+    Object.assign(settings, { scene, bodies, seed, speed });
     sayError(error);
   }
+  refreshPanel();
 }
 
 function chooseScene(): void {
-  hud.hideMessage();
   const { bodies, speed } = sceneAbout(settings.scene);
   settings.bodies = bodies;
   settings.speed = speed;
-  refreshPanel();
-  restart();
   setPlaying(true);
+  restart();
 }
 
 function repaint(): void {
@@ -118,14 +127,37 @@ const back = () => {
   hud.update(shown, times);
 };
 
-async function openRecording(file: File): Promise<void> {
+function openRecording(name: string, bytes: ArrayBuffer): void {
   try {
-    show(new Recording(file.name, new Uint8Array(await file.arrayBuffer())));
+    show(new Recording(name, new Uint8Array(bytes)));
     hud.hideMessage();
     setPlaying(true);
   } catch (error) {
     const message = error instanceof Error ? error.message : String(error);
-    hud.say(error instanceof KinesphereError ? `${file.name} cannot be shown. ${message}` : message);
+    hud.say(error instanceof KinesphereError ? `${name} cannot be shown. ${message}` : message);
+  }
+}
+
+async function openFile(file: File | undefined): Promise<void> {
+  if (file !== undefined) openRecording(file.name, await file.arrayBuffer());
+}
+
+/** What `kinesphere view FILE` serves beside the page; its address ends in #opened then. */
+async function openServed(): Promise<void> {
+  const served = async (name: string): Promise<Response> => {
+    const response = await fetch(`opened/${name}`);
+    if (!response.ok) throw new Error(`${name} could not be fetched: ${response.status} ${response.statusText}`);
+    return response;
+  };
+  try {
+    const files = await (await served("files.json")).json() as { recording: string | null; tracks: string | null };
+    if (files.recording !== null) openRecording(files.recording, await (await served("recording")).arrayBuffer());
+    if (files.tracks === null) return;
+    opened = await (await served("tracks.json")).json() as TrackTable;
+    settings.scene = "crowd";
+    chooseScene();
+  } catch (error) {
+    sayError(error);
   }
 }
 
@@ -148,7 +180,8 @@ const keys: Record<string, () => void> = {
     repaint();
   },
   "?": () => element<HTMLDialogElement>("help").showModal(),
-  ...Object.fromEntries(scenes.map(({ name }, k) => [String(k + 1), () => {
+  // 1 to 9, and 0 for the tenth.
+  ...Object.fromEntries(scenes.map(({ name }, k) => [String((k + 1) % 10), () => {
     settings.scene = name;
     chooseScene();
   }])),
@@ -167,8 +200,7 @@ for (const [id, key] of [["restart", "r"], ["back", ","], ["play", " "], ["next"
   element(id).addEventListener("click", keys[key]!);
 element<HTMLInputElement>("file").addEventListener("change", (event) => {
   const input = event.target as HTMLInputElement;
-  const file = input.files?.[0];
-  if (file !== undefined) void openRecording(file);
+  void openFile(input.files?.[0]);
   input.value = "";
 });
 addEventListener("dragover", (event) => {
@@ -181,8 +213,7 @@ addEventListener("dragleave", (event) => {
 addEventListener("drop", (event) => {
   event.preventDefault();
   document.body.classList.remove("dropping");
-  const file = event.dataTransfer?.files[0];
-  if (file !== undefined) void openRecording(file);
+  void openFile(event.dataTransfer?.files[0]);
 });
 darkQuery.addEventListener("change", repaint);
 
@@ -211,6 +242,7 @@ function draw(seconds: number): void {
     const glow = overlays.glow[body] ?? 0;
     return glow > 0.01 ? colour.lerp(palette.probe, 0.4 * glow) : colour;
   });
+  overlays.showPull(hand.body === null ? null : positions.subarray(3 * hand.body, 3 * hand.body + 3), hand.goal());
   stage.render();
 }
 
@@ -229,11 +261,14 @@ function frame(now: number): void {
       return shown.run(shown.time + seconds * settings.speed, performance.now() + engineBudget);
     });
     if (shown.time >= shown.endTime) setPlaying(false);
+  } else if (hand.body !== null) {
+    attempt(() => hand.pull(settings.speed));
   }
   const start = performance.now();
   draw(passed);
   times.drawing += 0.1 * (performance.now() - start - times.drawing);
   viewer.firstPicture ??= performance.now();
+  viewer.pictures += 1;
   if (now - hudTime < 200) return;
   hudTime = now;
   hud.update(shown, times);
@@ -247,6 +282,8 @@ const viewer = {
   hand,
   times,
   setPlaying,
+  restart,
+  pictures: 0,
   /** Milliseconds from the start of the page's loading. */
   firstPicture: null as number | null,
 };
@@ -258,3 +295,4 @@ window.kinesphereViewer = viewer;
 repaint();
 chooseScene();
 requestAnimationFrame(frame);
+if (location.hash === "#opened") void openServed();

@@ -6,7 +6,7 @@ import {
 } from "three";
 import { along, type Palette, placeOfDuration } from "./colours.ts";
 import type { Settings } from "./settings.ts";
-import { type Shown, type Told, wrapInto } from "./shown.ts";
+import { shiftInto, type Shown, type Told, wrapInto } from "./shown.ts";
 import { Spheres } from "./spheres.ts";
 
 const sparkCount = 512;
@@ -62,6 +62,18 @@ class Lines {
     this.colours[at + 1] = colour.g;
     this.colours[at + 2] = colour.b;
   }
+  /** From one body to the other or, where space repeats, to its nearest image. */
+  between({ box, periodic }: Shown, positions: Float64Array, first: number, second: number, colour: Color): void {
+    const from = positions.subarray(3 * first, 3 * first + 3);
+    const to = positions.slice(3 * second, 3 * second + 3);
+    for (let axis = 0; box !== null && axis < 3; ++axis) {
+      if (!periodic[axis]) continue;
+      const size = box.upper[axis]! - box.lower[axis]!;
+      to[axis]! -= size * Math.round((to[axis]! - from[axis]!) / size);
+    }
+    this.point(from[0]!, from[1]!, from[2]!, colour);
+    this.point(to[0]!, to[1]!, to[2]!, colour);
+  }
   /** The twelve edges of a box. */
   box(lower: ArrayLike<number>, upper: ArrayLike<number>, colour: Color): void {
     const corner = (bits: number) => this.point((bits & 1 ? upper : lower)[0]!, (bits & 2 ? upper : lower)[1]!,
@@ -96,6 +108,8 @@ export class Overlays {
   private readonly boxes = new Lines(0.45);
   private readonly cells = new Lines(0.35);
   private readonly certificates = new Lines(0.9);
+  private readonly alarms = new Lines(0.95);
+  private readonly pull = new Lines(0.9);
   private readonly zoneMaterial = new MeshBasicMaterial({ transparent: true, opacity: 0.2, depthWrite: false });
   private zone: Mesh | null = null;
   private zoneFlash = 0;
@@ -118,7 +132,8 @@ export class Overlays {
       .setAttribute("tint", this.tints).setAttribute("size", this.sizes), this.sparkMaterial);
     sparks.frustumCulled = false;
     sparks.renderOrder = 3;
-    scene.add(sparks, this.bounds.object, this.boxes.object, this.cells.object, this.certificates.object);
+    scene.add(sparks, this.bounds.object, this.boxes.object, this.cells.object, this.certificates.object,
+              this.alarms.object, this.pull.object);
   }
 
   paint(palette: Palette, isDark: boolean): void {
@@ -141,7 +156,9 @@ export class Overlays {
   /** Sparks where things have touched. */
   tell(told: readonly Told[], shown: Shown, extent: number): void {
     for (const { event, missed } of told) {
-      if (event.kind === "sensor_enter") {
+      if (shown.alarms !== null && event.kind === "sensor_enter") {
+        if (event.distance === shown.alarms.alarm) this.spark(event.point, this.palette!.missed, 0.8, extent / 16);
+      } else if (event.kind === "sensor_enter") {
         this.zoneFlash = 1;
         this.spark(event.firstState.position, this.palette!.zone, 0.4, extent / 16);
       } else if (event.kind === "sensor_leave" && missed) {
@@ -168,12 +185,23 @@ export class Overlays {
     else this.glow.fill(0);
     if (views !== null && on.bounds) this.drawBounds(shown, views);
     else this.bounds.object.visible = false;
-    if (views !== null && on.boxes) this.drawBoxes(views);
+    if (views !== null && on.boxes) this.drawBoxes(shown, views);
     else this.boxes.hide();
     if (on.cells) this.drawCells(shown);
     else this.cells.hide();
     if (views !== null && on.certificates) this.drawCertificates(shown, views, positions);
     else this.certificates.hide();
+    this.drawAlarms(shown, positions);
+  }
+
+  /** A line from a held sphere to where it is pulled to; none without. */
+  showPull(from: Float64Array | null, to: Float64Array | null): void {
+    this.pull.begin(1);
+    if (from !== null && to !== null) {
+      this.pull.point(from[0]!, from[1]!, from[2]!, this.palette!.held);
+      this.pull.point(to[0]!, to[1]!, to[2]!, this.palette!.held);
+    }
+    this.pull.end();
   }
 
   private zoneMesh(box: Box): Mesh {
@@ -225,6 +253,10 @@ export class Overlays {
     this.bounds.resize(views.length);
     const centre = new Float64Array(3);
     for (let k = 0; k < views.length; ++k) {
+      if (!views[k]!.enabled) {
+        this.bounds.hide(k);
+        continue;
+      }
       centre.set(views[k]!.centre);
       wrapInto(centre, shown.box, shown.periodic);
       this.bounds.put(k, centre[0]!, centre[1]!, centre[2]!, views[k]!.boundRadius, this.palette!.zone);
@@ -232,9 +264,9 @@ export class Overlays {
     this.bounds.done();
   }
 
-  private drawBoxes(views: readonly BodyView[]): void {
+  private drawBoxes(shown: Shown, views: readonly BodyView[]): void {
     this.boxes.begin(12 * views.length);
-    for (const { box } of views) this.boxes.box(box.lower, box.upper, this.palette!.line);
+    for (const { box, enabled } of views) if (enabled) this.boxes.box(...inSight(shown, box.lower, box.upper), this.palette!.line);
     this.boxes.end();
   }
 
@@ -243,7 +275,7 @@ export class Overlays {
     this.cells.begin((12 * cells.length) / 7);
     for (let at = 0; at < cells.length; at += 7) {
       const full = Math.log2(1 + cells[at + 6]!) / 5;
-      this.cells.box(cells.subarray(at, at + 3), cells.subarray(at + 3, at + 6),
+      this.cells.box(...inSight(shown, cells.subarray(at, at + 3), cells.subarray(at + 3, at + 6)),
                      along(this.palette!.times, 0.8 - full, this.colour));
     }
     this.cells.end();
@@ -253,24 +285,30 @@ export class Overlays {
   private drawCertificates(shown: Shown, views: readonly BodyView[], positions: Float64Array): void {
     const certificates = shown.view.certificates();
     const places = new Map(views.map((view, k) => [view.id, k]));
-    const { box, periodic } = shown;
     this.certificates.begin(certificates.length / 3);
     for (let at = 0; at < certificates.length; at += 3) {
       const first = places.get(certificates[at]!);
       const second = places.get(certificates[at + 1]!);
       if (first === undefined || second === undefined) continue;
       along(this.palette!.times, placeOfDuration(certificates[at + 2]! - shown.view.time), this.colour);
-      const from = positions.subarray(3 * first, 3 * first + 3);
-      const to = positions.slice(3 * second, 3 * second + 3);
-      // Where space repeats, the line goes to the nearest image.
-      for (let axis = 0; box !== null && axis < 3; ++axis) {
-        if (!periodic[axis]) continue;
-        const size = box.upper[axis]! - box.lower[axis]!;
-        to[axis]! -= size * Math.round((to[axis]! - from[axis]!) / size);
-      }
-      this.certificates.point(from[0]!, from[1]!, from[2]!, this.colour);
-      this.certificates.point(to[0]!, to[1]!, to[2]!, this.colour);
+      this.certificates.between(shown, positions, first, second, this.colour);
     }
     this.certificates.end();
   }
+
+  /** Lines between pairs that may be too near to each other. */
+  private drawAlarms(shown: Shown, positions: Float64Array): void {
+    const pairs = [...shown.near];
+    this.alarms.begin(pairs.length);
+    for (const { first, second, distance } of pairs)
+      this.alarms.between(shown, positions, first, second,
+                          distance === shown.alarms?.alarm ? this.palette!.missed : this.palette!.contact);
+    this.alarms.end();
+  }
+}
+
+/** The corners of a box, moved so that its middle is where space is shown. */
+function inSight({ box, periodic }: Shown, lower: Float64Array, upper: Float64Array): [Float64Array, Float64Array] {
+  const shift = Float64Array.from([0, 1, 2], (axis) => shiftInto(box, periodic, axis, (lower[axis]! + upper[axis]!) / 2));
+  return [lower.map((number, axis) => number + shift[axis]!), upper.map((number, axis) => number + shift[axis]!)];
 }

@@ -1,6 +1,6 @@
 // The panel of settings.
 import GUI from "lil-gui";
-import { scenes } from "./scenes.ts";
+import { scenes } from "./scenes/list.ts";
 import type { Settings } from "./settings.ts";
 
 export interface PanelActions {
@@ -14,7 +14,7 @@ export function makePanel(settings: Settings, actions: PanelActions): GUI {
   const gui = new GUI({ title: "Settings", container: document.querySelector<HTMLElement>("#panel")! });
   gui.add(settings, "scene", Object.fromEntries(scenes.map(({ title, name }) => [title, name]))).name("scene").onChange(actions.chooseScene);
   gui.add(settings, "speed", 0.02, 5, 0.01).name("speed");
-  gui.add(settings, "bodies", 10, 4000, 10).name("bodies").onFinishChange(actions.restart);
+  gui.add(settings, "bodies", 10, 10_000, 10).name("bodies").onFinishChange(actions.restart);
   gui.add(settings, "seed", 1, 1000, 1).name("seed").onFinishChange(actions.restart);
   gui.add(settings, "colouring", { size: "size", "asked lately": "asked", "safe until": "safe" }).name("colour");
   const overlays = gui.addFolder("Show");

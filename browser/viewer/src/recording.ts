@@ -5,7 +5,10 @@ import { emptyTally, RecentRate, type Shown, type Tally, type Told, wrapInto } f
 
 export class Recording implements Shown {
   readonly about = "A recording, gone through again. Bodies are drawn in the middle of their bounds. R leads back to the scene.";
+  readonly region = null;
   readonly zone = null;
+  readonly alarms = null;
+  readonly near = [];
   readonly box: Box | null;
   readonly periodic: readonly boolean[];
   private replay: Replay;

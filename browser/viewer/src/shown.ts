@@ -1,5 +1,6 @@
 // What the page can show: a simulation or a recording, as the drawing and the numbers see it.
-import type { BodyView, Box, Event, WorldView } from "kinesphere";
+import type { BodyId, BodyView, Box, Event, WorldView } from "kinesphere";
+import type { AlarmDistances } from "./scenes/live_scene.ts";
 
 /** An event, and whether a loop of 60 Hz would overlook it. */
 export interface Told {
@@ -15,10 +16,20 @@ export interface Tally {
   violations: number;
   crossings: number;
   missedCrossings: number;
+  warnings: number;
+  alarms: number;
 }
 
-export const emptyTally = (): Tally =>
-  ({ contacts: 0, missed: 0, wallContacts: 0, violations: 0, crossings: 0, missedCrossings: 0 });
+export const emptyTally = (): Tally => ({
+  contacts: 0, missed: 0, wallContacts: 0, violations: 0, crossings: 0, missedCrossings: 0, warnings: 0, alarms: 0,
+});
+
+/** Two that may be within a distance, from surface to surface. */
+export interface NearPair {
+  first: BodyId;
+  second: BodyId;
+  distance: number;
+}
 
 export interface Shown {
   readonly title: string;
@@ -30,16 +41,23 @@ export interface Shown {
   readonly box: Box | null;
   /** By axis: whether space repeats with the box. */
   readonly periodic: readonly boolean[];
+  /** What the camera looks at where there are no walls. */
+  readonly region: Box | null;
   readonly zone: Box | null;
+  /** Distances at which pairs are told before they touch. */
+  readonly alarms: AlarmDistances | null;
+  /** Pairs that may be within one of them now. */
+  readonly near: Iterable<NearPair>;
   readonly tally: Tally;
   /** 16 hexadecimal digits of all events so far. */
   readonly hash: string;
   /** Asked of bodies per second of simulated time, lately. */
   readonly probesPerSecond: number;
+  /** Of those that are there now. */
   readonly bodyCount: number;
   /** By place in the picture. */
   radii(): Float64Array;
-  /** Three numbers for each body, in the box where space repeats. */
+  /** Three numbers for each body, in the box where space repeats; NaN for who is not there. */
   positions(): Float64Array;
   /** The moving bodies as the world knows them, in the same order. */
   views(): BodyView[];
@@ -52,15 +70,19 @@ export interface Shown {
   free(): void;
 }
 
+/** What has to be added to a coordinate to bring it into the box where space repeats. */
+export function shiftInto(box: Box | null, periodic: readonly boolean[], axis: number, coordinate: number): number {
+  if (box === null || !periodic[axis]) return 0;
+  const lower = box.lower[axis]!;
+  const size = box.upper[axis]! - lower;
+  return -size * Math.floor((coordinate - lower) / size);
+}
+
 /** Moves coordinates into the box on axes where space repeats. */
 export function wrapInto(positions: Float64Array, box: Box | null, periodic: readonly boolean[]): Float64Array {
-  if (box === null) return positions;
   for (let axis = 0; axis < 3; ++axis) {
     if (!periodic[axis]) continue;
-    const lower = box.lower[axis]!;
-    const size = box.upper[axis]! - lower;
-    for (let at = axis; at < positions.length; at += 3)
-      positions[at] = positions[at]! - size * Math.floor((positions[at]! - lower) / size);
+    for (let at = axis; at < positions.length; at += 3) positions[at]! += shiftInto(box, periodic, axis, positions[at]!);
   }
   return positions;
 }

@@ -1,8 +1,10 @@
 // A scene that runs, can be stepped and gone back in, and lets its bodies be pushed. Needs no page.
-import { type BodyId, type BodyView, type Box, type Event, EventHash, type Events, type Motion, type Vec3, type World } from "kinesphere";
+import { type BodyId, type BodyView, type Box, type Event, EventHash, type Vec3, type World } from "kinesphere";
 import { isMissedByLoop, loopLooksWithin } from "./missed.ts";
-import { type SceneChoice, sceneAbout, type Setup, setUp } from "./scenes.ts";
-import { emptyTally, RecentRate, type Shown, type Tally, type Told, wrapInto } from "./shown.ts";
+import type { TrackTable } from "./scenes/crowd.ts";
+import { sceneAbout, setUp } from "./scenes/list.ts";
+import type { AlarmDistances, LiveScene, SceneChoice, Setup } from "./scenes/live_scene.ts";
+import { emptyTally, type NearPair, RecentRate, type Shown, type Tally, type Told, wrapInto } from "./shown.ts";
 
 /** Simulated time between two snapshots. */
 const snapshotInterval = 0.25;
@@ -12,88 +14,90 @@ const eventHorizon = 60;
 
 /** All that changes as time goes on. */
 interface Moment {
-  world: World;
-  motion: Motion;
+  scene: LiveScene;
   hash: EventHash;
   tally: Tally;
   /** Bodies in the zone, and since when. */
   inZone: Map<BodyId, number>;
+  /** Pairs within a distance of warning or alarm, by both bodies and the distance. */
+  near: Map<string, NearPair>;
 }
 
 function copyOf(moment: Moment): Moment {
   return {
-    world: moment.world.clone(),
-    motion: moment.motion.clone(),
+    scene: moment.scene.clone(),
     hash: moment.hash.clone(),
     tally: { ...moment.tally },
     inZone: new Map(moment.inZone),
+    near: new Map(moment.near),
   };
-}
-
-function release(moment: Moment): void {
-  moment.world.free();
-  moment.motion.free();
 }
 
 export class Simulation implements Shown {
   readonly title: string;
   readonly about: string;
   readonly box: Box | null;
+  readonly region: Box | null;
   readonly zone: Box | null;
-  readonly endTime = Infinity;
-  private readonly setup: Setup;
+  readonly alarms: AlarmDistances | null;
+  readonly endTime: number;
   readonly periodic: readonly boolean[];
+  private readonly setup: Setup;
   private now: Moment;
   /** In order of time. */
   private snapshots: Moment[] = [];
   private rate = new RecentRate();
 
-  constructor(readonly choice: SceneChoice) {
+  /** `opened` are the tracks that the scene of a recorded crowd shows. */
+  constructor(readonly choice: SceneChoice, opened: TrackTable | null = null) {
     const about = sceneAbout(choice.name);
-    this.title = about.title;
+    this.setup = setUp(choice, opened);
+    this.title = choice.name === "crowd" ? opened!.name : about.title;
     this.about = about.about;
-    this.setup = setUp(choice);
-    const { box, periodic } = this.setup.world.definition;
+    const { scene, zone, alarms, region, endTime } = this.setup;
+    const { box, periodic } = scene.world.definition;
     this.box = box ?? null;
-    this.zone = this.setup.zone?.box ?? null;
+    this.region = region ?? null;
+    this.zone = zone?.box ?? null;
+    this.alarms = alarms ?? null;
+    this.endTime = endTime ?? Infinity;
     this.periodic = [periodic.x === true, periodic.y === true, periodic.z === true];
-    this.now = {
-      world: this.setup.world,
-      motion: this.setup.motion,
-      hash: new EventHash(),
-      tally: emptyTally(),
-      inZone: new Map(),
-    };
+    this.now = { scene, hash: new EventHash(), tally: emptyTally(), inZone: new Map(), near: new Map() };
     this.keepSnapshot();
   }
 
-  get time(): number { return this.now.world.time; }
-  get view(): World { return this.now.world; }
+  get scene(): LiveScene { return this.now.scene; }
+  get time(): number { return this.now.scene.world.time; }
+  get view(): World { return this.now.scene.world; }
   get tally(): Tally { return this.now.tally; }
   get hash(): string { return this.now.hash.value; }
   get probesPerSecond(): number { return this.rate.value; }
-  get bodyCount(): number { return this.setup.radii.length; }
+  get bodyCount(): number { return this.now.scene.presentCount ?? this.setup.radii.length; }
+  get near(): Iterable<NearPair> { return this.now.near.values(); }
+  /** Whether bodies can be pushed. */
+  get canBePushed(): boolean { return this.now.scene.setVelocity !== undefined; }
 
   radii(): Float64Array {
     return this.setup.radii;
   }
   positions(): Float64Array {
-    const states = this.now.motion.states(this.time);
+    const states = this.now.scene.states();
     const positions = new Float64Array(states.length / 2);
     for (let k = 0; k < positions.length / 3; ++k) positions.set(states.subarray(6 * k, 6 * k + 3), 3 * k);
     return wrapInto(positions, this.box, this.periodic);
   }
   views(): BodyView[] {
-    const views = this.now.world.bodyViews();
+    const views = this.view.bodyViews();
     return this.zone === null ? views : views.filter((view) => !view.fixed);
   }
 
   run(until: number, deadline = Infinity): Told[] {
     const told: Told[] = [];
-    const slice = Math.max((until - this.time) / 8, 1e-4);
-    while (this.time < until) {
-      const nextSnapshot = this.snapshots.at(-1)!.world.time + snapshotInterval;
-      const end = Math.min(until, nextSnapshot, deadline === Infinity ? Infinity : this.time + slice);
+    const last = Math.min(until, this.endTime);
+    const slice = Math.max((last - this.time) / 8, 1e-4);
+    while (this.time < last) {
+      const nextSnapshot = this.snapshots.at(-1)!.scene.world.time + snapshotInterval;
+      const end = Math.min(last, nextSnapshot, deadline === Infinity ? Infinity : this.time + slice);
       this.goTo(end, told);
       if (end >= nextSnapshot) this.keepSnapshot();
       if (performance.now() > deadline) break;
@@ -111,9 +115,9 @@ export class Simulation implements Shown {
   }
 
   back(seconds: number): void {
-    const target = Math.max(this.time - seconds, this.snapshots[0]!.world.time);
-    while (this.snapshots.length > 1 && this.snapshots.at(-1)!.world.time > target) release(this.snapshots.pop()!);
-    release(this.now);
+    const target = Math.max(this.time - seconds, this.snapshots[0]!.scene.world.time);
+    while (this.snapshots.length > 1 && this.snapshots.at(-1)!.scene.world.time > target) this.snapshots.pop()!.scene.free();
+    this.now.scene.free();
     this.now = copyOf(this.snapshots.at(-1)!);
     this.rate.clear();
     this.run(target);
@@ -121,47 +125,47 @@ export class Simulation implements Shown {
 
   /** From now on the body has this velocity, until it is pushed or meets something. */
   setVelocity(body: BodyId, velocity: Vec3): void {
-    this.now.motion.setVelocity(body, this.time, velocity);
-    this.now.world.setVelocity(body, velocity);
+    this.now.scene.setVelocity?.(body, velocity);
   }
 
   free(): void {
-    for (const moment of [this.now, ...this.snapshots]) release(moment);
+    for (const moment of [this.now, ...this.snapshots]) moment.scene.free();
     this.snapshots = [];
   }
 
   private goTo(time: number, told: Told[]): void {
-    const { world, motion } = this.now;
-    world.run(time, { motion, respond: this.setup.respond }, (events: Events) => {
-      this.now.hash.add(events);
-      for (const event of events) told.push({ event, missed: this.count(event) });
+    this.now.scene.run(time, (event) => {
+      this.now.hash.add(event);
+      told.push({ event, missed: this.count(event) });
     });
-    this.rate.add(world.time, world.counters.probes);
+    this.rate.add(this.time, this.view.counters.probes);
   }
 
   /** A copy goes ahead until something happens. */
   private timeOfNextEvent(): number | null {
-    const world = this.now.world.clone();
-    const motion = this.now.motion.clone();
+    const ahead = this.now.scene.clone();
     try {
-      for (let ahead = 1e-3; ahead < eventHorizon; ahead *= 2) {
-        const events = world.run(this.time + ahead, { motion, respond: this.setup.respond });
-        // An event may come at the very time at which the world stands.
-        for (const event of events) if (event.time >= this.time) return event.time;
+      let found: number | null = null;
+      for (let by = 1e-3; found === null && by < eventHorizon; by *= 2) {
+        ahead.run(Math.min(this.time + by, this.endTime), (event) => {
+          // An event may come at the very time at which the world stands.
+          if (event.time >= this.time) found ??= event.time;
+        });
       }
-      return null;
+      return found;
     } finally {
-      world.free();
-      motion.free();
+      ahead.free();
     }
   }
 
   /** Returns whether a loop would overlook it. */
   private count(event: Event): boolean {
-    const { tally, inZone } = this.now;
+    const { tally, inZone, near } = this.now;
     switch (event.kind) {
       case "contact_begin": {
         tally.contacts += 1;
+        // Of bodies that report with errors it is not known whether they have truly touched.
+        if (this.alarms !== null) return false;
         const missed = isMissedByLoop(event, this.setup.radii[event.first]! + this.setup.radii[event.second!]!);
         if (missed) tally.missed += 1;
         return missed;
@@ -173,9 +177,18 @@ export class Simulation implements Shown {
         tally.violations += 1;
         return false;
       case "sensor_enter":
+        if (this.alarms !== null) {
+          tally[event.distance === this.alarms.alarm ? "alarms" : "warnings"] += 1;
+          near.set(keyOf(event), { first: event.first, second: event.second!, distance: event.distance });
+          return false;
+        }
         inZone.set(event.first, event.time);
         return false;
       case "sensor_leave": {
+        if (this.alarms !== null) {
+          near.delete(keyOf(event));
+          return false;
+        }
         const entered = inZone.get(event.first);
         inZone.delete(event.first);
         if (entered === undefined) return false;
@@ -191,6 +204,10 @@ export class Simulation implements Shown {
 
   private keepSnapshot(): void {
     this.snapshots.push(copyOf(this.now));
-    if (this.snapshots.length > snapshotsKept) release(this.snapshots.shift()!);
+    if (this.snapshots.length > snapshotsKept) this.snapshots.shift()!.scene.free();
   }
+}
+
+function keyOf({ first, second, distance }: Event): string {
+  return `${first} ${second} ${distance}`;
 }

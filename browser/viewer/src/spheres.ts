@@ -118,6 +118,9 @@ export class Spheres {
     this.balls.setXYZW(k, x, y, z, radius);
     this.tints.setXYZ(k, colour.r, colour.g, colour.b);
   }
+  hide(k: number): void {
+    this.balls.setXYZW(k, 0, 0, 0, 0);
+  }
   done(): void {
     this.balls.needsUpdate = true;
     this.tints.needsUpdate = true;

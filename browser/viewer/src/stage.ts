@@ -1,6 +1,7 @@
 // The picture: camera, light, fog, the box and the spheres.
+import type { Box } from "kinesphere";
 import {
-  BackSide, BoxGeometry, type Color, EdgesGeometry, Fog, Group, LineBasicMaterial, LineSegments, Mesh,
+  BackSide, BoxGeometry, BufferGeometry, type Color, EdgesGeometry, Float32BufferAttribute, Fog, Group, LineBasicMaterial, LineSegments, Mesh,
   MeshBasicMaterial, PerspectiveCamera, Scene, Sphere, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
@@ -58,6 +59,11 @@ export class Stage {
       walls.renderOrder = -1;
       this.surroundings.add(walls, edges);
       this.extent.set(new Vector3(...middle), Math.hypot(...size) / 2);
+    } else if (shown.region !== null) {
+      const { lower, upper } = shown.region;
+      this.surroundings.add(new LineSegments(floorGrid(shown.region), this.lineMaterial));
+      const middle = [0, 1, 2].map((axis) => (lower[axis]! + upper[axis]!) / 2) as [number, number, number];
+      this.extent.set(new Vector3(...middle), Math.hypot(...[0, 1, 2].map((axis) => upper[axis]! - lower[axis]!)) / 2);
     } else {
       const positions = shown.positions();
       const points: Vector3[] = [];
@@ -90,8 +96,11 @@ export class Stage {
   /** Three numbers of each body, and its colour. */
   draw(positions: Float64Array, radii: Float64Array, colourOf: (body: number) => Color): void {
     this.bodies.resize(radii.length);
-    for (let k = 0; k < radii.length; ++k)
-      this.bodies.put(k, positions[3 * k]!, positions[3 * k + 1]!, positions[3 * k + 2]!, radii[k]!, colourOf(k));
+    for (let k = 0; k < radii.length; ++k) {
+      const isThere = !Number.isNaN(positions[3 * k]);
+      if (isThere) this.bodies.put(k, positions[3 * k]!, positions[3 * k + 1]!, positions[3 * k + 2]!, radii[k]!, colourOf(k));
+      else this.bodies.hide(k);
+    }
     this.bodies.done();
   }
 
@@ -113,4 +122,19 @@ export class Stage {
     this.camera.aspect = clientWidth / clientHeight;
     this.camera.updateProjectionMatrix();
   }
+}
+
+/** Squares on the floor of a region: ten or so along its longer side, of a round size. */
+function floorGrid({ lower, upper }: Box): BufferGeometry {
+  const longest = Math.max(upper[0]! - lower[0]!, upper[1]! - lower[1]!, 1e-9);
+  const decade = 10 ** Math.floor(Math.log10(longest / 10));
+  const pitch = [1, 2, 5, 10].map((digit) => digit * decade).find((size) => longest / size <= 12)!;
+  const [alongX, alongY] = [0, 1].map((axis) => [Math.floor(lower[axis]! / pitch), Math.ceil(upper[axis]! / pitch)]) as
+    [[number, number], [number, number]];
+  const points: number[] = [];
+  for (let x = alongX[0]; x <= alongX[1]; ++x)
+    points.push(x * pitch, alongY[0] * pitch, lower[2]!, x * pitch, alongY[1] * pitch, lower[2]!);
+  for (let y = alongY[0]; y <= alongY[1]; ++y)
+    points.push(alongX[0] * pitch, y * pitch, lower[2]!, alongX[1] * pitch, y * pitch, lower[2]!);
+  return new BufferGeometry().setAttribute("position", new Float32BufferAttribute(points, 3));
 }

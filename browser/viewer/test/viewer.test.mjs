@@ -1,64 +1,30 @@
-// The built page in a browser: KINESPHERE_VIEWER names its folder, CHROMIUM the browser's program, and
-// PLAYWRIGHT, if it is not found otherwise, the folder of playwright-core.
+// The page as a person uses it.
 import assert from "node:assert/strict";
-import { readFile } from "node:fs/promises";
-import { createServer } from "node:http";
-import { extname, join, normalize, resolve } from "node:path";
-import { after, before, test } from "node:test";
-import { pathToFileURL } from "node:url";
+import { before, test } from "node:test";
 
-const folder = resolve(process.env.KINESPHERE_VIEWER ?? new URL("../dist", import.meta.url).pathname);
-const playwright = process.env.PLAYWRIGHT;
-const { chromium } = await import(
-  playwright === undefined ? "playwright-core" : pathToFileURL(resolve(playwright, "index.mjs")).href);
+import { bodyInSight, browserForTests } from "./page.mjs";
 
-const kinds = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm" };
-const policy = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; " +
-  "connect-src 'self'; img-src 'self' data:; font-src data:";
-
-let server;
-let browser;
-let page;
-/** Whatever the page complained of, and addresses that it asked for elsewhere. */
-const complaints = [];
-
-before(async () => {
-  server = createServer(async (request, response) => {
-    try {
-      const path = normalize(new URL(request.url, "http://localhost").pathname);
-      const file = join(folder, path === "/" ? "index.html" : path);
-      const bytes = await readFile(file);
-      response.writeHead(200, {
-        "content-type": kinds[extname(file)] ?? "application/octet-stream",
-        "content-security-policy": policy,
-      });
-      response.end(bytes);
-    } catch {
-      response.writeHead(404);
-      response.end();
-    }
-  });
-  await new Promise((done) => server.listen(0, "127.0.0.1", done));
-  browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
-  });
-  const address = `http://127.0.0.1:${server.address().port}/`;
-  page = await browser.newPage({ viewport: { width: 900, height: 700 } });
-  page.on("pageerror", (error) => complaints.push(error.message));
-  page.on("console", (message) => {
-    if (message.type() === "error") complaints.push(message.text());
-  });
-  page.on("request", (request) => {
-    if (!request.url().startsWith(address) && !request.url().startsWith("data:")) complaints.push(request.url());
-  });
-  await page.goto(address);
-  await page.waitForFunction(() => window.kinesphereViewer?.firstPicture != null, null, { timeout: 60_000 });
+const line = (x, y, count) => Array.from({ length: count }, (_, k) => [x + k, y, 0]).flat();
+/** Two people who pass each other; the second comes later and leaves earlier. */
+const tracks = {
+  name: "people.txt",
+  plane: true,
+  unit: "m",
+  tracks: [
+    { id: "anna", times: [10, 11, 12, 13, 14], positions: line(0, 0, 5) },
+    { id: "berta", times: [11, 12, 13], positions: [3, 0.2, 0, 2, 0.2, 0, 1, 0.2, 0] },
+  ],
+};
+const inBrowser = browserForTests({
+  given: {
+    "/opened/files.json": JSON.stringify({ recording: null, tracks: "people.txt" }),
+    "/opened/tracks.json": JSON.stringify(tracks),
+  },
 });
-
-after(async () => {
-  await browser?.close();
-  server?.close();
+const { complaints } = inBrowser;
+let page;
+before(async () => {
+  page = await inBrowser.open();
 });
 
 const state = () => page.evaluate(() => {
@@ -101,20 +67,7 @@ test("a second back, and forward to the same hash", async () => {
 });
 
 test("a sphere is grabbed, follows the pointer, and is thrown", async () => {
-  // A sphere that is seen where its middle is, with room around it.
-  const grabbed = await page.evaluate(() => {
-    const { simulation, stage, hand } = window.kinesphereViewer;
-    const positions = simulation.positions();
-    const { width, height } = stage.canvas.getBoundingClientRect();
-    for (let body = 0; body < simulation.bodyCount; ++body) {
-      const place = stage.camera.position.clone().fromArray(positions, 3 * body).project(stage.camera);
-      const x = ((place.x + 1) / 2) * width;
-      const y = ((1 - place.y) / 2) * height;
-      if (document.elementFromPoint(x, y) !== stage.canvas || x < 340 || x > width - 300) continue;
-      if (hand.bodyAt(x, y) === body && simulation.radii()[body] > 5) return { body, x, y };
-    }
-    return null;
-  });
+  const grabbed = await bodyInSight(page, 5);
   assert.notEqual(grabbed, null);
   const speedOf = (body) => page.evaluate((body) => {
     const { velocity } = window.kinesphereViewer.simulation.view.body(body).reported;
@@ -187,11 +140,127 @@ test("a recording is shown to its end", async () => {
   assert.deepEqual(shown, made);
 });
 
+test("a throw while time stands still counts", async () => {
+  await page.keyboard.press("r");
+  await page.keyboard.press("Space");
+  assert.equal((await state()).playing, false);
+  const grabbed = await bodyInSight(page, 5);
+  await page.mouse.move(grabbed.x, grabbed.y);
+  await page.mouse.down();
+  await page.mouse.move(grabbed.x + 50, grabbed.y, { steps: 3 });
+  const { time } = await state();
+  const pulled = (body) => page.evaluate((body) => {
+    const { simulation, stage } = window.kinesphereViewer;
+    const right = stage.camera.position.clone().set(1, 0, 0).transformDirection(stage.camera.matrixWorld);
+    const { velocity } = simulation.view.body(body).reported;
+    return right.x * velocity[0] + right.y * velocity[1] + right.z * velocity[2];
+  }, body);
+  await page.waitForFunction(() => window.kinesphereViewer.hand.goal() !== null);
+  await page.waitForTimeout(100);
+  await page.mouse.up();
+  assert.equal((await state()).time, time);
+  await page.evaluate(() => void window.kinesphereViewer.simulation.run(window.kinesphereViewer.simulation.time + 1e-6));
+  assert.ok((await pulled(grabbed.body)) > 10);
+});
+
 test("every scene can be chosen", async () => {
-  for (const key of ["1", "2", "3", "4", "5", "6", "7"]) {
+  for (const key of ["1", "2", "3", "4", "5", "6", "7", "8", "9"]) {
     await page.keyboard.press(key);
+    const name = await page.evaluate(() => window.kinesphereViewer.simulation.choice.name);
     await page.waitForFunction(() => window.kinesphereViewer.simulation.time > 0.02, null, { timeout: 60_000 });
+    // All switches at once, and each way to colour.
+    for (const colouring of ["asked", "safe", "size"]) {
+      await page.evaluate((colouring) => {
+        const { settings } = window.kinesphereViewer;
+        settings.colouring = colouring;
+        for (const overlay of Object.keys(settings.overlays)) settings.overlays[overlay] = colouring === "safe";
+      }, colouring);
+      const pictures = await page.evaluate(() => window.kinesphereViewer.pictures);
+      await page.waitForFunction((count) => window.kinesphereViewer.pictures > count + 1, pictures, { timeout: 60_000 });
+    }
+    assert.equal(await page.evaluate(() => window.kinesphereViewer.simulation.view.audit()), null, name);
   }
+});
+
+test("the scene of a recorded crowd says what it takes, and the one before goes on", async () => {
+  await page.keyboard.press("0");
+  await page.waitForSelector("#message:not([hidden])");
+  assert.match(await page.textContent("#message-text"), /kinesphere view FILE/);
+  assert.equal(await page.evaluate(() => window.kinesphereViewer.settings.scene), "game");
+});
+
+test("drones are warned before they touch, and alarms are undone by going back", async () => {
+  await page.keyboard.press("8");
+  await page.keyboard.press("Space");
+  const seen = await page.evaluate(() => {
+    const { simulation } = window.kinesphereViewer;
+    const told = simulation.run(20).map(({ event }) => event);
+    const before = { ...simulation.tally, near: [...simulation.near].length, hash: simulation.hash };
+    simulation.back(5);
+    const between = { ...simulation.tally };
+    simulation.run(20);
+    const warned = new Set();
+    let early = true;
+    for (const { kind, first, second, distance } of told) {
+      if (kind === "sensor_enter" && distance === 20) warned.add(`${first} ${second}`);
+      if (kind === "contact_begin" || distance === 6) early &&= warned.has(`${first} ${second}`);
+    }
+    return { before, between, again: { ...simulation.tally, near: [...simulation.near].length, hash: simulation.hash }, early };
+  });
+  assert.ok(seen.early && seen.before.warnings > 20 && seen.before.alarms > 0);
+  assert.ok(seen.between.warnings < seen.before.warnings);
+  assert.deepEqual(seen.again, seen.before);
+  assert.equal(seen.before.violations, 0);
+});
+
+test("no ball of the game passes through another, though a loop would miss many", async () => {
+  await page.keyboard.press("9");
+  const { tally, hash, again, deepest } = await page.evaluate(() => {
+    const { simulation } = window.kinesphereViewer;
+    let deepest = 0;
+    const radius = simulation.radii()[0];
+    for (let frame = 1; frame <= 60; ++frame) {
+      simulation.run(simulation.time + 1 / 90);
+      const positions = simulation.positions();
+      for (let a = 0; a < positions.length; a += 3)
+        for (let b = 0; b < a; b += 3)
+          deepest = Math.max(deepest, 2 * radius -
+            Math.hypot(positions[a] - positions[b], positions[a + 1] - positions[b + 1], positions[a + 2] - positions[b + 2]));
+    }
+    const { hash, time, tally } = simulation;
+    const counts = { ...tally };
+    simulation.back(0.4);
+    simulation.run(time);
+    return { tally: counts, hash, again: simulation.hash, deepest };
+  });
+  assert.ok(tally.missed > 20 && tally.violations === 0);
+  assert.ok(deepest <= 1.001e-4, `${deepest}`);
+  assert.equal(again, hash);
+});
+
+test("tracks that are served are shown: people come, pass each other and go", async () => {
+  page = await inBrowser.open("#opened");
+  await page.waitForFunction(() => window.kinesphereViewer.simulation.title === "people.txt");
+  const seen = await page.evaluate(() => {
+    const { simulation, setPlaying, hand } = window.kinesphereViewer;
+    setPlaying(false);
+    simulation.back(100);
+    const counts = [simulation.bodyCount];
+    const told = [];
+    for (const time of [11.5, 13.5, Infinity]) {
+      told.push(...simulation.run(time).map(({ event }) => [event.kind, event.time]));
+      counts.push(simulation.bodyCount);
+    }
+    return { counts, told, time: simulation.time, end: simulation.endTime, canBePushed: simulation.canBePushed };
+  });
+  assert.deepEqual(seen.counts, [1, 2, 1, 0]);
+  assert.equal(seen.end, 14);
+  assert.equal(seen.time, 14);
+  assert.equal(seen.canBePushed, false);
+  // They pass at 12 s, 0.2 m aside, with 2 m/s: nearer than 0.5 m while |2 t| < sqrt(0.25 - 0.04).
+  const half = Math.sqrt(0.21) / 2;
+  assert.deepEqual(seen.told.map(([kind]) => kind), ["contact_begin", "contact_end"]);
+  assert.ok(Math.abs(seen.told[0][1] - (12 - half)) < 1e-4 && Math.abs(seen.told[1][1] - (12 + half)) < 1e-4, `${seen.told}`);
 });
 
 test("the page has complained of nothing, and asked nobody else", () => {

@@ -1,0 +1,61 @@
+// The scenes that can be chosen.
+import { bullets } from "./bullets.ts";
+import { crowd, type TrackTable } from "./crowd.ts";
+import { drones } from "./drones.ts";
+import { game } from "./game.ts";
+import { ofLibrary } from "./library.ts";
+import type { SceneChoice, Setup } from "./live_scene.ts";
+
+export interface SceneAbout {
+  name: string;
+  title: string;
+  about: string;
+  bodies: number;
+  /** Simulated seconds per second at first. */
+  speed: number;
+}
+
+export const scenes: readonly SceneAbout[] = [
+  { name: "paper1", title: "Random forces", bodies: 500, speed: 2,
+    about: "Sizes 1 to 100, pushed by forces that nobody knows in advance: only their limits are promised." },
+  { name: "paper2", title: "Strong forces, from rest", bodies: 500, speed: 1,
+    about: "Larger forces, and sizes that differ less." },
+  { name: "gas", title: "Gas in a box", bodies: 600, speed: 2,
+    about: "Equal spheres that fly freely: hardly any of them has to be asked between two contacts." },
+  { name: "periodic_gas", title: "Dense gas, periodic", bodies: 400, speed: 0.5,
+    about: "Space repeats on all axes: what leaves on one side comes in on the other." },
+  { name: "rain", title: "Rain", bodies: 500, speed: 1, about: "Drops fall, and bounce off the floor." },
+  { name: "pile", title: "Pile", bodies: 300, speed: 1, about: "Spheres fall on a heap, and lose speed in each contact." },
+  { name: "bullets", title: "Bullets through a thin zone", bodies: 120, speed: 0.1,
+    about: "The zone is 0.05 thick. A loop of 60 Hz overlooks most flights through it; here each is told." },
+  { name: "drones", title: "Drones with alarms", bodies: 60, speed: 2,
+    about: "They report where they are with errors of a metre. Two that may be within 20 m are warned, and climb or sink; at 6 m there is an alarm." },
+  { name: "game", title: "A game loop", bodies: 200, speed: 0.25,
+    about: "A game moves its balls 60 times a second, up to a unit each time, and hands each frame over. None passes through another." },
+  { name: "crowd", title: "A recorded crowd", bodies: 10_000, speed: 1,
+    about: "People as they were recorded. Two that come within half a metre are told." },
+];
+
+export function sceneAbout(name: string): SceneAbout {
+  const found = scenes.find((scene) => scene.name === name);
+  if (found === undefined) throw new RangeError(`There is no scene ${name}`);
+  return found;
+}
+
+/** `opened` are the tracks that the server has been given, if it has. */
+export function setUp(choice: SceneChoice, opened: TrackTable | null): Setup {
+  switch (choice.name) {
+    case "bullets":
+      return bullets(choice);
+    case "drones":
+      return drones(choice);
+    case "game":
+      return game(choice);
+    case "crowd":
+      if (opened === null)
+        throw new RangeError("This scene takes a recording of people, a table of who was where when: kinesphere view FILE shows it.");
+      return crowd(choice, opened);
+    default:
+      return ofLibrary(choice);
+  }
+}

@@ -1,0 +1,101 @@
+// The built page in a browser: KINESPHERE_VIEWER names its folder, KINESPHERE_PACKAGE that of the npm package,
+// CHROMIUM the browser's program, and PLAYWRIGHT, if it is not found otherwise, the folder of playwright-core.
+import { readFile } from "node:fs/promises";
+import { createServer } from "node:http";
+import { extname, join, normalize, resolve } from "node:path";
+import { after } from "node:test";
+import { pathToFileURL } from "node:url";
+
+const folders = {
+  "/": resolve(process.env.KINESPHERE_VIEWER ?? new URL("../dist", import.meta.url).pathname),
+  "/package/": resolve(process.env.KINESPHERE_PACKAGE ?? new URL("../../package", import.meta.url).pathname),
+};
+const playwright = process.env.PLAYWRIGHT;
+const { chromium } = await import(
+  playwright === undefined ? "playwright-core" : pathToFileURL(resolve(playwright, "index.mjs")).href);
+
+const kinds = {
+  ".html": "text/html", ".js": "text/javascript", ".mjs": "text/javascript", ".css": "text/css", ".json": "application/json",
+  ".wasm": "application/wasm",
+};
+const policy = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; " +
+  "connect-src 'self'; img-src 'self' data:; font-src data:";
+
+/** The bytes of a file of one of the folders, or of what a test gives out itself; undefined where there is none. */
+async function bytesOf(path, given) {
+  if (path in given) return given[path];
+  const root = path.startsWith("/package/") ? "/package/" : "/";
+  const name = path === "/" ? "index.html" : path.slice(root.length);
+  return readFile(join(folders[root], normalize(name))).catch(() => undefined);
+}
+
+/** Serves the page on this machine; `given` has the texts of further paths. */
+async function serve(given) {
+  const server = createServer(async (request, response) => {
+    const { pathname } = new URL(request.url, "http://localhost");
+    const bytes = await bytesOf(pathname, given);
+    const kind = kinds[pathname === "/" ? ".html" : extname(pathname)] ?? "application/octet-stream";
+    response.writeHead(bytes === undefined ? 404 : 200, { "content-type": kind, "content-security-policy": policy });
+    response.end(bytes);
+  });
+  await new Promise((done) => server.listen(0, "127.0.0.1", done));
+  return server;
+}
+
+/**
+ * A browser that is there for the tests of a file. `open()` loads the page and waits for its first picture;
+ * `complaints` is whatever pages complained of, and addresses that they asked for elsewhere.
+ */
+export function browserForTests({ given = {}, viewport = { width: 900, height: 700 } } = {}) {
+  const found = { complaints: [], page: undefined, address: undefined, open: undefined };
+  let server;
+  let browser;
+  const start = async () => {
+    server = await serve(given);
+    found.address = `http://127.0.0.1:${server.address().port}/`;
+    browser = await chromium.launch({
+      executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+      args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+    });
+  };
+  after(async () => {
+    await browser?.close();
+    server?.close();
+  });
+  found.open = async (hash = "", options = {}) => {
+    if (browser === undefined) await start();
+    await found.page?.close();
+    const page = await browser.newPage({ viewport, colorScheme: "dark", ...options });
+    page.on("pageerror", (error) => found.complaints.push(error.message));
+    page.on("console", (message) => {
+      if (message.type() === "error") found.complaints.push(message.text());
+    });
+    page.on("request", (request) => {
+      const url = request.url();
+      if (!url.startsWith(found.address) && !url.startsWith("data:")) found.complaints.push(url);
+    });
+    await page.goto(found.address + hash);
+    await page.waitForFunction(() => window.kinesphereViewer?.firstPicture != null, null, { timeout: 60_000 });
+    found.page = page;
+    return page;
+  };
+  return found;
+}
+
+/** A body larger than `least` that can be grabbed, and where on the page its middle is. */
+export function bodyInSight(page, least) {
+  return page.evaluate((least) => {
+    const { simulation, stage, hand } = window.kinesphereViewer;
+    const positions = simulation.positions();
+    const radii = simulation.radii();
+    const { width, height } = stage.canvas.getBoundingClientRect();
+    for (let body = 0; body < radii.length; ++body) {
+      const place = stage.camera.position.clone().fromArray(positions, 3 * body).project(stage.camera);
+      const x = ((place.x + 1) / 2) * width;
+      const y = ((1 - place.y) / 2) * height;
+      if (document.elementFromPoint(x, y) !== stage.canvas || x < 340 || x > width - 300) continue;
+      if (hand.bodyAt(x, y) === body && radii[body] > least) return { body, x, y };
+    }
+    return null;
+  }, least);
+}
