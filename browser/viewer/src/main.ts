@@ -283,6 +283,7 @@ const viewer = {
   times,
   setPlaying,
   restart,
+  repaint,
   pictures: 0,
   /** Milliseconds from the start of the page's loading. */
   firstPicture: null as number | null,

@@ -67,7 +67,7 @@ function drag(settings) {
   }, settings);
 }
 
-for (const [scene, seconds, bodies, seed] of [["paper1", 60, 300, 1], ["gas", 20, 400, 2], ["pile", 20, 200, 3], ["game", 10, 150, 4]]) {
+for (const [scene, seconds, bodies, seed] of [["paper1", 60, 300, 1], ["gas", 10, 400, 2], ["pile", 10, 200, 3], ["game", 10, 150, 4]]) {
   test(`${scene}: dragged at random for ${seconds} s (seed ${seed})`, async () => {
     await page.evaluate(({ scene, bodies, seed }) => {
       const viewer = window.kinesphereViewer;
@@ -87,8 +87,8 @@ for (const [scene, seconds, bodies, seed] of [["paper1", 60, 300, 1], ["gas", 20
     const result = await drag({ seconds, seed, pointerId });
     await page.mouse.up();
     assert.equal(result.held, 60 * seconds, "the sphere was let go");
-    assert.ok(result.way > 10 * result.extent, `the sphere was dragged ${result.way}`);
-    assert.ok(result.contacts > 10, `${result.contacts} contacts of the sphere`);
+    assert.ok(result.way > 5 * result.extent, `the sphere was dragged ${result.way}`);
+    assert.ok(result.contacts > 5, `${result.contacts} contacts of the sphere`);
     assert.ok(result.deepest <= 1.001 * result.tolerance, `two overlap by ${result.deepest}`);
     assert.equal(result.violations, 0);
     assert.deepEqual(result.findings, []);

@@ -50,6 +50,7 @@ export function browserForTests({ given = {}, viewport = { width: 900, height: 7
   const found = { complaints: [], page: undefined, address: undefined, open: undefined };
   let server;
   let browser;
+  let current;
   const start = async () => {
     server = await serve(given);
     found.address = `http://127.0.0.1:${server.address().port}/`;
@@ -64,7 +65,7 @@ export function browserForTests({ given = {}, viewport = { width: 900, height: 7
   });
   found.open = async (hash = "", options = {}) => {
     if (browser === undefined) await start();
-    await found.page?.close();
+    await current?.close();
     const page = await browser.newPage({ viewport, colorScheme: "dark", ...options });
     page.on("pageerror", (error) => found.complaints.push(error.message));
     page.on("console", (message) => {
@@ -76,7 +77,7 @@ export function browserForTests({ given = {}, viewport = { width: 900, height: 7
     });
     await page.goto(found.address + hash);
     await page.waitForFunction(() => window.kinesphereViewer?.firstPicture != null, null, { timeout: 60_000 });
-    found.page = page;
+    current = found.page = page;
     return page;
   };
   return found;
