@@ -32,6 +32,14 @@ if ! run-clang-tidy -quiet -p "$build" -j "$(nproc)" -checks=-bugprone-suspiciou
   grep -A 8 -E '(error|warning): ' "$build/lint.log" || cat "$build/lint.log"
   exit 1
 fi
+# The face for JavaScript, as emscripten's compiler reads it.
+sysroot=/usr/share/emscripten/cache/sysroot
+if [[ -d $sysroot ]]; then
+  clang-tidy -quiet browser/module/*.cpp -- -target wasm32-unknown-emscripten --sysroot=$sysroot -isystem $sysroot/include/c++/v1 \
+    -std=c++20 -Iinclude -Isrc -I"$build/include" 2>"$build/lint.log" || { cat "$build/lint.log"; exit 1; }
+else
+  echo "lint: without emscripten, so clang-tidy leaves out browser/module"
+fi
 # The one check that does not look into what a batch includes.
 mapfile -t sources < <(grep -rlE '^ *using (\w+::)+\w+;' src programs examples --include='*.cpp')
 clang-tidy -quiet -p "$build" -checks='-*,misc-unused-using-decls' "${sources[@]}" 2>"$build/lint.log"
