@@ -181,6 +181,21 @@ test("every scene can be chosen", async () => {
   }
 });
 
+test("ten thousand bodies find room", async () => {
+  for (const scene of ["paper1", "drones", "game"]) {
+    const found = await page.evaluate((scene) => {
+      const viewer = window.kinesphereViewer;
+      Object.assign(viewer.settings, { scene, bodies: 10_000, seed: 1 });
+      viewer.setPlaying(false);
+      viewer.restart();
+      return { bodies: viewer.simulation.bodyCount, scene: viewer.simulation.choice.name, said: document.querySelector("#message").hidden ? "" :
+        document.querySelector("#message-text").textContent };
+    }, scene);
+    assert.deepEqual(found, { bodies: 10_000, scene, said: "" });
+  }
+  await page.keyboard.press("9");
+});
+
 test("the scene of a recorded crowd says what it takes, and the one before goes on", async () => {
   await page.keyboard.press("0");
   await page.waitForSelector("#message:not([hidden])");
