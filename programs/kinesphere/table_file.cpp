@@ -7,9 +7,9 @@
 #include <cassert>
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "json_text.hpp"
 #include "program_error.hpp"
 
 namespace kinesphere::program {
@@ -23,10 +23,6 @@ std::string quoted_for_csv(const std::string& text) {
     quoted += c;
   }
   return quoted + '"';
-}
-
-std::string quoted_for_json(const std::string& text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 /// `empty` is how a format spells a value that is not there (JSON has no NaN or infinity either).
@@ -68,7 +64,7 @@ void TableFile::write(std::span<const Cell> cells) {
       line += text_of(cells[k], "", quoted_for_csv);
     } else {
       line += k == 0 ? "{" : ", ";
-      line += quoted_for_json(columns_[k]) + ": " + text_of(cells[k], "null", quoted_for_json);
+      line += json_text(columns_[k]) + ": " + text_of(cells[k], "null", json_text);
     }
   }
   line += format_ == TableFormat::csv ? "\n" : "}\n";

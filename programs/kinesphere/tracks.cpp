@@ -133,6 +133,7 @@ CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
   command->add_option("--plot", options.plot, "Draw a map and the closest approaches into this .svg file")
       ->type_name("FILE");
   add_reading_options(*command, options.files, options.reading);
+  add_interpolation_option(*command, options.reading);
   command->add_flag("--verify", options.verify, "Compare with the exact oracle on the same curves");
   command->add_flag("--quiet", options.quiet, "No progress bar and no summary");
   return command;

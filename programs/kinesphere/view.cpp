@@ -1,16 +1,20 @@
-// `kinesphere view`: serves the files of the viewer on this machine alone, and opens them in a browser.
+// `kinesphere view`: serves the files of the viewer, and what it is to show, on this machine alone, and opens
+// them in a browser.
 #include "view.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <vector>
 
 #include "program_error.hpp"
 #include "standard_output.hpp"
+#include "tracks/reading_options.hpp"
+#include "view/opened_files.hpp"
 
 #ifdef KINESPHERE_WITH_HTTPLIB
 #include <httplib.h>
@@ -60,6 +64,13 @@ std::string viewer_folder(const std::string& chosen) {
 CLI::App* add_view_command(CLI::App& program, ViewOptions& options) {
   CLI::App* command =
       program.add_subcommand("view", "Show scenes and recordings in a browser, on this machine alone");
+  add_reading_options(*command, options.files, options.reading)
+      ->required(false)
+      ->description(
+          "A recording of `kinesphere run --record`, or text tables of positions as `kinesphere tracks` "
+          "reads them; plain or gzipped, - for standard input");
+  command->parse_complete_callback(
+      [command, &options] { options.reading_option = given_reading_option(*command); });
   command->add_option("--folder", options.folder, "The viewer, if it is another one than was built here");
   command->add_option("--port", options.port, "Port of 127.0.0.1; any that is free when not given")
       ->check(CLI::Range(0, 65535));
@@ -103,6 +114,29 @@ void prepare(httplib::Server& server, const std::string& folder) {
     throw ProgramError(fmt::format("--folder: {} cannot be read", folder));
 }
 
+/// `content` must live as long as the server. It may be large: it is handed over in pieces, neither copied
+/// nor compressed.
+void serve(httplib::Server& server, const char* address, const char* type, const std::string& content) {
+  const auto hand_over = [&content](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+    constexpr std::size_t piece = 1 << 20;
+    return sink.write(content.data() + offset, std::min(length, piece));
+  };
+  server.Get(address, [&content, type, hand_over](const httplib::Request&, httplib::Response& response) {
+    response.set_content_provider(content.size(), type, hand_over);
+  });
+}
+
+/// Addresses are regular expressions. `opened` must live as long as the server.
+void serve(httplib::Server& server, const OpenedFiles& opened) {
+  server.Get("/opened/files\\.json",
+             [index = opened.index()](const httplib::Request&, httplib::Response& response) {
+               response.set_content(index, "application/json");
+             });
+  if (opened.recording)
+    serve(server, "/opened/recording", "application/octet-stream", opened.recording->content);
+  if (opened.tracks) serve(server, "/opened/tracks\\.json", "application/json", opened.tracks->content);
+}
+
 int bound_port(httplib::Server& server, int wanted) {
   if (wanted == 0) {
     const int port = server.bind_to_any_port(host);
@@ -123,8 +157,10 @@ void open_browser(const std::string& address) {
 
 int view(const ViewOptions& options) {
   const std::string folder = viewer_folder(options.folder);
+  const OpenedFiles opened = open_files(options.files, options.reading, options.reading_option);
   httplib::Server server;
   prepare(server, folder);
+  serve(server, opened);
   const int port = bound_port(server, options.port);
   server.set_pre_routing_handler([port](const httplib::Request& request, httplib::Response& response) {
     return refuse_other_names(request, response, port);

@@ -1,14 +1,20 @@
-// `kinesphere view`: shows the viewer in a browser.
+// `kinesphere view`: shows the viewer in a browser, and in it the files that were given.
 #pragma once
 
 #include <CLI/App.hpp>
 #include <string>
+#include <vector>
+
+#include "tracks/reading_policy.hpp"
 
 namespace kinesphere::program {
 
 struct ViewOptions {
-  std::string folder;  ///< empty: where the viewer has been built or installed
-  int port = 0;        ///< 0: any that is free
+  std::vector<std::string> files;  ///< a recording of a world, or tables of positions; may be empty
+  TrackOptions reading;            ///< of tables
+  std::string reading_option;      ///< the name of one of those that was given; empty: there was none
+  std::string folder;              ///< empty: where the viewer has been built or installed
+  int port = 0;                    ///< 0: any that is free
   bool no_browser = false;
 };
 

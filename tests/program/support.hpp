@@ -86,10 +86,11 @@ class ProgramTest : public FolderTest {
     std::filesystem::remove(path("err"));
     return result;
   }
-  /// Exit code 2, nothing on stdout, one line on stderr that has all of `parts`.
-  void expect_wrong_input(const std::string& arguments, std::initializer_list<std::string_view> parts) const {
+  /// Exit code 2, nothing on stdout, one line on stderr that has all of `parts`. `before` as for run().
+  void expect_wrong_input(const std::string& arguments, std::initializer_list<std::string_view> parts,
+                          const std::string& before = "") const {
     SCOPED_TRACE(arguments);
-    const ProgramRun result = run(arguments);
+    const ProgramRun result = run(arguments, before);
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_EQ(result.out, "");
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;

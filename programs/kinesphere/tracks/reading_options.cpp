@@ -32,16 +32,18 @@ void add_choice(CLI::App& command, const std::string& name, Value& value,
 
 }  // namespace
 
-void add_reading_options(CLI::App& command, std::vector<std::string>& files, TrackOptions& options) {
+CLI::Option* add_reading_options(CLI::App& command, std::vector<std::string>& files, TrackOptions& options) {
   command.footer(
       "Tables with separators ; , tab or blanks, quoted or not, with the usual column names: id (mmsi,\n"
       "track_id, agent, ...), time (t, timestamp, datetime, ...) or frame, x y z or lon lat. docs/tracks.md\n"
       "explains every option, with an example of each kind of file.");
-  command
-      .add_option("FILE", files,
-                  "Text tables of positions, plain or gzipped; - for standard input. An id goes on from one "
-                  "file to the next")
-      ->required();
+  CLI::Option* const file_option =
+      command
+          .add_option(
+              "FILE", files,
+              "Text tables of positions, plain or gzipped; - for standard input. An id goes on from one "
+              "file to the next")
+          ->required();
   command.add_option("--format", options.hints.format, "A format that does not say what it is")
       ->type_name("ucy|eth|pedpy|mosquito|table")
       ->group(group);
@@ -60,7 +62,7 @@ void add_reading_options(CLI::App& command, std::vector<std::string>& files, Tra
       ->group(group);
   command
       .add_option("--unit", options.hints.unit,
-                  "Unit of the file's lengths; then --distance and all else is in metres")
+                  "Unit of the file's lengths; all other lengths are then in metres")
       ->type_name("m|km|cm|mm|ft|nmi|deg")
       ->group(group);
   command.add_option("--from", options.hints.from, "What the positions are: longitude and latitude, or UTM")
@@ -89,9 +91,20 @@ void add_reading_options(CLI::App& command, std::vector<std::string>& files, Tra
                   "interval of that id when not given")
       ->check(finite_number())
       ->group(group);
+  return file_option;
+}
+
+void add_interpolation_option(CLI::App& command, TrackOptions& options) {
   add_choice(command, "--interpolate", options.interpolation,
              {{"spline", Interpolation::spline}, {"linear", Interpolation::linear}}, "spline",
              "The motion between two samples");
+}
+
+std::string given_reading_option(const CLI::App& command) {
+  for (const CLI::Option* const option : command.get_options()) {
+    if (option->get_group() == group && option->count() > 0) return option->get_name();
+  }
+  return {};
 }
 
 }  // namespace kinesphere::program

@@ -72,7 +72,7 @@ void add_recording(Summary& summary, const std::vector<std::string>& files, cons
                           recording.times.text(run.end_time)));
 }
 
-std::vector<std::string> warnings_of(const Recording& recording, const TrackScene& scene) {
+std::vector<std::string> warnings_of(const Recording& recording) {
   std::vector<std::string> warnings;
   if (is_much(recording.left_out, recording)) {
     warnings.push_back(fmt::format("{} were left out, alone between two gaps: a longer --max-gap keeps them",
@@ -90,6 +90,11 @@ std::vector<std::string> warnings_of(const Recording& recording, const TrackScen
     warnings.push_back(
         fmt::format("{} were left out by --max-speed", part_text(recording.too_fast.count, recording)));
   }
+  return warnings;
+}
+
+std::vector<std::string> warnings_of(const Recording& recording, const TrackScene& scene) {
+  std::vector<std::string> warnings = warnings_of(recording);
   const Overshoots& overshoots = scene.overshoots;
   if (overshoots.tracks > 0) {
     warnings.push_back(fmt::format(

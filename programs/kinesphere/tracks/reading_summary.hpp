@@ -14,7 +14,9 @@ namespace kinesphere::program {
 void add_recording(Summary& summary, const std::vector<std::string>& files, const Recording& recording,
                    const TrackScene& scene);
 
-/// What should not pass unseen, one line each: many samples left out, splines that swing out far.
+/// What should not pass unseen, one line each: many rows or samples left out.
+std::vector<std::string> warnings_of(const Recording& recording);
+/// These, and splines that swing out far.
 std::vector<std::string> warnings_of(const Recording& recording, const TrackScene& scene);
 
 }  // namespace kinesphere::program

@@ -30,6 +30,7 @@ struct Recording {
   TimeScale times;
   double frame_rate = 0.0;  ///< frames per second; 0 where no frames are counted
   Coordinates coordinates;
+  bool in_metres = false;             ///< lengths; else nobody has said their unit
   bool is_plane = false;              ///< nothing leaves the plane z = 0
   std::vector<RecordedTrack> tracks;  ///< without interruption, by the first sample's place in the file
   std::size_t ids = 0;

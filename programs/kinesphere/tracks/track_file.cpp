@@ -69,6 +69,7 @@ class Reading {
   Reading(const RawRecording& raw, const TrackOptions& options) : raw_(raw), options_(options) {
     recording_.times = time_scale_of(raw);
     recording_.coordinates = coordinates_of(raw, options.projection);
+    recording_.in_metres = raw.columns().geographic || raw.columns().length_unit.has_value();
     recording_.format = raw.columns().format;
     recording_.is_plane = !raw.columns().z && recording_.coordinates.are_plane();
     if (recording_.times.kind() == TimeKind::frames) recording_.frame_rate = recording_.times.rate();
@@ -167,12 +168,16 @@ Recording parse_tracks(std::vector<NamedText> texts, const TrackOptions& options
   return recording;
 }
 
-Recording read_tracks(const std::vector<std::string>& files, const TrackOptions& options) {
+std::vector<NamedText> read_texts(const std::vector<std::string>& files) {
   std::vector<NamedText> texts;
   texts.reserve(files.size());
   for (const std::string& file : files)
     texts.push_back({file == "-" ? "standard input" : file, read_input(file)});
-  return parse_tracks(std::move(texts), options);
+  return texts;
+}
+
+Recording read_tracks(const std::vector<std::string>& files, const TrackOptions& options) {
+  return parse_tracks(read_texts(files), options);
 }
 
 }  // namespace kinesphere::program

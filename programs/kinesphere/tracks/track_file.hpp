@@ -18,7 +18,9 @@ struct NamedText {
 /// naming file, line and column of what is wrong, or the option that is missing or wrong; also when there is
 /// no track.
 Recording parse_tracks(std::vector<NamedText> texts, const TrackOptions& options);
-/// Plain or gzipped; "-" is standard input.
+/// Plain or gzipped; "-" is standard input. Throws ProgramError naming a file that cannot be read.
+std::vector<NamedText> read_texts(const std::vector<std::string>& files);
+/// Both in one.
 Recording read_tracks(const std::vector<std::string>& files, const TrackOptions& options);
 
 }  // namespace kinesphere::program

@@ -109,6 +109,10 @@ Curves curves_through(const Recording& recording) {
 
 }  // namespace
 
+RecordedTracks splines_through(const Recording& recording) {
+  return curves_through<RecordedTracks>(recording);
+}
+
 TrackScene scene_of(const Recording& recording, const ApproachQuestion& question) {
   TrackScene result;
   Scene& scene = result.scene;
@@ -130,7 +134,7 @@ TrackScene scene_of(const Recording& recording, const ApproachQuestion& question
     scene.motion = std::move(lines);
     return result;
   }
-  scene.motion = std::make_unique<RecordedTracks>(curves_through<RecordedTracks>(recording));
+  scene.motion = std::make_unique<RecordedTracks>(splines_through(recording));
   result.overshoots = overshoots_of(recording, *scene.motion, question.distance);
   return result;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "kinesphere/motion/recorded_tracks.hpp"
 #include "lab/scene/scene.hpp"
 #include "tracks/reading_policy.hpp"
 #include "tracks/recording.hpp"
@@ -31,6 +32,10 @@ struct TrackScene {
   Scene scene;
   Overshoots overshoots;
 };
+
+/// The smooth curves through the samples, one for each track. Throws ProgramError naming the id for a curve
+/// that overflows.
+RecordedTracks splines_through(const Recording& recording);
 
 /// Each track is a body of half the distance as radius, which is there from its first sample to its last.
 /// Throws ProgramError naming the option or the id: for a tolerance that does not fit the distance or is too

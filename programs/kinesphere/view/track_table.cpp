@@ -1,0 +1,59 @@
+// A recording of real motion as the JSON that the viewer's page reads.
+#include "view/track_table.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <string_view>
+
+#include "json_text.hpp"
+#include "program_error.hpp"
+#include "summary.hpp"
+#include "tracks/track_scene.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+constexpr std::string_view ending = "\n]}\n";
+
+/// fmt writes the shortest decimal number that reads back as the same double.
+void add(std::string& text, const RecordedTrack& track) {
+  const auto end = std::back_inserter(text);
+  fmt::format_to(end, R"({{"id": {}, "times": [)", json_text(track.id));
+  const char* separator = "";
+  for (const TrackSample& sample : track.samples) {
+    fmt::format_to(end, "{}{}", separator, sample.time);
+    separator = ",";
+  }
+  text += R"(], "positions": [)";
+  separator = "";
+  for (const TrackSample& sample : track.samples) {
+    fmt::format_to(end, "{}{},{},{}", separator, sample.position.x, sample.position.y, sample.position.z);
+    separator = ",";
+  }
+  text += "]}";
+}
+
+}  // namespace
+
+std::string track_table(const Recording& recording, const std::string& name, std::size_t limit) {
+  // The page goes along these curves. JSON has no number for what overflows.
+  splines_through(recording);
+  std::string text = fmt::format(R"({{"name": {}, "plane": {}, "unit": {}, "tracks": [)", json_text(name),
+                                 recording.is_plane, recording.in_metres ? R"("m")" : "null");
+  const char* separator = "\n";
+  for (const RecordedTrack& track : recording.tracks) {
+    text += separator;
+    separator = ",\n";
+    add(text, track);
+    if (text.size() + ending.size() <= limit) continue;
+    throw ProgramError(fmt::format(
+        "{}: expected tracks that are at most {} bytes as JSON, which is what a browser can read, but its "
+        "{} samples are more",
+        name, grouped(limit), grouped(recording.samples)));
+  }
+  text += ending;
+  return text;
+}
+
+}  // namespace kinesphere::program
