@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 #include "program_error.hpp"
@@ -94,6 +95,20 @@ httplib::Server::HandlerResponse refuse_other_names(const httplib::Request& requ
   return httplib::Server::HandlerResponse::Handled;
 }
 
+/// The library compresses what it has read as a whole, with brotli's slowest setting: a second for the page's
+/// program. What is handed over in pieces stays as it is.
+void leave_uncompressed(const httplib::Request&, httplib::Response& response) {
+  if (response.body.empty()) return;
+  const std::string type = response.get_header_value("Content-Type");
+  const std::size_t size = response.body.size();
+  response.headers.erase("Content-Type");
+  response.set_content_provider(
+      size, type,
+      [body = std::move(response.body)](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+        return sink.write(body.data() + offset, length);
+      });
+}
+
 void prepare(httplib::Server& server, const std::string& folder) {
   // Without this two programs could have the same port.
   server.set_socket_options([](socket_t socket) {
@@ -112,6 +127,7 @@ void prepare(httplib::Server& server, const std::string& folder) {
   server.set_file_extension_and_mimetype_mapping("wasm", "application/wasm");
   if (!server.set_mount_point("/", folder))
     throw ProgramError(fmt::format("--folder: {} cannot be read", folder));
+  server.set_file_request_handler(leave_uncompressed);
 }
 
 /// `content` must live as long as the server. It may be large: it is handed over in pieces, neither copied

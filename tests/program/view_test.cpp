@@ -147,6 +147,8 @@ TEST_F(View, ServesTheFilesOfItsFolderAlone) {
   std::filesystem::create_directory(path("viewer"));
   write("viewer/index.html", "<p>the page</p>");
   write("viewer/kinesphere.wasm", "bytes");
+  write("viewer/page.js", "let there = 'be light';");
+  write("viewer/empty.js", "");
   Served served(path("viewer"));
   ASSERT_TRUE(served.address().starts_with("http://127.0.0.1:")) << served.address();
   auto client = served.client();
@@ -156,6 +158,12 @@ TEST_F(View, ServesTheFilesOfItsFolderAlone) {
   EXPECT_EQ(page->get_header_value("Content-Type"), "text/html");
   EXPECT_NE(page->get_header_value("Content-Security-Policy").find("'wasm-unsafe-eval'"), std::string::npos);
   EXPECT_EQ(client.Get("/kinesphere.wasm")->get_header_value("Content-Type"), "application/wasm");
+  const auto script = client.Get("/page.js", {{"Accept-Encoding", "gzip, br"}});
+  EXPECT_EQ(script->body, "let there = 'be light';");
+  EXPECT_EQ(script->get_header_value("Content-Encoding"), "") << "compressing takes longer than reading";
+  EXPECT_EQ(script->get_header_value_count("Content-Type"), 1u);
+  EXPECT_EQ(script->get_header_value("Content-Type"), "text/javascript");
+  EXPECT_EQ(client.Get("/empty.js")->status, 200);
   EXPECT_EQ(client.Get("/nothing")->status, 404);
   for (const char* const outside : {"/../secret", "/%2e%2e/secret", "/x/../../secret"})
     EXPECT_EQ(client.Get(outside)->status, 404) << outside;
