@@ -18,4 +18,4 @@ node --test package.test.mjs consumer.test.mjs
 KINESPHERE_SIMD=1 node --test scenes.test.mjs
 KINESPHERE_SIMD=0 node --test scenes.test.mjs
 cd ../viewer/test
-node --test viewer.test.mjs hashes.test.mjs dragging.test.mjs pictures.test.mjs
+node --test viewer.test.mjs served.test.mjs hashes.test.mjs dragging.test.mjs pictures.test.mjs

@@ -188,7 +188,9 @@ int view(const ViewOptions& options) {
   sigaddset(&stops, SIGTERM);
   pthread_sigmask(SIG_BLOCK, &stops, nullptr);
   std::thread serving([&server] { server.listen_after_bind(); });
-  const std::string address = fmt::format("http://{}:{}/", host, port);
+  // The page asks for files only where its address says that there are any: another server has none.
+  const std::string address =
+      fmt::format("http://{}:{}/{}", host, port, options.files.empty() ? "" : "#opened");
   print("{}\n", address);
   finish_output();
   if (!options.no_browser) open_browser(address);

@@ -177,6 +177,7 @@ TEST_F(View, ServesTheFilesOfItsFolderAlone) {
 
 TEST_F(View, TellsThatNoFileIsOpen) {
   const Served served(viewer());
+  EXPECT_TRUE(served.address().ends_with("/")) << served.address();
   EXPECT_EQ(served.json("/opened/files.json"), R"({"recording": null, "tracks": null})"_json);
   for (const char* const address :
        {"/opened", "/opened/recording", "/opened/tracks.json", "/opened/files-json"})
@@ -188,6 +189,7 @@ TEST_F(View, ServesARecordingByteForByte) {
   const std::string recording = "'" + file + "'";
   const std::string bytes = read_text(file);
   const Served served(viewer(), recording);
+  EXPECT_TRUE(served.address().ends_with("/#opened")) << served.address();
   EXPECT_EQ(served.json("/opened/files.json"), R"({"recording": "a \"world\".rec", "tracks": null})"_json);
   const auto answer = served.client().Get("/opened/recording");
   ASSERT_TRUE(answer);

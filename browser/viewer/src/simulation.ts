@@ -52,8 +52,8 @@ export class Simulation implements Shown {
   constructor(readonly choice: SceneChoice, opened: TrackTable | null = null) {
     const about = sceneAbout(choice.name);
     this.setup = setUp(choice, opened);
-    this.title = choice.name === "crowd" ? opened!.name : about.title;
-    this.about = about.about;
+    this.title = this.setup.title ?? about.title;
+    this.about = this.setup.about ?? about.about;
     const { scene, zone, alarms, region, endTime } = this.setup;
     const { box, periodic } = scene.world.definition;
     this.box = box ?? null;

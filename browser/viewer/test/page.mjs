@@ -43,7 +43,8 @@ async function serve(given) {
 }
 
 /**
- * A browser that is there for the tests of a file. `open()` loads the page and waits for its first picture;
+ * A browser that is there for the tests of a file. `open()` loads the page, here or at another server's address, and
+ * waits for its first picture;
  * `complaints` is whatever pages complained of, and addresses that they asked for elsewhere.
  */
 export function browserForTests({ given = {}, viewport = { width: 900, height: 700 } } = {}) {
@@ -63,7 +64,7 @@ export function browserForTests({ given = {}, viewport = { width: 900, height: 7
     await browser?.close();
     server?.close();
   });
-  found.open = async (hash = "", options = {}) => {
+  found.open = async (where = "", options = {}) => {
     if (browser === undefined) await start();
     await current?.close();
     const page = await browser.newPage({ viewport, colorScheme: "dark", ...options });
@@ -71,11 +72,12 @@ export function browserForTests({ given = {}, viewport = { width: 900, height: 7
     page.on("console", (message) => {
       if (message.type() === "error") found.complaints.push(message.text());
     });
+    const address = where.startsWith("http") ? where : found.address + where;
     page.on("request", (request) => {
       const url = request.url();
-      if (!url.startsWith(found.address) && !url.startsWith("data:")) found.complaints.push(url);
+      if (!url.startsWith(new URL("/", address).href) && !url.startsWith("data:")) found.complaints.push(url);
     });
-    await page.goto(found.address + hash);
+    await page.goto(address);
     await page.waitForFunction(() => window.kinesphereViewer?.firstPicture != null, null, { timeout: 60_000 });
     current = found.page = page;
     return page;

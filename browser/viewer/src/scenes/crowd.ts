@@ -7,6 +7,8 @@ export interface TrackTable {
   name: string;
   /** All heights are the same. */
   plane: boolean;
+  /** Of positions, where that is known. */
+  unit: string | null;
   tracks: { id: string; times: number[]; positions: number[] }[];
 }
 
@@ -80,8 +82,8 @@ export function crowd({ bodies }: SceneChoice, table: TrackTable): Setup {
   const region = regionOf(table);
   const motion = new RecordedTracks(tracks);
   const spans = tracks.map((_, body) => motion.span(body));
-  const startTime = Math.min(...spans.map(({ begin }) => begin));
-  const endTime = Math.max(...spans.map(({ end }) => end));
+  const startTime = spans.reduce((least, { begin }) => Math.min(least, begin), Infinity);
+  const endTime = spans.reduce((most, { end }) => Math.max(most, end), -Infinity);
   const world = new World({ dimensions: table.plane ? 2 : 3, startTime });
   const radius = radiusIn(region, table.plane);
   world.addMotion(motion, radius);
@@ -94,7 +96,10 @@ export function crowd({ bodies }: SceneChoice, table: TrackTable): Setup {
     changes.push({ time: end, body, comes: false });
   }
   changes.sort((a, b) => a.time - b.time);
+  const distance = `${Number((2 * radius).toPrecision(2))}${table.unit === null ? "" : ` ${table.unit}`}`;
+  const about = `As it was recorded. Two that come within ${distance} of each other are told.`;
   return {
+    title: table.name, about,
     scene: new Crowd(world, motion, changes, 0), radii: new Float64Array(tracks.length).fill(radius), region, endTime,
   };
 }

@@ -19,6 +19,9 @@ export interface LiveScene {
 /** A scene at its start, and what is known of it beside. */
 export interface Setup {
   scene: LiveScene;
+  /** What is to be said of it, where that depends on what was opened. */
+  title?: string;
+  about?: string;
   /** By body. */
   radii: Float64Array;
   /** A thin zone whose crossings are counted. */
