@@ -1,80 +1,13 @@
 // The world: moving spheres with unknown trajectories, and every contact among them, in time order.
-import { type BodyId, Event, type EventKind, Events, eventKinds, eventNumbers, type State, type Vec3, type Wall, wallOf } from "./event.js";
-import { type Box, type Definition, definitionAt, definitionNumbers, type WorldDefinition } from "./definition.js";
-import { type Module, Owned, type Scratch, theModule } from "./module.js";
-import { countOf, each, Motion, type MotionDefinition, type PerBody, sixOf, type States, vector } from "./motion.js";
-import { Scene } from "./scene.js";
-
-export interface MotionLimits {
-  /** >= 0 (length / time^2): the largest deviation from the planned acceleration. */
-  accelerationLimit?: number;
-  plannedAcceleration?: Vec3;
-  /** >= 0 (length): every reported position is within this of the true one. */
-  positionError?: number;
-  /** >= 0 (length / time). */
-  velocityError?: number;
-}
-
-/** What bodies have in common beside where they are. */
-export interface BodyOptions extends MotionLimits {
-  /** Which others it may touch: category and mask are bits, up to 2^53; -1 is the mask of all. */
-  filter?: { category?: number; mask?: number; group?: number };
-  /** One that is not solid only senses and is sensed. */
-  solid?: boolean;
-  sensorClass?: number;
-  /** A whole number for the caller, up to 2^53. */
-  userData?: number;
-}
-
-export interface BodyDefinition extends BodyOptions {
-  position: Vec3;
-  velocity?: Vec3;
-  /** >= 0 (length); by default 1. */
-  radius?: number;
-}
-
-export interface BodyBatch extends States, Omit<BodyOptions, "accelerationLimit" | "userData"> {
-  radii?: PerBody;
-  accelerationLimits?: PerBody;
-  userData?: PerBody;
-}
-
-export type Shape =
-  | { ball: { centre: Vec3; radius: number } }
-  /** All points p with normal . p <= offset are solid. */
-  | { halfSpace: { normal: Vec3; offset: number } }
-  | { box: Box }
-  | { triangle: readonly [Vec3, Vec3, Vec3] };
-
-/**
- * Sets states[6 k], ... to position and velocity of ids[k] at `time`. Both arrays are good during the call alone.
- * It may not change the world that asks.
- */
-export type ProbeFunction = (ids: Float64Array, time: number, states: Float64Array) => void;
-/** In a world whose ids are the numbers of a motion's bodies, the motion itself will do. */
-export type Probe = ProbeFunction | Motion;
-
-/** The velocities that bodies have after an event; who is given none goes on as it did. */
-export interface Answer {
-  first?: Vec3;
-  second?: Vec3;
-}
-/** Has to give the same event the same answer. */
-export type RespondFunction = (event: Event) => Answer | undefined;
-/** Bodies bounce off each other and the walls; masses by index, infinite for what stands still. */
-export interface Bounces {
-  masses?: ArrayLike<number>;
-  /** From 0 to 1, which is the default. */
-  restitution?: number;
-  /** > 0: bodies that come to rest in a heap; see `settle` in kinesphere/response.hpp. */
-  restingSpeed?: number;
-}
-
-export interface RunOptions {
-  /** Moves the bodies: its numbers are the indices of their ids. */
-  motion: Motion;
-  respond?: RespondFunction | Bounces | Scene;
-}
+import { asking, type Probe, responded, type RunOptions } from "./asking.js";
+import {
+  type BodyBatch, type BodyDefinition, bodyNumbers, type BodyOptions, type MotionLimits, putBody, putOptions, type Shape,
+  shapeNumbers, whole,
+} from "./body.js";
+import { type Definition, definitionAt, definitionNumbers, type WorldDefinition } from "./definition.js";
+import { type BodyId, Event, type EventKind, Events, eventKinds, type State, type Vec3, type Wall, wallOf } from "./event.js";
+import { Owned, type Scratch, theModule } from "./module.js";
+import { countOf, each, Motion, type MotionDefinition, type PerBody, sixOf, vector } from "./motion.js";
 
 export interface BodyView {
   id: BodyId;
@@ -128,48 +61,7 @@ export interface Counters {
   repeatedContacts: number;
 }
 
-const bodyNumbers = 20;
 const viewNumbers = 28;
-const respondings = { nothing: 0, bounces: 1, asksJavaScript: 2, asInScene: 3 } as const;
-
-function putBody(numbers: Float64Array, at: number, body: BodyDefinition, call: string): void {
-  numbers.set(vector(body.position, "position", call), at);
-  numbers.set(vector(body.velocity ?? [0, 0, 0], "velocity", call), at + 3);
-  numbers[at + 6] = body.radius ?? 1;
-  putOptions(numbers, at, body, call);
-}
-
-function putOptions(numbers: Float64Array, at: number, body: BodyOptions, call: string): void {
-  numbers[at + 7] = body.accelerationLimit ?? 0;
-  numbers.set(vector(body.plannedAcceleration ?? [0, 0, 0], "plannedAcceleration", call), at + 8);
-  numbers[at + 11] = body.positionError ?? 0;
-  numbers[at + 12] = body.velocityError ?? 0;
-  numbers[at + 13] = body.solid === false ? 0 : 1;
-  numbers[at + 14] = whole(body.sensorClass ?? 0, 255, "sensorClass", call);
-  numbers[at + 15] = whole(body.filter?.category ?? 1, 2 ** 53, "filter.category", call);
-  const mask = body.filter?.mask ?? -1;
-  numbers[at + 16] = mask === -1 ? -1 : whole(mask, 2 ** 53, "filter.mask", call);
-  const group = body.filter?.group ?? 0;
-  if (!Number.isInteger(group) || Math.abs(group) >= 2 ** 31)
-    throw new RangeError(`${call}: filter.group must be a whole number of 32 bits, but is ${group}`);
-  numbers[at + 17] = group;
-  numbers[at + 18] = whole(body.userData ?? 0, 2 ** 53, "userData", call);
-}
-
-function whole(value: number, most: number, what: string, call: string): number {
-  if (!Number.isInteger(value) || value < 0 || value > most)
-    throw new RangeError(`${call}: ${what} must be a whole number from 0 to ${most}, but is ${value}`);
-  return value;
-}
-
-function shapeNumbers(shape: Shape, call: string): [kind: number, numbers: number[]] {
-  const of = (values: Vec3, what: string) => vector(values, what, call);
-  if ("ball" in shape) return [0, [...of(shape.ball.centre, "centre"), shape.ball.radius]];
-  if ("halfSpace" in shape) return [1, [...of(shape.halfSpace.normal, "normal"), shape.halfSpace.offset]];
-  if ("box" in shape) return [2, [...of(shape.box.lower, "lower"), ...of(shape.box.upper, "upper")]];
-  if ("triangle" in shape) return [3, shape.triangle.flatMap((corner) => of(corner, "triangle"))];
-  throw new TypeError(`${call}: shape must be a ball, a halfSpace, a box or a triangle`);
-}
 
 /** What can be read of a world; also of one that a replay goes through. */
 export class WorldView extends Owned {
@@ -542,32 +434,4 @@ function create(definition: WorldDefinition): number {
   const module = theModule();
   return module.with((scratch) =>
     module.require(module.call("world_create", scratch.numbers(definitionNumbers(definition)))));
-}
-
-function responded(respond: RunOptions["respond"]): [number, Bounces, number, RespondFunction | null] {
-  if (respond === undefined) return [respondings.nothing, {}, 0, null];
-  if (respond instanceof Scene) return [respondings.asInScene, {}, respond.address, null];
-  if (typeof respond === "function") return [respondings.asksJavaScript, {}, 0, respond];
-  return [respondings.bounces, respond, 0, null];
-}
-
-function asking(module: Module, probe: ProbeFunction | null, respond: RespondFunction | null) {
-  return {
-    probe(count: number, ids: number, time: number, states: number): void {
-      // The function may call the module, whose memory may grow then.
-      const answer = new Float64Array(6 * count).fill(NaN);
-      probe!(module.numbersAt(ids, count).slice(), time, answer);
-      module.numbersAt(states, 6 * count).set(answer);
-    },
-    respond(event: number, velocities: number): void {
-      const answer = respond!(new Event(module.numbersAt(event, eventNumbers).slice()));
-      const numbers = new Float64Array(8);
-      for (const [velocity, at] of [[answer?.first, 0], [answer?.second, 4]] as const) {
-        if (velocity === undefined) continue;
-        numbers.set(vector(velocity, "velocity", "respond"), at);
-        numbers[at + 3] = 1;
-      }
-      module.numbersAt(velocities, 8).set(numbers);
-    },
-  };
 }

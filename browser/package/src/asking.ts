@@ -1,0 +1,67 @@
+// What a world asks while it goes on: for the states of bodies, and for answers to events.
+import { Event, eventNumbers, type Vec3 } from "./event.js";
+import type { Module } from "./module.js";
+import { type Motion, vector } from "./motion.js";
+import { Scene } from "./scene.js";
+
+/**
+ * Sets states[6 k], ... to position and velocity of ids[k] at `time`. Both arrays are good during the call alone.
+ * It may not change the world that asks.
+ */
+export type ProbeFunction = (ids: Float64Array, time: number, states: Float64Array) => void;
+/** In a world whose ids are the numbers of a motion's bodies, the motion itself will do. */
+export type Probe = ProbeFunction | Motion;
+
+/** The velocities that bodies have after an event; who is given none goes on as it did. */
+export interface Answer {
+  first?: Vec3;
+  second?: Vec3;
+}
+/** Has to give the same event the same answer. */
+export type RespondFunction = (event: Event) => Answer | undefined;
+/** Bodies bounce off each other and the walls; masses by index, infinite for what stands still. */
+export interface Bounces {
+  masses?: ArrayLike<number>;
+  /** From 0 to 1, which is the default. */
+  restitution?: number;
+  /** > 0: bodies that come to rest in a heap; see `settle` in kinesphere/response.hpp. */
+  restingSpeed?: number;
+}
+
+export interface RunOptions {
+  /** Moves the bodies: its numbers are the indices of their ids. */
+  motion: Motion;
+  respond?: RespondFunction | Bounces | Scene;
+}
+
+const respondings = { nothing: 0, bounces: 1, asksJavaScript: 2, asInScene: 3 } as const;
+
+/** How to go on by an answer: for the module a number, masses and so on, and a scene; and the function to be asked. */
+export function responded(respond: RunOptions["respond"]): [number, Bounces, number, RespondFunction | null] {
+  if (respond === undefined) return [respondings.nothing, {}, 0, null];
+  if (respond instanceof Scene) return [respondings.asInScene, {}, respond.address, null];
+  if (typeof respond === "function") return [respondings.asksJavaScript, {}, 0, respond];
+  return [respondings.bounces, respond, 0, null];
+}
+
+/** What the module calls, with tables of numbers, and these functions answer. */
+export function asking(module: Module, probe: ProbeFunction | null, respond: RespondFunction | null) {
+  return {
+    probe(count: number, ids: number, time: number, states: number): void {
+      // The function may call the module, whose memory may grow then.
+      const answer = new Float64Array(6 * count).fill(NaN);
+      probe!(module.numbersAt(ids, count).slice(), time, answer);
+      module.numbersAt(states, 6 * count).set(answer);
+    },
+    respond(event: number, velocities: number): void {
+      const answer = respond!(new Event(module.numbersAt(event, eventNumbers).slice()));
+      const numbers = new Float64Array(8);
+      for (const [velocity, at] of [[answer?.first, 0], [answer?.second, 4]] as const) {
+        if (velocity === undefined) continue;
+        numbers.set(vector(velocity, "velocity", "respond"), at);
+        numbers[at + 3] = 1;
+      }
+      module.numbersAt(velocities, 8).set(numbers);
+    },
+  };
+}

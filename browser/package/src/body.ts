@@ -1,0 +1,87 @@
+// What bodies are, and the tables of numbers that tell the module of them.
+import type { Box } from "./definition.js";
+import type { Vec3 } from "./event.js";
+import { type PerBody, type States, vector } from "./motion.js";
+
+export interface MotionLimits {
+  /** >= 0 (length / time^2): the largest deviation from the planned acceleration. */
+  accelerationLimit?: number;
+  plannedAcceleration?: Vec3;
+  /** >= 0 (length): every reported position is within this of the true one. */
+  positionError?: number;
+  /** >= 0 (length / time). */
+  velocityError?: number;
+}
+
+/** What bodies have in common beside where they are. */
+export interface BodyOptions extends MotionLimits {
+  /** Which others it may touch: category and mask are bits, up to 2^53; -1 is the mask of all. */
+  filter?: { category?: number; mask?: number; group?: number };
+  /** One that is not solid only senses and is sensed. */
+  solid?: boolean;
+  sensorClass?: number;
+  /** A whole number for the caller, up to 2^53. */
+  userData?: number;
+}
+
+export interface BodyDefinition extends BodyOptions {
+  position: Vec3;
+  velocity?: Vec3;
+  /** >= 0 (length); by default 1. */
+  radius?: number;
+}
+
+export interface BodyBatch extends States, Omit<BodyOptions, "accelerationLimit" | "userData"> {
+  radii?: PerBody;
+  accelerationLimits?: PerBody;
+  userData?: PerBody;
+}
+
+export type Shape =
+  | { ball: { centre: Vec3; radius: number } }
+  /** All points p with normal . p <= offset are solid. */
+  | { halfSpace: { normal: Vec3; offset: number } }
+  | { box: Box }
+  | { triangle: readonly [Vec3, Vec3, Vec3] };
+
+/** As body_at() in browser/module/world.cpp reads it. */
+export const bodyNumbers = 20;
+
+export function putBody(numbers: Float64Array, at: number, body: BodyDefinition, call: string): void {
+  numbers.set(vector(body.position, "position", call), at);
+  numbers.set(vector(body.velocity ?? [0, 0, 0], "velocity", call), at + 3);
+  numbers[at + 6] = body.radius ?? 1;
+  putOptions(numbers, at, body, call);
+}
+
+export function putOptions(numbers: Float64Array, at: number, body: BodyOptions, call: string): void {
+  numbers[at + 7] = body.accelerationLimit ?? 0;
+  numbers.set(vector(body.plannedAcceleration ?? [0, 0, 0], "plannedAcceleration", call), at + 8);
+  numbers[at + 11] = body.positionError ?? 0;
+  numbers[at + 12] = body.velocityError ?? 0;
+  numbers[at + 13] = body.solid === false ? 0 : 1;
+  numbers[at + 14] = whole(body.sensorClass ?? 0, 255, "sensorClass", call);
+  numbers[at + 15] = whole(body.filter?.category ?? 1, 2 ** 53, "filter.category", call);
+  const mask = body.filter?.mask ?? -1;
+  numbers[at + 16] = mask === -1 ? -1 : whole(mask, 2 ** 53, "filter.mask", call);
+  const group = body.filter?.group ?? 0;
+  if (!Number.isInteger(group) || Math.abs(group) >= 2 ** 31)
+    throw new RangeError(`${call}: filter.group must be a whole number of 32 bits, but is ${group}`);
+  numbers[at + 17] = group;
+  numbers[at + 18] = whole(body.userData ?? 0, 2 ** 53, "userData", call);
+}
+
+export function whole(value: number, most: number, what: string, call: string): number {
+  if (!Number.isInteger(value) || value < 0 || value > most)
+    throw new RangeError(`${call}: ${what} must be a whole number from 0 to ${most}, but is ${value}`);
+  return value;
+}
+
+export function shapeNumbers(shape: Shape, call: string): [kind: number, numbers: number[]] {
+  const of = (values: Vec3, what: string) => vector(values, what, call);
+  if ("ball" in shape) return [0, [...of(shape.ball.centre, "centre"), shape.ball.radius]];
+  if ("halfSpace" in shape) return [1, [...of(shape.halfSpace.normal, "normal"), shape.halfSpace.offset]];
+  if ("box" in shape) return [2, [...of(shape.box.lower, "lower"), ...of(shape.box.upper, "upper")]];
+  if ("triangle" in shape) return [3, shape.triangle.flatMap((corner) => of(corner, "triangle"))];
+  throw new TypeError(`${call}: shape must be a ball, a halfSpace, a box or a triangle`);
+}
