@@ -1,0 +1,162 @@
+// Worlds that go on, and what they ask meanwhile: for the states of bodies, and for answers to events.
+#include <limits>
+#include <optional>
+
+#include "exchange.hpp"
+#include "lab/scene/scene.hpp"
+#include "lab/simulation/scene_answer.hpp"
+#include "motion.hpp"
+
+namespace kinesphere::browser {
+namespace {
+
+// Both say whether the function of JavaScript's returned, and did not throw.
+KINESPHERE_IMPORT(probe)
+bool javascript_probe(std::size_t count, const double* ids, double time, double* states);
+KINESPHERE_IMPORT(respond)
+bool javascript_respond(const double* event, double* velocities);
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Asks the function that the package has been handed. One that throws leaves NaN, which the world refuses;
+/// the package throws again what it threw.
+void ask_javascript(std::span<const BodyId> ids, double time, std::span<State> states) {
+  std::vector<double> numbers;
+  for (const BodyId id : ids) numbers.push_back(number_of(id));
+  std::vector<double> answers(6 * ids.size(), nan);
+  (void)javascript_probe(ids.size(), numbers.data(), time, answers.data());
+  for (std::size_t k = 0; k < ids.size(); ++k) states[k] = state_at(answers.data() + 6 * k);
+}
+
+/// Bodies of a motion whose number there is the index of their id. A body whose state the motion does not
+/// have gets NaN, which the world refuses; so does an answer to an event where bodies cannot be changed.
+/// refused() is the motion's own reason then.
+class MotionByIndex final : public Mover {
+ public:
+  explicit MotionByIndex(Motion& motion) : motion_(motion) {}
+  void states(std::span<const BodyId> ids, double time, std::span<State> states) override {
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      const std::uint32_t number = ids[k].index;
+      if (auto reason = why_unknown(motion_, number, time)) {
+        refused_ = std::move(reason);
+        states[k] = {{nan, nan, nan}, {nan, nan, nan}};
+      } else {
+        states[k] = motion_.state(number, time);
+      }
+    }
+  }
+  Departure departure(BodyId body) const override { return motion_.departure(body.index); }
+  void depart(BodyId body, const Departure& departure) override {
+    (void)motion_.depart(body.index, departure);
+  }
+
+  /// What may be done to the motion of what is to be done.
+  Answer possible(const Answer& answer) {
+    if ((!answer.first_velocity && !answer.second_velocity) || can_be_changed(motion_)) return answer;
+    refused_ = {ErrorCode::unsupported, "respond", no_body,
+                "run: respond: the bodies of this motion go their own way, and cannot be given velocities"};
+    return {Vec3{nan, nan, nan}, std::nullopt};
+  }
+
+  const std::optional<Error>& refused() const { return refused_; }
+
+ private:
+  Motion& motion_;
+  std::optional<Error> refused_;
+};
+
+std::optional<Vec3> velocity_at(const double* numbers) {
+  if (numbers[3] == 0.0) return std::nullopt;
+  return vector_at(numbers);
+}
+
+Answer ask_javascript(const Event& event) {
+  double numbers[event_numbers];
+  put(event, numbers);
+  // Of each of the two a velocity, and whether there is one.
+  double velocities[8] = {};
+  // One that throws leaves NaN too.
+  if (!javascript_respond(numbers, velocities)) return {Vec3{nan, nan, nan}, std::nullopt};
+  return {velocity_at(velocities), velocity_at(velocities + 4)};
+}
+
+/// As all scenes of the program have it: with a mass by index.
+Answer bounce_off(const Event& event, std::span<const double> masses, double restitution,
+                  double resting_speed) {
+  const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
+  if (!begins || event.approach_speed <= 0.0) return {};
+  const auto mass = [&](BodyId body) { return body.index < masses.size() ? masses[body.index] : 1.0; };
+  const bool is_pair = event.second != no_body;
+  const double first = mass(event.first);
+  const double second = is_pair ? mass(event.second) : first;
+  const Bounce after = resting_speed > 0.0 ? settle(event, first, second, restitution, resting_speed)
+                                           : bounce(event, first, second, restitution);
+  // Who cannot move keeps still.
+  const auto unless_fixed = [](double mass_of_it, const Vec3& velocity) {
+    return mass_of_it < std::numeric_limits<double>::infinity() ? std::optional(velocity) : std::nullopt;
+  };
+  if (!is_pair) return {unless_fixed(first, after.first_velocity), std::nullopt};
+  return {unless_fixed(first, after.first_velocity), unless_fixed(second, after.second_velocity)};
+}
+
+}  // namespace
+
+/// 0: nothing until then; 1: an event in answer(); -1: an error. Without a motion JavaScript is asked.
+KINESPHERE_EXPORT(world_advance) int world_advance(World* world, double until, MotionHandle* handle) {
+  if (handle == nullptr)
+    return answer_event(world->advance(until, static_cast<Probe::Function>(ask_javascript)));
+  MotionByIndex mover(*handle->motion);
+  const auto event = world->advance(until, [&](std::span<const BodyId> ids, double time,
+                                               std::span<State> states) { mover.states(ids, time, states); });
+  if (event || !mover.refused()) return answer_event(event);
+  fail(*mover.refused());
+  return -1;
+}
+
+/// What bodies do at events in world_run().
+enum class Responding : int { nothing, bounces, asks_javascript, as_in_scene };
+
+/// All events are in answer() afterwards, also where there is an error.
+KINESPHERE_EXPORT(world_run)
+bool world_run(World* world, double until, MotionHandle* handle, Responding responding, const double* masses,
+               std::size_t mass_count, double restitution, double resting_speed, const Scene* scene) {
+  // Functions of JavaScript's may ask for other answers meanwhile.
+  std::vector<double> told;
+  MotionByIndex mover(*handle->motion);
+  const auto answered = [&](const Event& event) -> Answer {
+    switch (responding) {
+      case Responding::nothing:
+        return {};
+      case Responding::bounces:
+        return bounce_off(event, {masses, mass_count}, restitution, resting_speed);
+      case Responding::asks_javascript:
+        return ask_javascript(event);
+      case Responding::as_in_scene:
+        return scene_answer(*scene, event);
+    }
+    return {};
+  };
+  const auto respond = [&](const Event& event) { return mover.possible(answered(event)); };
+  const auto sink = [&](const Event& event) {
+    told.resize(told.size() + event_numbers);
+    put(event, told.data() + told.size() - event_numbers);
+  };
+  const auto done = world->run(until, mover, respond, sink);
+  answer() = std::move(told);
+  if (!done && mover.refused()) return fail(*mover.refused());
+  return is_good(done);
+}
+
+/// The velocities of two bodies of these masses after a contact; with a resting speed > 0 as settle() has it.
+KINESPHERE_EXPORT(event_bounce)
+void event_bounce(const double* event, double first_mass, double second_mass, double restitution,
+                  double resting_speed, double* velocities) {
+  const Event contact = event_at(event);
+  const Bounce after = resting_speed > 0.0
+                           ? settle(contact, first_mass, second_mass, restitution, resting_speed)
+                           : bounce(contact, first_mass, second_mass, restitution);
+  put(after.first_velocity, velocities);
+  put(after.second_velocity, velocities + 3);
+}
+
+}  // namespace kinesphere::browser

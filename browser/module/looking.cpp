@@ -1,0 +1,141 @@
+// What can be read of a world, and asked of it: bodies, counters, certificates, answers and queries.
+#include "exchange.hpp"
+
+namespace kinesphere::browser {
+
+KINESPHERE_EXPORT(world_bodies) void world_bodies(const World* world) { answer_ids(world->bodies()); }
+
+/// Of each body; WorldView.bodyViews() in package/src/world.ts reads them.
+constexpr std::size_t view_numbers = 28;
+KINESPHERE_EXPORT(world_views) bool world_views(const World* world, std::size_t count, const double* bodies) {
+  auto& numbers = answer();
+  numbers.assign(count * view_numbers, 0.0);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto view = world->body(body_of(bodies[k]));
+    if (!is_good(view)) return false;
+    double* const at = numbers.data() + k * view_numbers;
+    put(view->bound.centre_at(world->time()), at);
+    at[3] = view->fixed ? view->definition.radius : view->bound.radius_at(world->time());
+    at[4] = view->definition.radius;
+    at[5] = view->bound.time;
+    put({view->definition.position, view->definition.velocity}, at + 6);
+    put(view->box.lower, at + 12);
+    put(view->box.upper, at + 15);
+    at[18] = view->box_end;
+    at[19] = view->enabled ? 1.0 : 0.0;
+    at[20] = view->fixed ? 1.0 : 0.0;
+    at[21] = view->resting ? 1.0 : 0.0;
+    at[22] = view->definition.acceleration_limit;
+    at[23] = static_cast<double>(view->definition.sensor_class);
+    at[24] = static_cast<double>(view->definition.user_data);
+    for (std::size_t axis = 0; axis < 3; ++axis) at[25 + axis] = static_cast<double>(view->image[axis]);
+  }
+  return true;
+}
+
+KINESPHERE_EXPORT(world_touching) bool world_touching(const World* world, double body) {
+  const auto ids = world->touching(body_of(body));
+  if (!is_good(ids)) return false;
+  answer_ids(*ids);
+  return true;
+}
+
+KINESPHERE_EXPORT(world_counters) void world_counters(const World* world) {
+  const Counters& counters = world->counters();
+  auto& numbers = answer();
+  numbers.clear();
+  for (const std::uint64_t events : counters.events) numbers.push_back(static_cast<double>(events));
+  for (const std::uint64_t count :
+       {counters.probes, counters.window_ends, counters.starts, counters.restarts, counters.pair_checks,
+        counters.wall_checks, counters.searches, counters.candidates, counters.hot_pairs,
+        counters.certificates, counters.zeno_steps, counters.repeated_contacts})
+    numbers.push_back(static_cast<double>(count));
+}
+
+/// Triples of two ids and a time; and boxes (6) with how many bodies they hold.
+KINESPHERE_EXPORT(world_certificates) void world_certificates(const World* world) {
+  answer().clear();
+  for (const Certificate& certificate : world->certificates())
+    answer().insert(answer().end(),
+                    {number_of(certificate.first), number_of(certificate.second), certificate.until});
+}
+KINESPHERE_EXPORT(world_cells) void world_cells(const World* world) {
+  answer().clear();
+  for (const CellView& cell : world->cells())
+    answer().insert(answer().end(), {cell.box.lower.x, cell.box.lower.y, cell.box.lower.z, cell.box.upper.x,
+                                     cell.box.upper.y, cell.box.upper.z, static_cast<double>(cell.bodies)});
+}
+
+/// Answers: time, partner, wall, touching or within.
+KINESPHERE_EXPORT(world_safe_until) bool world_safe_until(const World* world) {
+  const auto safe = world->safe_until();
+  if (safe) answer().assign({safe->time, no_id, 0.0, safe->touching ? 1.0 : 0.0});
+  return is_good(safe);
+}
+KINESPHERE_EXPORT(world_safe_until_of_pair)
+bool world_safe_until_of_pair(const World* world, double first, double second) {
+  const auto safe = world->safe_until(body_of(first), body_of(second));
+  if (safe) answer().assign({safe->time, no_id, 0.0, safe->touching ? 1.0 : 0.0});
+  return is_good(safe);
+}
+KINESPHERE_EXPORT(world_earliest_contact) bool world_earliest_contact(const World* world, double body) {
+  const auto contact = world->earliest_contact(body_of(body));
+  if (contact)
+    answer().assign({contact->time, number_of(contact->partner), static_cast<double>(contact->wall),
+                     contact->touching ? 1.0 : 0.0});
+  return is_good(contact);
+}
+KINESPHERE_EXPORT(world_earliest_approach)
+bool world_earliest_approach(const World* world, double body, double distance) {
+  const auto approach = world->earliest_approach(body_of(body), distance);
+  if (approach)
+    answer().assign({approach->time, number_of(approach->partner), static_cast<double>(approach->wall),
+                     approach->within ? 1.0 : 0.0});
+  return is_good(approach);
+}
+
+namespace {
+
+/// Fours of an id, 1 for certainly, and two limits.
+template <class Results>
+bool answer_all(const Results& results) {
+  if (!is_good(results)) return false;
+  answer().clear();
+  for (const auto& found : *results)
+    answer().insert(answer().end(),
+                    {number_of(found.body), found.certainty == Certainty::certainly ? 1.0 : 0.0, found.lower,
+                     found.upper});
+  return true;
+}
+
+}  // namespace
+
+KINESPHERE_EXPORT(world_nearest)
+bool world_nearest(const World* world, const double* point, std::size_t count) {
+  return answer_all(world->nearest(vector_at(point), count));
+}
+KINESPHERE_EXPORT(world_ray_cast)
+bool world_ray_cast(const World* world, const double* origin, const double* direction, double length) {
+  return answer_all(world->ray_cast(vector_at(origin), vector_at(direction), length));
+}
+KINESPHERE_EXPORT(world_overlapping)
+bool world_overlapping(const World* world, const double* centre, double radius) {
+  const auto results = world->overlapping(vector_at(centre), radius);
+  if (!is_good(results)) return false;
+  answer().clear();
+  for (const Found& found : *results)
+    answer().insert(answer().end(),
+                    {number_of(found.body), found.certainty == Certainty::certainly ? 1.0 : 0.0});
+  return true;
+}
+
+/// Empty where nothing is wrong.
+KINESPHERE_EXPORT(world_audit) void world_audit(const World* world) {
+  answer_bytes().clear();
+  const auto finding = world->audit();
+  if (!finding) return;
+  for (const char c : finding->where + ": " + finding->what)
+    answer_bytes().push_back(static_cast<std::byte>(c));
+}
+
+}  // namespace kinesphere::browser
