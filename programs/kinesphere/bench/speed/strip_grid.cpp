@@ -11,7 +11,7 @@ namespace kinesphere::program {
 namespace {
 
 /// Spheres that are tested together. Arrays have as many more at their end, which are near nobody.
-constexpr std::uint32_t lanes = 8;
+constexpr std::uint32_t strip_lanes = 8;
 
 /// More cells than this for each sphere would cost more to clear than they save.
 constexpr double most_cells_each = 2.0;
@@ -50,16 +50,16 @@ KINESPHERE_INLINE int cell_along(const StripLayout& layout, std::size_t axis, fl
 KINESPHERE_INLINE void find_in_range(const Strips& strips, std::uint32_t i, std::uint32_t begin,
                                      std::uint32_t end, std::vector<SpherePair>& near) {
   const float at_x = strips.x[i], at_y = strips.y[i], at_z = strips.z[i], radius = strips.radius[i];
-  for (std::uint32_t j = begin; j < end; j += lanes) {
+  for (std::uint32_t j = begin; j < end; j += strip_lanes) {
     std::uint32_t hits = 0;  // bit by bit
-    for (std::uint32_t lane = 0; lane < lanes; ++lane) {
+    for (std::uint32_t lane = 0; lane < strip_lanes; ++lane) {
       const float x = strips.x[j + lane] - at_x;
       const float y = strips.y[j + lane] - at_y;
       const float z = strips.z[j + lane] - at_z;
       const float reach = strips.radius[j + lane] + radius;
       hits |= x * x + y * y + z * z < reach * reach ? 1u << lane : 0u;
     }
-    if (i - j < lanes) hits &= ~(1u << (i - j));
+    if (i - j < strip_lanes) hits &= ~(1u << (i - j));
     if (hits != 0) [[unlikely]]
       note_near(strips, i, j, end, hits, near);
   }
@@ -107,12 +107,12 @@ struct Range {
 };
 
 KINESPHERE_INLINE void range_of_generic(const float* values, std::size_t size, Range& range) {
-  float lower[lanes], upper[lanes];
-  std::fill(lower, lower + lanes, range.lower);
-  std::fill(upper, upper + lanes, range.upper);
+  float lower[strip_lanes], upper[strip_lanes];
+  std::fill(lower, lower + strip_lanes, range.lower);
+  std::fill(upper, upper + strip_lanes, range.upper);
   std::size_t at = 0;
-  for (; at + lanes <= size; at += lanes) {
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
+  for (; at + strip_lanes <= size; at += strip_lanes) {
+    for (std::size_t lane = 0; lane < strip_lanes; ++lane) {
       const float value = values[at + lane];
       lower[lane] = value < lower[lane] ? value : lower[lane];
       upper[lane] = value > upper[lane] ? value : upper[lane];
@@ -122,7 +122,7 @@ KINESPHERE_INLINE void range_of_generic(const float* values, std::size_t size, R
     lower[0] = std::min(lower[0], values[at]);
     upper[0] = std::max(upper[0], values[at]);
   }
-  range = {*std::min_element(lower, lower + lanes), *std::max_element(upper, upper + lanes)};
+  range = {*std::min_element(lower, lower + strip_lanes), *std::max_element(upper, upper + strip_lanes)};
 }
 KINESPHERE_VERSIONS(range_of, (const float* values, std::size_t size, Range& range), (values, size, range))
 
@@ -179,8 +179,9 @@ void StripGrid::sort(const Frame& centres, const std::vector<float>& radii) {
     before += start;
     start = before;
   }
-  for (auto* const array : {&x_, &y_, &z_}) array->resize(size + lanes, std::numeric_limits<float>::max());
-  radius_.resize(size + lanes, 0.0f);
+  for (auto* const array : {&x_, &y_, &z_})
+    array->resize(size + strip_lanes, std::numeric_limits<float>::max());
+  radius_.resize(size + strip_lanes, 0.0f);
   body_.resize(size);
   // Backwards, so that each cell's start ends up where its first sphere is.
   for (std::size_t at = size; at-- > 0;) {

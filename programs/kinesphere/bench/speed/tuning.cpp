@@ -13,7 +13,7 @@ namespace {
 
 /// Edges of strips and skins that are tried, as parts of the mean distance of spheres.
 constexpr double row_edges[] = {0.8, 1.25, 2.0, 3.2};
-constexpr double skins[] = {0.003, 0.01, 0.03, 0.1, 0.2, 0.4};
+constexpr double skin_parts[] = {0.003, 0.01, 0.03, 0.1, 0.2, 0.4};
 constexpr float steps_ahead[] = {0.0f, 5.0f, 10.0f, 20.0f, 40.0f};  ///< VerletSettings::steps
 constexpr double bullet_margins[] = {0.003, 0.01, 0.03, 0.1, 0.2};
 constexpr double column_part = 0.2;  ///< of the edge of a row
@@ -130,7 +130,7 @@ KernelMaker tuned_kernel(const StepRecording& recording) {
         best = settings;
     }
   }
-  for (const double part : skins) {
+  for (const double part : skin_parts) {
     for (const float ahead : steps_ahead) {
       // Lists of skins that reach beyond the next neighbours are long, and no use.
       if (part * distance + static_cast<double>(ahead) * move > distance) continue;

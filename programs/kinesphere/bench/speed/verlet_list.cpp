@@ -8,7 +8,7 @@
 namespace kinesphere::program {
 namespace {
 
-constexpr std::size_t lanes = 16;
+constexpr std::size_t skin_lanes = 16;
 
 struct Skins {
   Frame centres;
@@ -26,8 +26,8 @@ KINESPHERE_INLINE int has_left(const Skins& skins, const Frame& now, std::size_t
 KINESPHERE_INLINE void find_leaving_generic(const Skins& skins, const Frame& now, bool& any_has) {
   std::size_t at = 0;
   int any = 0;
-  for (; any == 0 && at + lanes <= skins.size; at += lanes)
-    for (std::size_t lane = 0; lane < lanes; ++lane) any |= has_left(skins, now, at + lane);
+  for (; any == 0 && at + skin_lanes <= skins.size; at += skin_lanes)
+    for (std::size_t lane = 0; lane < skin_lanes; ++lane) any |= has_left(skins, now, at + lane);
   for (; at < skins.size; ++at) any |= has_left(skins, now, at);
   any_has = any != 0;
 }

@@ -5,7 +5,7 @@
 namespace kinesphere::program {
 namespace {
 
-constexpr std::size_t lanes = 16;
+constexpr std::size_t wall_lanes = 16;
 
 struct Spheres {
   const float* x;
@@ -34,11 +34,11 @@ KINESPHERE_INLINE int reaches_out(const Spheres& s, const FloatWalls& w, std::si
 KINESPHERE_INLINE void find_outside_generic(const Spheres& spheres, const FloatWalls& walls,
                                             std::vector<std::uint32_t>& found) {
   std::size_t at = 0;
-  for (; at + lanes <= spheres.size; at += lanes) {
+  for (; at + wall_lanes <= spheres.size; at += wall_lanes) {
     int any = 0;
-    for (std::size_t lane = 0; lane < lanes; ++lane) any |= reaches_out(spheres, walls, at + lane);
+    for (std::size_t lane = 0; lane < wall_lanes; ++lane) any |= reaches_out(spheres, walls, at + lane);
     if (any == 0) continue;
-    for (std::size_t lane = 0; lane < lanes; ++lane)
+    for (std::size_t lane = 0; lane < wall_lanes; ++lane)
       if (reaches_out(spheres, walls, at + lane) != 0) found.push_back(static_cast<std::uint32_t>(at + lane));
   }
   for (; at < spheres.size; ++at)
