@@ -7,8 +7,6 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-_index_bits = 32
-
 
 class BodyId(int):
     """Names a body for as long as it lives.
@@ -27,11 +25,11 @@ class BodyId(int):
 
     @property
     def index(self) -> int:
-        return int(self) & (2**_index_bits - 1)
+        return int(self) & 0xFFFFFFFF
 
     @property
     def generation(self) -> int:
-        return int(self) >> _index_bits
+        return int(self) >> 32
 
     def __repr__(self) -> str:
         return str(self.index) if self.generation == 0 else f"{self.index} (generation {self.generation})"
@@ -42,4 +40,4 @@ class BodyId(int):
 def index_of(ids: npt.ArrayLike) -> npt.NDArray[np.int64]:
     """The indices of these ids, for arrays with a place for each body, in worlds that remove bodies."""
     numbers: npt.NDArray[Any] = np.asarray(ids)
-    return np.bitwise_and(numbers.astype(np.int64), 2**_index_bits - 1)
+    return np.bitwise_and(numbers.astype(np.int64), 0xFFFFFFFF)

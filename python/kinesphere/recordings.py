@@ -1,4 +1,4 @@
-"""Recordings, read without repeating them; Replay repeats one."""
+"""Runs and worlds as bytes."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ._kinesphere import _read_recording
+from ._kinesphere import World, _read_recording
 from .events import Events
 
 
@@ -29,3 +29,8 @@ class RecordedRun:
 def read_recording(recording: bytes) -> RecordedRun:
     """What World.stop_recording() returned, or the file of `kinesphere run --record`. Raises InvalidValue."""
     return RecordedRun(*_read_recording(recording))
+
+
+def restored(snapshot: bytes) -> World:
+    """What a pickled world calls: World.restore() under a name that pickle can write down."""
+    return World.restore(snapshot)

@@ -10,12 +10,12 @@ namespace kinesphere::python {
 namespace {
 
 using MapClass = py::class_<BodyMapHandle, std::shared_ptr<BodyMapHandle>>;
-using SharedMotion = std::shared_ptr<MotionHandle>;
 
 constexpr const char* map_name = "body map";
 
-void keep(BodyMapHandle& map, const SharedMotion& motion) {
-  if (std::find(map.motions.begin(), map.motions.end(), motion) == map.motions.end()) map.motions.push_back(motion);
+void keep(BodyMapHandle& map, const py::object& motion) {
+  const auto same = [&](const py::object& kept) { return kept.is(motion); };
+  if (std::none_of(map.motions.begin(), map.motions.end(), same)) map.motions.push_back(motion);
 }
 
 BodyDefinition like(double radius, std::uint64_t category, std::uint64_t mask, std::int32_t group, bool solid,
@@ -27,36 +27,38 @@ BodyDefinition like(double radius, std::uint64_t category, std::uint64_t mask, s
           .user_data = user_data};
 }
 
-py::object add(BodyMapHandle& map, WorldHandle& world, const SharedMotion& motion, std::uint32_t number, double radius,
+py::object add(BodyMapHandle& map, WorldHandle& world, const py::object& moving, std::uint32_t number, double radius,
                std::uint64_t category, std::uint64_t mask, std::int32_t group, bool solid, SensorClass sensor_class,
                std::uint64_t user_data) {
+  auto& motion = moving.cast<MotionHandle&>();
   const auto turn = map.in_use.take_alone("add", map_name);
-  const auto turn_of_motion = motion->in_use.take_alone("add", "motion");
+  const auto turn_of_motion = motion.in_use.take_alone("add", "motion");
   const auto turn_of_world = world.take("add");
   const BodyId id = map.map
-                        .add(world.world, *motion->motion, number,
+                        .add(world.world, *motion.motion, number,
                              like(radius, category, mask, group, solid, sensor_class, user_data))
                         .value();
-  keep(map, motion);
+  keep(map, moving);
   end_call(world);
   return object_of(id);
 }
 
-py::object add_all(BodyMapHandle& map, WorldHandle& world, const SharedMotion& motion, const py::object& radii,
+py::object add_all(BodyMapHandle& map, WorldHandle& world, const py::object& moving, const py::object& radii,
                    std::uint64_t category, std::uint64_t mask, std::int32_t group, bool solid,
                    SensorClass sensor_class, std::uint64_t user_data) {
+  auto& motion = moving.cast<MotionHandle&>();
   const auto turn = map.in_use.take_alone("add_all", map_name);
-  const auto turn_of_motion = motion->in_use.take_alone("add_all", "motion");
+  const auto turn_of_motion = motion.in_use.take_alone("add_all", "motion");
   const auto turn_of_world = world.take("add_all");
   std::size_t count = 0;
-  for (std::uint32_t number = 0; number < motion->motion->size(); ++number)
-    count += motion->motion->contains(number) ? 1 : 0;
+  for (std::uint32_t number = 0; number < motion.motion->size(); ++number)
+    count += motion.motion->contains(number) ? 1 : 0;
   const std::vector<double> each = each_of(radii, {"add_all", "radii"}, count);
   const std::vector<BodyId> ids =
       map.map
-          .add_all(world.world, *motion->motion, each, like(1.0, category, mask, group, solid, sensor_class, user_data))
+          .add_all(world.world, *motion.motion, each, like(1.0, category, mask, group, solid, sensor_class, user_data))
           .value();
-  keep(map, motion);
+  keep(map, moving);
   end_call(world);
   return array_of(ids);
 }
@@ -124,10 +126,10 @@ It serves wherever a probe or a motion is asked for. It keeps its motions alive.
           [](const BodyMapHandle& map, const py::object& body) -> py::object {
             const auto found = map.map.find(id_of(body, {"find", "body"}));
             if (!found) return py::none();
-            const auto motion = std::find_if(map.motions.begin(), map.motions.end(), [&](const SharedMotion& held) {
-              return held->motion.get() == found->motion;
-            });
-            return py::make_tuple(*motion, found->number);
+            const auto moves_it = [&](const py::object& kept) {
+              return kept.cast<MotionHandle&>().motion.get() == found->motion;
+            };
+            return py::make_tuple(*std::find_if(map.motions.begin(), map.motions.end(), moves_it), found->number);
           },
           py::arg("body"), "The motion and the number there of a body; None for one that is not known.");
 }

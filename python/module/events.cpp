@@ -244,16 +244,17 @@ that differs changes it. str(hash) has the 16 digits that the program `kinespher
                         return EventHash::of({parts[0].cast<std::uint64_t>(), parts[1].cast<std::uint64_t>()});
                       }));
 
-  const auto velocities = [](const Bounce& after) {
-    return py::make_tuple(array_of(after.first_velocity), array_of(after.second_velocity));
+  const auto velocities = [](const Event& contact, const Bounce& after) {
+    const py::object second = contact.second == no_body ? py::none() : array_of(after.second_velocity);
+    return py::make_tuple(array_of(after.first_velocity), second);
   };
   module.def(
       "bounce",
       [velocities](const Event& contact, double first_mass, double second_mass, double restitution) {
-        return velocities(bounce(contact, first_mass, second_mass, restitution));
+        return velocities(contact, bounce(contact, first_mass, second_mass, restitution));
       },
       py::arg("contact"), py::arg("first_mass") = 1.0, py::arg("second_mass") = 1.0, py::arg("restitution") = 1.0,
-      R"(Velocities after a frictionless central bounce: two arrays of shape (3,).
+      R"(Velocities after a frictionless central bounce: two arrays of shape (3,); at a wall the second is None.
 
 Masses are > 0; the second is unused for a wall, and infinite for a fixed body. The restitution lies in [0, 1]. Momentum
 is kept; a repeated contact is answered without loss. A NaN gives velocities that the world refuses by name.)");
@@ -261,7 +262,7 @@ is kept; a repeated contact is answered without loss. A NaN gives velocities tha
       "settle",
       [velocities](const Event& contact, double first_mass, double second_mass, double restitution,
                    double resting_speed) {
-        return velocities(settle(contact, first_mass, second_mass, restitution, resting_speed));
+        return velocities(contact, settle(contact, first_mass, second_mass, restitution, resting_speed));
       },
       py::arg("contact"), py::arg("first_mass"), py::arg("second_mass"), py::arg("restitution"),
       py::arg("resting_speed"),

@@ -47,8 +47,8 @@ class EventIterator {
 /// What answers the events of a run.
 class Responding {
  public:
-  Responding(const py::object& given, const WorldHandle& handle)
-      : plane_(handle.is_plane()), fixed_(handle.fixed), given_(py::reinterpret_borrow<py::object>(given)) {
+  Responding(const py::object& given, const WorldHandle& handle, Interruptions& interruptions)
+      : interruptions_(interruptions), plane_(handle.is_plane()), fixed_(handle.fixed), given_(py::reinterpret_borrow<py::object>(given)) {
     if (given.is_none()) return;
     if (py::isinstance<Bouncing>(given)) {
       bouncing_ = &given.cast<const Bouncing&>();
@@ -70,8 +70,7 @@ class Responding {
       check_known(event.second);
       return scene_answer(*scene_, event);
     }
-    const py::gil_scoped_acquire gil;
-    return answer_of(given_(event), plane_);
+    return interruptions_.call([&] { return answer_of(given_(event), plane_); });
   }
 
  private:
@@ -81,6 +80,7 @@ class Responding {
                      "run: respond must know all bodies, but the scene has no body " + to_string(body)});
   }
 
+  Interruptions& interruptions_;
   bool plane_;
   const std::unordered_set<std::uint64_t>& fixed_;
   py::object given_;
@@ -110,21 +110,19 @@ py::object run(WorldHandle& handle, double until, const py::object& motion, cons
                const py::object& threads) {
   const auto turn = handle.take("run");
   Asked asked(motion, "run", handle.is_plane());
-  const Responding responding(respond, handle);
+  const Responding responding(respond, handle, asked.interruptions());
   if (responding && asked.mover() == nullptr) {
     throw py::type_error(
         "run: motion must be a Motion or a BodyMap where there is a respond, as bodies are given velocities, but is a "
         "function; loop over world.events() instead");
   }
   Threads shared(threads);
-  SignalCheck signals;
   const auto note = [&](const Event& event) {
     handle.told.push_back(record_of(event));
-    signals.look();
+    asked.interruptions().look();
   };
   const auto tell = [&](const Event& event) {
-    const py::gil_scoped_acquire gil;
-    sink(event);
+    asked.interruptions().call([&] { sink(event); });
   };
   const Sink told = sink.is_none() ? Sink(note) : Sink(tell);
   const Result<void> done = without_gil(handle, [&] {

@@ -25,16 +25,20 @@ InUse::Turn InUse::take_alone(std::string_view call, std::string_view what) {
   return Turn(*this);
 }
 
-void SignalCheck::look() {
+void Interruptions::look() {
   // The clock takes longer than most states.
   constexpr int calls_between_looks = 64;
-  if (std::this_thread::get_id() != thread_ || ++calls_ < calls_between_looks) return;
-  calls_ = 0;
-  const Clock::time_point now = Clock::now();
-  if (now < next_) return;
-  next_ = now + interval;
-  const py::gil_scoped_acquire gil;
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  if (std::this_thread::get_id() != thread_) return;
+  if (!has_raised_) {
+    if (++calls_ < calls_between_looks) return;
+    calls_ = 0;
+    const Clock::time_point now = Clock::now();
+    if (now < next_) return;
+    next_ = now + interval;
+  }
+  call([] {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  });
 }
 
 }  // namespace kinesphere::python

@@ -3,7 +3,9 @@
 
 #include <pybind11/pybind11.h>
 
+#include <atomic>
 #include <chrono>
+#include <exception>
 #include <string_view>
 #include <thread>
 #include <utility>
@@ -41,19 +43,41 @@ class InUse {
   std::thread::id owner_;
 };
 
-/// Lets Ctrl-C through while the engine works without the GIL: looks for signals at most 20 times a second, in the
-/// thread that made it.
-class SignalCheck {
+/// What the callbacks of one call of a world raise, Ctrl-C among it. With several threads the engine repeats what has
+/// failed, to come to the first failure by itself: so what has been raised once is raised again, until the call ends.
+class Interruptions {
  public:
-  /// Needs no GIL. Throws what the handler of a signal has raised.
+  /// Lets Ctrl-C through while the engine works without the GIL, which this does not need: looks for signals at most 20
+  /// times a second, in the thread that made it. Throws what the handler of a signal has raised.
   void look();
+
+  /// Calls a function of Python's under the GIL.
+  template <class Function>
+  auto call(const Function& function) {
+    const py::gil_scoped_acquire gil;
+    if (raised_) std::rethrow_exception(raised_);
+    try {
+      return function();
+    } catch (...) {
+      keep();
+      throw;
+    }
+  }
 
  private:
   using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::milliseconds interval{50};
+
+  void keep() {
+    raised_ = std::current_exception();
+    has_raised_ = true;
+  }
+
   std::thread::id thread_ = std::this_thread::get_id();
   Clock::time_point next_ = Clock::now() + interval;
   int calls_ = 0;
-  static constexpr std::chrono::milliseconds interval{50};
+  std::exception_ptr raised_;  ///< read and written under the GIL
+  std::atomic<bool> has_raised_ = false;
 };
 
 }  // namespace kinesphere::python

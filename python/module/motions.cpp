@@ -378,7 +378,20 @@ that would have allowed it, and velocity.)");
   bind_add_with_limit(frames);
 }
 
+/// If it is one of these kinds.
+template <class Kind, class... Others>
+py::object object_of_kind(std::unique_ptr<Motion> motion) {
+  if (dynamic_cast<Kind*>(motion.get()) != nullptr)
+    return py::cast(std::make_shared<HandleOf<Kind>>(std::move(motion)));
+  if constexpr (sizeof...(Others) > 0) return object_of_kind<Others...>(std::move(motion));
+  return py::cast(std::make_shared<MotionHandle>(std::move(motion)));
+}
+
 }  // namespace
+
+py::object object_of(std::unique_ptr<Motion> motion) {
+  return object_of_kind<RandomForces, VelocityField, Ballistic>(std::move(motion));
+}
 
 void bind_motions(py::module_& module) {
   bind_motion(module);

@@ -33,9 +33,12 @@ struct HandleOf : MotionHandle {
 /// A map with the motions that it knows bodies of, which live as long as it does.
 struct BodyMapHandle {
   BodyMap map{};
-  std::vector<std::shared_ptr<MotionHandle>> motions{};
+  std::vector<py::object> motions{};
   InUse in_use{};
 };
+
+/// Of the class that this kind of motion has in Python.
+py::object object_of(std::unique_ptr<Motion> motion);
 
 void bind_motions(py::module_& module);
 

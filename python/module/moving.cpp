@@ -12,9 +12,9 @@ namespace {
 template <class Moving>
 class Interruptible final : public Mover {
  public:
-  Interruptible(Moving moving, SignalCheck& signals) : moving_(std::move(moving)), signals_(signals) {}
+  Interruptible(Moving moving, Interruptions& interruptions) : moving_(std::move(moving)), interruptions_(interruptions) {}
   void states(std::span<const BodyId> ids, double time, std::span<State> states) override {
-    signals_.look();
+    interruptions_.look();
     moving_.states(ids, time, states);
   }
   Departure departure(BodyId body) const override { return moving_.departure(body); }
@@ -22,12 +22,12 @@ class Interruptible final : public Mover {
 
  private:
   Moving moving_;
-  SignalCheck& signals_;
+  Interruptions& interruptions_;
 };
 
 template <class Moving>
-std::unique_ptr<Mover> interruptible(Moving moving, SignalCheck& signals) {
-  return std::make_unique<Interruptible<Moving>>(std::move(moving), signals);
+std::unique_ptr<Mover> interruptible(Moving moving, Interruptions& interruptions) {
+  return std::make_unique<Interruptible<Moving>>(std::move(moving), interruptions);
 }
 
 }  // namespace
@@ -39,12 +39,12 @@ Asked::Asked(const py::object& given, std::string_view call, bool plane)
   } else if (py::isinstance<MotionHandle>(given)) {
     auto& handle = given.cast<MotionHandle&>();
     keep_to_itself(handle.in_use, "motion");
-    mover_ = interruptible(MotionMover(*handle.motion), signals_);
+    mover_ = interruptible(MotionMover(*handle.motion), interruptions_);
   } else if (py::isinstance<BodyMapHandle>(given)) {
     auto& handle = given.cast<BodyMapHandle&>();
     keep_to_itself(handle.in_use, "body map");
-    for (const auto& motion : handle.motions) keep_to_itself(motion->in_use, "motion");
-    mover_ = interruptible(handle.map.mover(), signals_);
+    for (const py::object& motion : handle.motions) keep_to_itself(motion.cast<MotionHandle&>().in_use, "motion");
+    mover_ = interruptible(handle.map.mover(), interruptions_);
   } else if (PyCallable_Check(given.ptr()) == 0) {
     throw py::type_error(call_ + ": probe must be a motion or a function of (ids, t), but is " +
                          py::repr(given).cast<std::string>());
@@ -61,8 +61,7 @@ Probe Asked::probe() {
 }
 
 void Asked::ask(std::span<const BodyId> ids, double time, std::span<State> states) {
-  const py::gil_scoped_acquire gil;
-  read_states(given_(array_of(ids), time), states, call_, plane_);
+  interruptions_.call([&] { read_states(given_(array_of(ids), time), states, call_, plane_); });
 }
 
 Bouncing::Bouncing(const py::object& masses, double restitution, double resting_speed)

@@ -29,6 +29,8 @@ class Asked {
   Probe probe();
   /// Nothing for a function of Python's.
   Mover* mover() { return mover_.get(); }
+  /// For the other callbacks of the same call.
+  Interruptions& interruptions() { return interruptions_; }
 
  private:
   void ask(std::span<const BodyId> ids, double time, std::span<State> states);
@@ -41,7 +43,7 @@ class Asked {
   py::object given_;
   std::unique_ptr<Mover> mover_;
   std::vector<InUse::Turn> turns_;
-  SignalCheck signals_;
+  Interruptions interruptions_;
 };
 
 /// A ready-made response: bodies bounce.

@@ -78,12 +78,20 @@ What may differ from the scene as it is built in is named as in `kinesphere run 
             for (const SceneBody& body : scene.bodies) radii.push_back(body.radius);
             return array_of(radii);
           },
-          "Of each body (length), shape (n,). Masses are radii**3.")
+          "Of each body (length), shape (n,).")
+      .def_property_readonly(
+          "masses",
+          [](const Scene& scene) {
+            std::vector<double> masses;
+            for (const SceneBody& body : scene.bodies) masses.push_back(body.radius * body.radius * body.radius);
+            return array_of(masses);
+          },
+          "The cubes of the radii, shape (n,): Bouncing(scene.masses, scene.restitution) answers as the scene does.")
       .def_readonly("end_time", &Scene::end_time)
       .def_readonly("restitution", &Scene::restitution)
       .def(
           "motion",
-          [](const Scene& scene) { return std::make_shared<MotionHandle>(scene.motion->clone()); },
+          [](const Scene& scene) { return object_of(scene.motion->clone()); },
           "What moves the bodies, from the start: a new Motion each time.")
       .def("__len__", [](const Scene& scene) { return scene.bodies.size(); });
 }

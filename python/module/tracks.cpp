@@ -82,10 +82,10 @@ py::tuple approaches(const py::object& times, const py::object& positions, const
     scene.world.contact_tolerance = tolerance;
     scene.world.dimensions = plane ? 2 : 3;
     std::vector<Event> events;
-    SignalCheck signals;
+    Interruptions interruptions;
     SimulationObserver observer;
     observer.on_event = [&](const Event& event) { events.push_back(event); };
-    observer.between_events = [&](const Detector&) { signals.look(); };
+    observer.between_events = [&](const Detector&) { interruptions.look(); };
     probes = simulate(scene, make_world_detector, observer).value().counters.probes;
     found = approaches_in(scene, events);
     find_closest(*scene.motion, found);

@@ -79,7 +79,7 @@ py::tuple pickled(const py::object& self) {
                          "World.restore(snapshot, pair_filter)");
   if (!handle.told.empty())
     throw_state_error("run_in_progress", "world", "pickle: world must have told its events, but a run was interrupted; run it on first");
-  return py::make_tuple(self.attr("__class__").attr("restore"), py::make_tuple(save(handle)));
+  return py::make_tuple(package_attribute("kinesphere.recordings", "restored"), py::make_tuple(save(handle)));
 }
 
 }  // namespace
