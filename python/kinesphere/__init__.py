@@ -43,6 +43,7 @@ from ._kinesphere import (
     Workers,
     World,
     bounce,
+    event_dtype,
     least_resting_speed,
     no_body,
     scene_names,
@@ -52,7 +53,7 @@ from ._kinesphere import (
 from ._kinesphere import version as __version__
 from .approaches import Approaches, tracks
 from .errors import BodyError, InvalidValue, KinesphereError, StateError
-from .events import Events, event_dtype
+from .events import Events
 from .ids import BodyId, index_of
 from .kinds import EventKind, Senses, Wall
 from .recordings import RecordedRun, read_recording

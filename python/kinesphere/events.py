@@ -8,21 +8,17 @@ from typing import TYPE_CHECKING, Any, Union, overload
 import numpy as np
 import numpy.typing as npt
 
-from ._kinesphere import Event, event_fields
+from ._kinesphere import Event, event_dtype
 from .kinds import EventKind, Senses, Wall
 
 if TYPE_CHECKING:
     import pandas as pd
 
-event_dtype: np.dtype[np.void] = np.dtype(event_fields())
-"""A row of Events.array: the fields of Event, with vectors of shape (3,).
-
-kind, wall and senses are numbers of EventKind, Wall and Senses; second is no_body where there is none.
-"""
-
-
 class Events(Sequence[Event]):
-    """Events in the order in which they were told.
+    """Events in the order in which they were told: a table, of which Event has the columns.
+
+    array is a structured array of shape (n,) whose type is event_dtype: vectors have shape (3,); kind, wall and senses are
+    numbers of EventKind, Wall and Senses; second is no_body where there is none.
 
     Events of one kind: events.of_kind(EventKind.contact_begin); a column: events["time"], shape (n,), or (n, 3) for
     vectors; one Event: events[0]; some Events: events[events["gap"] < 0], events[:10].
@@ -30,7 +26,6 @@ class Events(Sequence[Event]):
 
     def __init__(self, array: npt.NDArray[np.void]) -> None:
         self.array = array
-        """Of event_dtype, shape (n,)."""
 
     def __len__(self) -> int:
         return len(self.array)

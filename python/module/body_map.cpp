@@ -27,9 +27,9 @@ BodyDefinition like(double radius, std::uint64_t category, std::uint64_t mask, s
           .user_data = user_data};
 }
 
-py::object add(BodyMapHandle& map, WorldHandle& world, const py::object& moving, std::uint32_t number, double radius,
-               std::uint64_t category, std::uint64_t mask, std::int32_t group, bool solid, SensorClass sensor_class,
-               std::uint64_t user_data) {
+py::object add_moved(BodyMapHandle& map, WorldHandle& world, const py::object& moving, std::uint32_t number,
+                     double radius, std::uint64_t category, std::uint64_t mask, std::int32_t group,
+                     bool solid, SensorClass sensor_class, std::uint64_t user_data) {
   auto& motion = moving.cast<MotionHandle&>();
   const auto turn = map.in_use.take_alone("add", map_name);
   const auto turn_of_motion = motion.in_use.take_alone("add", "motion");
@@ -43,9 +43,9 @@ py::object add(BodyMapHandle& map, WorldHandle& world, const py::object& moving,
   return object_of(id);
 }
 
-py::object add_all(BodyMapHandle& map, WorldHandle& world, const py::object& moving, const py::object& radii,
-                   std::uint64_t category, std::uint64_t mask, std::int32_t group, bool solid,
-                   SensorClass sensor_class, std::uint64_t user_data) {
+py::object add_all_moved(BodyMapHandle& map, WorldHandle& world, const py::object& moving,
+                         const py::object& radii, std::uint64_t category, std::uint64_t mask,
+                         std::int32_t group, bool solid, SensorClass sensor_class, std::uint64_t user_data) {
   auto& motion = moving.cast<MotionHandle&>();
   const auto turn = map.in_use.take_alone("add_all", map_name);
   const auto turn_of_motion = motion.in_use.take_alone("add_all", "motion");
@@ -56,7 +56,8 @@ py::object add_all(BodyMapHandle& map, WorldHandle& world, const py::object& mov
   const std::vector<double> each = each_of(radii, {"add_all", "radii"}, count);
   const std::vector<BodyId> ids =
       map.map
-          .add_all(world.world, *motion.motion, each, like(1.0, category, mask, group, solid, sensor_class, user_data))
+          .add_all(world.world, *motion.motion, each,
+                   like(1.0, category, mask, group, solid, sensor_class, user_data))
           .value();
   keep(map, moving);
   end_call(world);
@@ -76,18 +77,22 @@ void change(BodyMapHandle& map, WorldHandle& world, const char* call, const Chan
 
 void bind_body_map(py::module_& module) {
   constexpr std::uint64_t all_categories = ~std::uint64_t{0};
-  MapClass(module, "BodyMap", R"(Which body of a world is which body of which motion, where several move them or bodies come and go.
+  MapClass(
+      module, "BodyMap",
+      R"(Which body of a world is which body of which motion, where several move them or bodies come and go.
 
 It serves wherever a probe or a motion is asked for. It keeps its motions alive. One map may serve clones of a world.)")
       .def(py::init([] { return std::make_shared<BodyMapHandle>(); }))
-      .def("add", add, py::arg("world"), py::arg("motion"), py::arg("number"), py::arg("radius") = 1.0, py::kw_only(),
-           py::arg("category") = 1, py::arg("mask") = all_categories, py::arg("group") = 0, py::arg("solid") = true,
-           py::arg("sensor_class") = 0, py::arg("user_data") = 0,
-           "Adds a body of a motion to the world, with the motion's state and promise at world.time. Returns its BodyId.")
-      .def("add_all", add_all, py::arg("world"), py::arg("motion"), py::arg("radii") = 1.0, py::kw_only(),
-           py::arg("category") = 1, py::arg("mask") = all_categories, py::arg("group") = 0, py::arg("solid") = true,
-           py::arg("sensor_class") = 0, py::arg("user_data") = 0,
-           "All bodies of the motion, in the order of their numbers; radii is one number, or one of each. Returns ids, shape (n,).")
+      .def("add", add_moved, py::arg("world"), py::arg("motion"), py::arg("number"), py::arg("radius") = 1.0,
+           py::kw_only(), py::arg("category") = 1, py::arg("mask") = all_categories, py::arg("group") = 0,
+           py::arg("solid") = true, py::arg("sensor_class") = 0, py::arg("user_data") = 0,
+           "Adds a body of a motion to the world, with the motion's state and promise at world.time. Returns "
+           "its BodyId.")
+      .def("add_all", add_all_moved, py::arg("world"), py::arg("motion"), py::arg("radii") = 1.0,
+           py::kw_only(), py::arg("category") = 1, py::arg("mask") = all_categories, py::arg("group") = 0,
+           py::arg("solid") = true, py::arg("sensor_class") = 0, py::arg("user_data") = 0,
+           "All bodies of the motion, in the order of their numbers; radii is one number, or one of each. "
+           "Returns ids, shape (n,).")
       .def(
           "set_velocity",
           [](BodyMapHandle& map, WorldHandle& world, const py::object& body, const py::object& velocity) {
@@ -96,14 +101,17 @@ It serves wherever a probe or a motion is asked for. It keeps its motions alive.
             change(map, world, "set_velocity",
                    [&](BodyMap& known, World& of) { return known.set_velocity(of, id, given); });
           },
-          py::arg("world"), py::arg("body"), py::arg("velocity"), "In the motion and in the world, at world.time.")
+          py::arg("world"), py::arg("body"), py::arg("velocity"),
+          "In the motion and in the world, at world.time.")
       .def(
           "teleport",
-          [](BodyMapHandle& map, WorldHandle& world, const py::object& body, const py::object& position, const py::object& velocity) {
+          [](BodyMapHandle& map, WorldHandle& world, const py::object& body, const py::object& position,
+             const py::object& velocity) {
             const BodyId id = id_of(body, {"teleport", "body"});
             const State state{vector_of(position, {"teleport", "position"}, world.is_plane()),
                               vector_of(velocity, {"teleport", "velocity"}, world.is_plane())};
-            change(map, world, "teleport", [&](BodyMap& known, World& of) { return known.teleport(of, id, state); });
+            change(map, world, "teleport",
+                   [&](BodyMap& known, World& of) { return known.teleport(of, id, state); });
           },
           py::arg("world"), py::arg("body"), py::arg("position"), py::arg("velocity"))
       .def(
@@ -120,7 +128,8 @@ It serves wherever a probe or a motion is asked for. It keeps its motions alive.
                    [&](BodyMap& known, World& of) { return known.tell_violations(of, frames.get()); });
           },
           py::arg("world"), py::arg("frames"),
-          "After each Frames.push(): tells the world the velocities of bodies that broke their promise in that frame.")
+          "After each Frames.push(): tells the world the velocities of bodies that broke their promise in "
+          "that frame.")
       .def(
           "find",
           [](const BodyMapHandle& map, const py::object& body) -> py::object {
@@ -129,7 +138,8 @@ It serves wherever a probe or a motion is asked for. It keeps its motions alive.
             const auto moves_it = [&](const py::object& kept) {
               return kept.cast<MotionHandle&>().motion.get() == found->motion;
             };
-            return py::make_tuple(*std::find_if(map.motions.begin(), map.motions.end(), moves_it), found->number);
+            return py::make_tuple(*std::find_if(map.motions.begin(), map.motions.end(), moves_it),
+                                  found->number);
           },
           py::arg("body"), "The motion and the number there of a body; None for one that is not known.");
 }

@@ -17,7 +17,8 @@ namespace py = pybind11;
 void bind_errors(py::module_& module);
 
 /// Of this package alone: the library has no word for it.
-[[noreturn]] void throw_state_error(std::string_view code, std::string_view argument, const std::string& message);
+[[noreturn]] void throw_state_error(std::string_view code, std::string_view argument,
+                                    const std::string& message);
 
 /// Throws BadResult unless the call succeeded.
 inline void require(const Result<void>& result) { result.value(); }

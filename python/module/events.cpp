@@ -13,13 +13,8 @@
 namespace kinesphere::python {
 namespace {
 
-struct Field {
-  const char* name;
-  const char* type;
-  std::size_t offset;
-};
 constexpr std::size_t velocity_offset = offsetof(State, velocity);
-constexpr Field fields[] = {
+constexpr Field event_fields[] = {
     {"kind", "u1", offsetof(EventRecord, kind)},
     {"time", "f8", offsetof(EventRecord, time)},
     {"first", "i8", offsetof(EventRecord, first)},
@@ -42,22 +37,6 @@ constexpr Field fields[] = {
     {"first_user_data", "u8", offsetof(EventRecord, first_user_data)},
     {"second_user_data", "u8", offsetof(EventRecord, second_user_data)},
 };
-
-/// What numpy.dtype() makes the type of a row of.
-py::dict event_fields() {
-  py::list names, formats, offsets;
-  for (const Field& field : fields) {
-    names.append(field.name);
-    formats.append(field.type);
-    offsets.append(field.offset);
-  }
-  py::dict description;
-  description["names"] = names;
-  description["formats"] = formats;
-  description["offsets"] = offsets;
-  description["itemsize"] = sizeof(EventRecord);
-  return description;
-}
 
 Event event_of(const EventRecord& record) {
   return {.kind = record.kind,
@@ -109,8 +88,8 @@ py::list names_of(int count) {
 }
 
 std::string text_of(const Event& event) {
-  std::string text = "<Event " + std::string(name_of(event.kind)) + " at " + py::repr(py::float_(event.time)).cast<std::string>() +
-                     ": " + to_string(event.first);
+  std::string text = "<Event " + std::string(name_of(event.kind)) + " at " +
+                     py::repr(py::float_(event.time)).cast<std::string>() + ": " + to_string(event.first);
   if (event.second != no_body) text += ", " + to_string(event.second);
   if (event.wall != Wall::none) text += ", " + std::string(name_of(event.wall));
   return text + ">";
@@ -141,7 +120,7 @@ EventRecord record_of(const Event& event) {
 }
 
 py::object table_of(std::span<const EventRecord> records) {
-  static const py::handle type = package_attribute("kinesphere.events", "event_dtype").release();
+  static const py::handle type = row_type(event_fields, sizeof(EventRecord)).release();
   static const py::handle table = package_attribute("kinesphere.events", "Events").release();
   NewArray array({records.size()}, py::reinterpret_borrow<py::object>(type), sizeof(EventRecord));
   if (!records.empty()) std::memcpy(array.data<EventRecord>(), records.data(), records.size_bytes());
@@ -149,7 +128,7 @@ py::object table_of(std::span<const EventRecord> records) {
 }
 
 void bind_events(py::module_& module) {
-  module.def("event_fields", event_fields);
+  module.attr("event_dtype") = row_type(event_fields, sizeof(EventRecord));
   module.def("event_kind_names", [] { return names_of<EventKind>(event_kind_count); });
   module.def("wall_names", [] { return names_of<Wall>(wall_count + 1); });
 
@@ -157,9 +136,10 @@ void bind_events(py::module_& module) {
 
 Positions are lengths, times and speeds in the units of the world; vectors are arrays of shape (3,) that cannot be
 changed.)")
-      .def_static(
-          "_from_record", [](const py::object& record) { return event_of(records_of(record, "Event").at(0)); })
-      .def_property_readonly("kind", [](const Event& event) { return member("EventKind", static_cast<int>(event.kind)); })
+      .def_static("_from_record",
+                  [](const py::object& record) { return event_of(records_of(record, "Event").at(0)); })
+      .def_property_readonly(
+          "kind", [](const Event& event) { return member("EventKind", static_cast<int>(event.kind)); })
       .def_readonly("time", &Event::time)
       .def_property_readonly(
           "first", [](const Event& event) { return object_of(event.first); },
@@ -174,10 +154,12 @@ changed.)")
             return member("Wall", static_cast<int>(event.wall));
           },
           "The wall of a wall event, else None.")
-      .def_readonly("repeated", &Event::repeated,
-                    "One of the two touched something less than its Zeno interval ago: a response that loses energy "
-                    "should lose none here.")
-      .def_readonly("jammed", &Event::jammed, "Each of the two has had 64 contacts at this very instant already.")
+      .def_readonly(
+          "repeated", &Event::repeated,
+          "One of the two touched something less than its Zeno interval ago: a response that loses energy "
+          "should lose none here.")
+      .def_readonly("jammed", &Event::jammed,
+                    "Each of the two has had 64 contacts at this very instant already.")
       .def_property_readonly(
           "senses", [](const Event& event) { return member("Senses", static_cast<int>(event.senses)); },
           "Of sensor events: which of the two senses the other.")
@@ -188,7 +170,8 @@ changed.)")
                              [](const Event& event) { return array_of(event.first_state.velocity); })
       .def_property_readonly(
           "second_position", [](const Event& event) { return array_of(event.second_state.position); },
-          "Where space repeats, in the image that is nearest to the first. Zero where there is no second body.")
+          "Where space repeats, in the image that is nearest to the first. Zero where there is no second "
+          "body.")
       .def_property_readonly("second_velocity",
                              [](const Event& event) { return array_of(event.second_state.velocity); })
       .def_property_readonly(
@@ -202,9 +185,11 @@ changed.)")
                     "Speed at which the gap closes (length / time); negative when it opens.")
       .def_readonly("position_excess", &Event::position_excess,
                     "Of bound violations: how far the reported position lies outside the bound (length).")
-      .def_readonly("velocity_excess", &Event::velocity_excess,
-                    "Of bound violations: by how much the velocity changed more than promised (length / time).")
-      .def_readonly("distance", &Event::distance, "Of sensor events: the sensor distance that was crossed (length).")
+      .def_readonly(
+          "velocity_excess", &Event::velocity_excess,
+          "Of bound violations: by how much the velocity changed more than promised (length / time).")
+      .def_readonly("distance", &Event::distance,
+                    "Of sensor events: the sensor distance that was crossed (length).")
       .def_readonly("first_user_data", &Event::first_user_data)
       .def_readonly("second_user_data", &Event::second_user_data)
       .def_property_readonly(
@@ -228,7 +213,8 @@ that differs changes it. str(hash) has the 16 digits that the program `kinespher
               hash.add(events.cast<const Event&>());
             } else {
               const py::object rows = numpy("ascontiguousarray")(events.attr("array"));
-              for (const EventRecord& record : records_of(rows.attr("view")("u1"), "EventHash.add")) hash.add(event_of(record));
+              for (const EventRecord& record : records_of(rows.attr("view")("u1"), "EventHash.add"))
+                hash.add(event_of(record));
             }
             return self;
           },
@@ -238,11 +224,13 @@ that differs changes it. str(hash) has the 16 digits that the program `kinespher
       .def_property_readonly("count", [](const EventHash& hash) { return hash.parts()[1]; })
       .def("__eq__", [](const EventHash& a, const EventHash& b) { return a.parts() == b.parts(); })
       .def("__str__", [](const EventHash& hash) { return py::str("{:016x}").format(hash.value()); })
-      .def("__repr__", [](const EventHash& hash) { return py::str("<EventHash {:016x}>").format(hash.value()); })
-      .def(py::pickle([](const EventHash& hash) { return py::make_tuple(hash.parts()[0], hash.parts()[1]); },
-                      [](const py::tuple& parts) {
-                        return EventHash::of({parts[0].cast<std::uint64_t>(), parts[1].cast<std::uint64_t>()});
-                      }));
+      .def("__repr__",
+           [](const EventHash& hash) { return py::str("<EventHash {:016x}>").format(hash.value()); })
+      .def(
+          py::pickle([](const EventHash& hash) { return py::make_tuple(hash.parts()[0], hash.parts()[1]); },
+                     [](const py::tuple& parts) {
+                       return EventHash::of({parts[0].cast<std::uint64_t>(), parts[1].cast<std::uint64_t>()});
+                     }));
 
   const auto velocities = [](const Event& contact, const Bounce& after) {
     const py::object second = contact.second == no_body ? py::none() : array_of(after.second_velocity);
@@ -253,7 +241,8 @@ that differs changes it. str(hash) has the 16 digits that the program `kinespher
       [velocities](const Event& contact, double first_mass, double second_mass, double restitution) {
         return velocities(contact, bounce(contact, first_mass, second_mass, restitution));
       },
-      py::arg("contact"), py::arg("first_mass") = 1.0, py::arg("second_mass") = 1.0, py::arg("restitution") = 1.0,
+      py::arg("contact"), py::arg("first_mass") = 1.0, py::arg("second_mass") = 1.0,
+      py::arg("restitution") = 1.0,
       R"(Velocities after a frictionless central bounce: two arrays of shape (3,); at a wall the second is None.
 
 Masses are > 0; the second is unused for a wall, and infinite for a fixed body. The restitution lies in [0, 1]. Momentum
@@ -268,8 +257,10 @@ is kept; a repeated contact is answered without loss. A NaN gives velocities tha
       py::arg("resting_speed"),
       R"(As bounce(), for bodies that come to rest in a heap: a repeated contact loses energy too, but no two leave each
 other more slowly than with resting_speed (length / time, > 0) or than they came.)");
-  module.def("least_resting_speed", least_resting_speed, py::arg("contact_tolerance"), py::arg("acceleration"),
-             "sqrt(3 tolerance acceleration): the least resting speed for which heaps do not sink into the tolerance.");
+  module.def("least_resting_speed", least_resting_speed, py::arg("contact_tolerance"),
+             py::arg("acceleration"),
+             "sqrt(3 tolerance acceleration): the least resting speed for which heaps do not sink into the "
+             "tolerance.");
 }
 
 }  // namespace kinesphere::python

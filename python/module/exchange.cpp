@@ -15,8 +15,8 @@ std::string text_of(py::handle object) { return py::str(object).cast<std::string
 /// An array of real numbers (kinds "fiu") or whole numbers ("iu").
 py::object as_array(py::handle given, const Argument& argument, std::string_view kinds, const char* wanted) {
   const auto fail = [&](const std::string& found) {
-    throw py::type_error(std::string(argument.call) + ": " + std::string(argument.name) + " must be " + wanted +
-                         ", but " + found);
+    throw py::type_error(std::string(argument.call) + ": " + std::string(argument.name) + " must be " +
+                         wanted + ", but " + found);
   };
   py::object array;
   try {
@@ -52,8 +52,8 @@ std::string columns(bool plane) { return plane ? "(n, 3) or (n, 2)" : "(n, 3)"; 
 /// Shape (count, 3), or in the plane (count, 2); an array of nothing has no bodies.
 std::size_t rows_of(const Numbers& numbers, const Argument& argument, bool plane,
                     std::optional<std::size_t> count) {
-  const bool is_table = numbers.dimensions() == 2 &&
-                        (numbers.length(1) == 3 || (plane && numbers.length(1) == 2));
+  const bool is_table =
+      numbers.dimensions() == 2 && (numbers.length(1) == 3 || (plane && numbers.length(1) == 2));
   const bool is_nothing = numbers.dimensions() == 1 && numbers.length(0) == 0;
   const std::size_t rows = is_table ? numbers.length(0) : 0;
   if ((!is_table && !is_nothing) || (count && rows != *count)) {
@@ -85,7 +85,8 @@ std::uint64_t whole_number(py::handle given, const Argument& argument) {
 /// Whole numbers of an array of one dimension.
 std::vector<std::uint64_t> whole_numbers(py::handle given, const Argument& argument) {
   const py::object array = as_array(given, argument, "iu", "whole numbers");
-  const py::object wide = array.attr("dtype").attr("kind").cast<std::string>() == "i" ? py::str("i8") : py::str("u8");
+  const py::object wide =
+      array.attr("dtype").attr("kind").cast<std::string>() == "i" ? py::str("i8") : py::str("u8");
   const py::object plain = numpy("ascontiguousarray")(array, wide);
   Py_buffer buffer{};
   if (PyObject_GetBuffer(plain.ptr(), &buffer, PyBUF_RECORDS_RO) != 0) throw py::error_already_set();
@@ -101,7 +102,8 @@ std::vector<std::uint64_t> whole_numbers(py::handle given, const Argument& argum
 
 }  // namespace
 
-void refuse(const Argument& argument, std::string_view expectation, const std::string& found, ErrorCode code) {
+void refuse(const Argument& argument, std::string_view expectation, const std::string& found,
+            ErrorCode code) {
   throw BadResult({code, std::string(argument.name), no_body,
                    std::string(argument.call) + ": " + std::string(argument.name) + " " +
                        std::string(expectation) + ", but " + found});
@@ -160,7 +162,9 @@ Vec3 vector_of(py::handle given, const Argument& argument, bool plane) {
   const Numbers numbers(given, argument);
   const bool fits =
       numbers.dimensions() == 1 && (numbers.length(0) == 3 || (plane && numbers.length(0) == 2));
-  if (!fits) refuse(argument, plane ? "must have shape (3,) or (2,)" : "must have shape (3,)", "has shape " + numbers.shape());
+  if (!fits)
+    refuse(argument, plane ? "must have shape (3,) or (2,)" : "must have shape (3,)",
+           "has shape " + numbers.shape());
   return {numbers.at(0), numbers.at(1), numbers.length(0) == 3 ? numbers.at(2) : 0.0};
 }
 
@@ -177,7 +181,8 @@ std::vector<double> each_of(py::handle given, const Argument& argument, std::siz
   const Numbers numbers(given, argument);
   if (numbers.dimensions() == 0) return std::vector<double>(count, numbers.scalar());
   if (numbers.dimensions() != 1 || numbers.length(0) != count)
-    refuse(argument, "must be one number, or one for each of " + std::to_string(count) + " bodies", "has shape " + numbers.shape());
+    refuse(argument, "must be one number, or one for each of " + std::to_string(count) + " bodies",
+           "has shape " + numbers.shape());
   std::vector<double> values(count);
   for (std::size_t k = 0; k < count; ++k) values[k] = numbers.at(k);
   return values;
@@ -188,7 +193,8 @@ std::vector<std::uint64_t> each_whole_of(py::handle given, const Argument& argum
     return std::vector<std::uint64_t>(count, whole_number(given, argument));
   std::vector<std::uint64_t> values = whole_numbers(given, argument);
   if (values.size() != count)
-    refuse(argument, "must be one number, or one for each of " + std::to_string(count) + " bodies", "has " + std::to_string(values.size()));
+    refuse(argument, "must be one number, or one for each of " + std::to_string(count) + " bodies",
+           "has " + std::to_string(values.size()));
   return values;
 }
 
@@ -232,7 +238,24 @@ NewArray::NewArray(std::initializer_list<std::size_t> shape, const py::object& d
   array_ = numpy("ndarray")(lengths, dtype, bytes);
 }
 
-NewArray new_doubles(std::initializer_list<std::size_t> shape) { return {shape, double_type(), sizeof(double)}; }
+py::object row_type(std::span<const Field> fields, std::size_t row_size) {
+  py::list names, formats, offsets;
+  for (const Field& field : fields) {
+    names.append(field.name);
+    formats.append(field.type);
+    offsets.append(field.offset);
+  }
+  py::dict description;
+  description["names"] = names;
+  description["formats"] = formats;
+  description["offsets"] = offsets;
+  description["itemsize"] = row_size;
+  return numpy("dtype")(description);
+}
+
+NewArray new_doubles(std::initializer_list<std::size_t> shape) {
+  return {shape, double_type(), sizeof(double)};
+}
 NewArray new_whole_numbers(std::size_t count) { return {{count}, py::str("i8"), sizeof(std::int64_t)}; }
 
 py::object array_of(std::span<const double> numbers) {
@@ -298,10 +321,12 @@ Ids ids_of(py::handle given, const Argument& argument) {
   Ids result;
   // A list of ids says of which world each is; NumPy forgets it.
   if (PyList_Check(given.ptr()) != 0 || PyTuple_Check(given.ptr()) != 0) {
-    for (const py::handle item : py::reinterpret_borrow<py::sequence>(given)) result.ids.push_back(id_of(item, argument));
+    for (const py::handle item : py::reinterpret_borrow<py::sequence>(given))
+      result.ids.push_back(id_of(item, argument));
     return result;
   }
-  for (const std::uint64_t number : whole_numbers(given, argument)) result.ids.push_back(BodyId::unpack(number));
+  for (const std::uint64_t number : whole_numbers(given, argument))
+    result.ids.push_back(BodyId::unpack(number));
   return result;
 }
 
@@ -317,7 +342,9 @@ py::object array_of(std::span<const BodyId> ids) {
   return array.take();
 }
 
-py::object package_attribute(const char* module, const char* name) { return py::module_::import(module).attr(name); }
+py::object package_attribute(const char* module, const char* name) {
+  return py::module_::import(module).attr(name);
+}
 
 py::object numpy(const char* name) {
   static const py::handle module = py::module_::import("numpy").release();

@@ -47,7 +47,9 @@ class Numbers {
   std::string shape() const;
   /// For an array of one dimension, or of two. A scalar is an array of none.
   double at(std::size_t row) const { return at_offset(offset(0, row)); }
-  double at(std::size_t row, std::size_t column) const { return at_offset(offset(0, row) + offset(1, column)); }
+  double at(std::size_t row, std::size_t column) const {
+    return at_offset(offset(0, row) + offset(1, column));
+  }
   double scalar() const { return at_offset(0); }
 
  private:
@@ -92,6 +94,15 @@ class NewArray {
   void* memory_;
   py::object array_;
 };
+
+/// A field of a row: its name, its type as numpy.dtype() takes it, and where it lies in the row.
+struct Field {
+  const char* name;
+  const char* type;
+  std::size_t offset;
+};
+/// The numpy.dtype of rows of this size with these fields.
+py::object row_type(std::span<const Field> fields, std::size_t row_size);
 
 NewArray new_doubles(std::initializer_list<std::size_t> shape);
 NewArray new_whole_numbers(std::size_t count);

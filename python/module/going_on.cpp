@@ -48,7 +48,10 @@ class EventIterator {
 class Responding {
  public:
   Responding(const py::object& given, const WorldHandle& handle, Interruptions& interruptions)
-      : interruptions_(interruptions), plane_(handle.is_plane()), fixed_(handle.fixed), given_(py::reinterpret_borrow<py::object>(given)) {
+      : interruptions_(interruptions),
+        plane_(handle.is_plane()),
+        fixed_(handle.fixed),
+        given_(py::reinterpret_borrow<py::object>(given)) {
     if (given.is_none()) return;
     if (py::isinstance<Bouncing>(given)) {
       bouncing_ = &given.cast<const Bouncing&>();
@@ -106,14 +109,15 @@ class Threads {
   Workers* workers_ = nullptr;
 };
 
-py::object run(WorldHandle& handle, double until, const py::object& motion, const py::object& respond, const py::object& sink,
-               const py::object& threads) {
+py::object run(WorldHandle& handle, double until, const py::object& motion, const py::object& respond,
+               const py::object& sink, const py::object& threads) {
   const auto turn = handle.take("run");
   Asked asked(motion, "run", handle.is_plane());
   const Responding responding(respond, handle, asked.interruptions());
   if (responding && asked.mover() == nullptr) {
     throw py::type_error(
-        "run: motion must be a Motion or a BodyMap where there is a respond, as bodies are given velocities, but is a "
+        "run: motion must be a Motion or a BodyMap where there is a respond, as bodies are given velocities, "
+        "but is a "
         "function; loop over world.events() instead");
   }
   Threads shared(threads);
@@ -121,14 +125,12 @@ py::object run(WorldHandle& handle, double until, const py::object& motion, cons
     handle.told.push_back(record_of(event));
     asked.interruptions().look();
   };
-  const auto tell = [&](const Event& event) {
-    asked.interruptions().call([&] { sink(event); });
-  };
+  const auto tell = [&](const Event& event) { asked.interruptions().call([&] { sink(event); }); };
   const Sink told = sink.is_none() ? Sink(note) : Sink(tell);
   const Result<void> done = without_gil(handle, [&] {
     if (!responding) return handle.world.run(until, asked.probe(), told, shared.workers());
-    return handle.world.run(until, *asked.mover(), [&](const Event& event) { return responding(event); }, told,
-                            shared.workers());
+    return handle.world.run(
+        until, *asked.mover(), [&](const Event& event) { return responding(event); }, told, shared.workers());
   });
   require(done);
   const py::object table = table_of(handle.told);
@@ -142,7 +144,8 @@ void bind_going_on(py::module_& module, WorldClass& world) {
   py::class_<EventIterator>(module, "EventIterator")
       .def("__iter__", [](const py::object& self) { return self; })
       .def("__next__", &EventIterator::next);
-  py::class_<Workers>(module, "Workers", R"(Threads that runs may use, for those who run often: threads in all, 1 to 256.
+  py::class_<Workers>(module, "Workers",
+                      R"(Threads that runs may use, for those who run often: threads in all, 1 to 256.
 
 They work for one run at a time.)")
       .def(py::init([](int threads) { return Workers::create(threads).value(); }), py::arg("threads"))

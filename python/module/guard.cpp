@@ -19,7 +19,8 @@ InUse::Turn InUse::take(std::string_view call, std::string_view what) {
 InUse::Turn InUse::take_alone(std::string_view call, std::string_view what) {
   if (depth_ > 0) {
     throw_state_error("in_use", what,
-                      std::string(call) + ": " + std::string(what) + " must not be at work, but a run or query asks it now");
+                      std::string(call) + ": " + std::string(what) +
+                          " must not be at work, but a run or query asks it now");
   }
   owner_ = std::this_thread::get_id();
   return Turn(*this);

@@ -32,8 +32,8 @@ class InUse {
     InUse* use_;
   };
 
-  /// For an object that may be used again inside its own callbacks, which know by themselves what is allowed there.
-  /// Throws kinesphere.StateError (code "in_use") in another thread.
+  /// For an object that may be used again inside its own callbacks, which know by themselves what is allowed
+  /// there. Throws kinesphere.StateError (code "in_use") in another thread.
   [[nodiscard]] Turn take(std::string_view call, std::string_view what);
   /// For an object that nobody else may look at meanwhile.
   [[nodiscard]] Turn take_alone(std::string_view call, std::string_view what);
@@ -43,12 +43,13 @@ class InUse {
   std::thread::id owner_;
 };
 
-/// What the callbacks of one call of a world raise, Ctrl-C among it. With several threads the engine repeats what has
-/// failed, to come to the first failure by itself: so what has been raised once is raised again, until the call ends.
+/// What the callbacks of one call of a world raise, Ctrl-C among it. With several threads the engine repeats
+/// what has failed, to come to the first failure by itself: so what has been raised once is raised again,
+/// until the call ends.
 class Interruptions {
  public:
-  /// Lets Ctrl-C through while the engine works without the GIL, which this does not need: looks for signals at most 20
-  /// times a second, in the thread that made it. Throws what the handler of a signal has raised.
+  /// Lets Ctrl-C through while the engine works without the GIL, which this does not need: looks for signals
+  /// at most 20 times a second, in the thread that made it. Throws what the handler of a signal has raised.
   void look();
 
   /// Calls a function of Python's under the GIL.

@@ -23,7 +23,8 @@ py::tuple bounds(WorldHandle& handle, const py::object& bodies) {
   for (std::size_t k = 0; k < ids.size(); ++k) {
     const BodyView view = handle.world.body(ids[k]).value();
     const Vec3 centre = view.fixed ? view.definition.position : view.bound.centre_at(handle.world.time());
-    for (int axis = 0; axis < 3; ++axis) centres.data<double>()[3 * k + static_cast<std::size_t>(axis)] = centre[axis];
+    for (int axis = 0; axis < 3; ++axis)
+      centres.data<double>()[3 * k + static_cast<std::size_t>(axis)] = centre[axis];
     radii.data<double>()[k] = view.fixed ? view.definition.radius : view.bound.radius_at(handle.world.time());
   }
   return py::make_tuple(centres.take(), radii.take());
@@ -82,26 +83,32 @@ void bind_views(py::module_& module) {
       .def_property_readonly("radius", [](const BodyView& view) { return view.definition.radius; })
       .def_property_readonly("acceleration_limit",
                              [](const BodyView& view) { return view.definition.acceleration_limit; })
-      .def_property_readonly("planned_acceleration",
-                             [](const BodyView& view) { return array_of(view.definition.planned_acceleration); })
-      .def_property_readonly("position_error", [](const BodyView& view) { return view.definition.position_error; })
-      .def_property_readonly("velocity_error", [](const BodyView& view) { return view.definition.velocity_error; })
+      .def_property_readonly(
+          "planned_acceleration",
+          [](const BodyView& view) { return array_of(view.definition.planned_acceleration); })
+      .def_property_readonly("position_error",
+                             [](const BodyView& view) { return view.definition.position_error; })
+      .def_property_readonly("velocity_error",
+                             [](const BodyView& view) { return view.definition.velocity_error; })
       .def_property_readonly(
           "position", [](const BodyView& view) { return array_of(view.definition.position); },
           "At the last report, shape (3,).")
-      .def_property_readonly("velocity", [](const BodyView& view) { return array_of(view.definition.velocity); })
+      .def_property_readonly("velocity",
+                             [](const BodyView& view) { return array_of(view.definition.velocity); })
       .def_property_readonly(
           "report_time", [](const BodyView& view) { return view.bound.time; }, "When that was.")
       .def_property_readonly("category", [](const BodyView& view) { return view.definition.filter.category; })
       .def_property_readonly("mask", [](const BodyView& view) { return view.definition.filter.mask; })
       .def_property_readonly("group", [](const BodyView& view) { return view.definition.filter.group; })
       .def_property_readonly("solid", [](const BodyView& view) { return view.definition.solid; })
-      .def_property_readonly("sensor_class", [](const BodyView& view) { return view.definition.sensor_class; })
+      .def_property_readonly("sensor_class",
+                             [](const BodyView& view) { return view.definition.sensor_class; })
       .def_property_readonly("user_data", [](const BodyView& view) { return view.definition.user_data; })
       .def_readonly("box", &BodyView::box, "Contains the body, and all that it senses, until box_end.")
       .def_readonly("box_end", &BodyView::box_end)
       .def_property_readonly(
-          "image", [](const BodyView& view) { return py::make_tuple(view.image[0], view.image[1], view.image[2]); },
+          "image",
+          [](const BodyView& view) { return py::make_tuple(view.image[0], view.image[1], view.image[2]); },
           "Where space repeats: how many boxes the body has gone beyond the first one.")
       .def_readonly("enabled", &BodyView::enabled)
       .def_readonly("fixed", &BodyView::fixed)
@@ -164,21 +171,23 @@ py::tuple read_all(const py::object& recording) {
     states.push_back(report.state);
   }
   const py::tuple arrays = arrays_of(states);
-  return py::make_tuple(run.start_time, run.end_time, table_of(events), array_of(times), array_of(bodies), arrays[0],
-                        arrays[1]);
+  return py::make_tuple(run.start_time, run.end_time, table_of(events), array_of(times), array_of(bodies),
+                        arrays[0], arrays[1]);
 }
 
 }  // namespace
 
 void bind_replay(py::module_& module) {
-  py::class_<ReplayHandle, std::shared_ptr<ReplayHandle>>(module, "Replay", R"(A recorded run again, without what moved its bodies.
+  py::class_<ReplayHandle, std::shared_ptr<ReplayHandle>>(
+      module, "Replay", R"(A recorded run again, without what moved its bodies.
 
 The first step that goes another way than its recording raises StateError (diverged) that names it.)")
       .def(py::init(&open_replay), py::arg("recording"), py::arg("pair_filter") = py::none())
       .def("advance", advance_replay, "The outcome of the next recorded advance: an Event, or None.")
       .def_property_readonly("finished", [](const ReplayHandle& handle) { return handle.replay.finished(); })
       .def_property_readonly("step", [](const ReplayHandle& handle) { return handle.replay.step(); })
-      .def_property_readonly("step_count", [](const ReplayHandle& handle) { return handle.replay.step_count(); })
+      .def_property_readonly("step_count",
+                             [](const ReplayHandle& handle) { return handle.replay.step_count(); })
       .def_property_readonly("hash", [](const ReplayHandle& handle) { return handle.replay.hash(); })
       .def(
           "world",
@@ -201,8 +210,9 @@ void bind_inspection(py::module_& module, WorldClass& world) {
             return handle.world.body(id_of(body, {"body", "body"})).value();
           },
           py::arg("body"), "What the world knows of a body: a BodyView.")
-      .def("bounds", bounds, py::arg("bodies") = py::none(),
-           R"(The spheres that certainly contain these bodies now, or all bodies: centres, shape (n, 3), and radii, shape (n,).)")
+      .def(
+          "bounds", bounds, py::arg("bodies") = py::none(),
+          R"(The spheres that certainly contain these bodies now, or all bodies: centres, shape (n, 3), and radii, shape (n,).)")
       .def(
           "shape_of",
           [](WorldHandle& handle, const py::object& body) {
@@ -217,21 +227,24 @@ void bind_inspection(py::module_& module, WorldClass& world) {
             return handle.world.user_data(id_of(body, {"user_data", "body"})).value();
           },
           py::arg("body"))
-      .def("touching", touching, py::arg("body"), "Whom the body touches, in the order in which the contacts began.")
+      .def("touching", touching, py::arg("body"),
+           "Whom the body touches, in the order in which the contacts began.")
       .def("sensed", sensed, py::arg("body"), "Pairs of partner and sensor distance that the body is within.")
       .def("sensor", sensor, py::arg("sensor_class"), "The distances and the mask of a class.")
       .def_property_readonly("counters", reading("counters", [](const World& now) { return now.counters(); }))
-      .def("memory", reading("memory", [](const World& now) {
-             const Memory memory = now.memory();
-             py::dict parts;
-             parts["bodies"] = memory.bodies;
-             parts["windows"] = memory.windows;
-             parts["pairs"] = memory.pairs;
-             parts["contacts"] = memory.contacts;
-             parts["recording"] = memory.recording;
-             parts["other"] = memory.other;
-             return parts;
-           }),
+      .def("memory",
+           reading("memory",
+                   [](const World& now) {
+                     const Memory memory = now.memory();
+                     py::dict parts;
+                     parts["bodies"] = memory.bodies;
+                     parts["windows"] = memory.windows;
+                     parts["pairs"] = memory.pairs;
+                     parts["contacts"] = memory.contacts;
+                     parts["recording"] = memory.recording;
+                     parts["other"] = memory.other;
+                     return parts;
+                   }),
            "Bytes by part. Cost: O(n).")
       .def("cells", cells, "Pairs of a Box and how many bodies lie in it.")
       .def("certificates", certificates,
@@ -243,16 +256,19 @@ void bind_inspection(py::module_& module, WorldClass& world) {
             require(handle.world.set_timing(on));
           },
           py::arg("on"), "Switched on it begins from zero.")
-      .def("timings", reading("timings", [](const World& now) {
-             const Timings timings = now.timings();
-             py::dict parts;
-             parts["advances"] = timings.advances;
-             parts["advance"] = timings.advance;
-             parts["probes"] = timings.probes;
-             return parts;
-           }),
+      .def("timings",
+           reading("timings",
+                   [](const World& now) {
+                     const Timings timings = now.timings();
+                     py::dict parts;
+                     parts["advances"] = timings.advances;
+                     parts["advance"] = timings.advance;
+                     parts["probes"] = timings.probes;
+                     return parts;
+                   }),
            "Real time (seconds) in advances, and in probes, while timing was on.")
-      .def("audit", audit, "Checks all facts anew: None, or where and what is wrong. For tests; cost: O(n^2).")
+      .def("audit", audit,
+           "Checks all facts anew: None, or where and what is wrong. For tests; cost: O(n^2).")
       .def(
           "start_recording",
           [](WorldHandle& handle) {
@@ -260,8 +276,10 @@ void bind_inspection(py::module_& module, WorldClass& world) {
             require(handle.world.start_recording());
           },
           "From now on all that goes into the world and comes out of it is recorded, in memory.")
-      .def("stop_recording", stop_recording, "The recording as bytes, for Replay, read_recording() and `kinesphere replay`.")
-      .def_property_readonly("recording", reading("recording", [](const World& now) { return now.recording(); }));
+      .def("stop_recording", stop_recording,
+           "The recording as bytes, for Replay, read_recording() and `kinesphere replay`.")
+      .def_property_readonly("recording",
+                             reading("recording", [](const World& now) { return now.recording(); }));
 }
 
 }  // namespace kinesphere::python

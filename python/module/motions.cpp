@@ -18,13 +18,13 @@ namespace kinesphere::python {
 namespace {
 
 /// Motions are of any dimension: what comes with two columns lies in the plane z = 0.
-constexpr bool plane = true;
+constexpr bool any_dimension = true;
 
 template <class Definition>
-Definition with_limits(std::string_view call, const py::object& positions, const py::object& velocities, const py::object& limits,
-                       double start_time) {
+Definition with_limits(std::string_view call, const py::object& positions, const py::object& velocities,
+                       const py::object& limits, double start_time) {
   Definition definition;
-  definition.start = states_of(positions, velocities, call, plane);
+  definition.start = states_of(positions, velocities, call, any_dimension);
   definition.acceleration_limits = each_of(limits, {call, "acceleration_limits"}, definition.start.size());
   definition.start_time = start_time;
   return definition;
@@ -91,17 +91,20 @@ A motion serves wherever a probe is asked for, and then no Python is called for 
 motion(ids, t) -> (positions, velocities), to be called by a probe of your own. copy.copy() makes one that goes its own
 way.)")
       .def("__len__", [](const MotionHandle& handle) { return handle.motion->size(); })
-      .def("__contains__",
-           [](const MotionHandle& handle, long long number) {
-             return handle.motion->contains(number_in_motion(number));
-           })
+      .def("__contains__", [](const MotionHandle& handle,
+                              long long number) { return handle.motion->contains(number_in_motion(number)); })
       .def(
           "__call__",
-          [](MotionHandle& handle, const py::object& ids, double t) { return states_at(handle, ids, t, "motion"); },
-          py::arg("ids"), py::arg("t"), "Positions and velocities of these bodies at time t: two arrays of shape (n, 3).")
+          [](MotionHandle& handle, const py::object& ids, double t) {
+            return states_at(handle, ids, t, "motion");
+          },
+          py::arg("ids"), py::arg("t"),
+          "Positions and velocities of these bodies at time t: two arrays of shape (n, 3).")
       .def(
           "states",
-          [](MotionHandle& handle, double t, const py::object& numbers) { return states_at(handle, numbers, t, "states"); },
+          [](MotionHandle& handle, double t, const py::object& numbers) {
+            return states_at(handle, numbers, t, "states");
+          },
           py::arg("t"), py::arg("numbers") = py::none(),
           R"(Positions and velocities at time t, two arrays of shape (n, 3): of these bodies, or of all that are there.
 
@@ -114,18 +117,21 @@ The arguments of World.add(): world.add(**motion.definitions(0.0), radii=0.5).)"
           "set_velocity",
           [](MotionHandle& handle, long long number, double t, const py::object& velocity) {
             const auto turn = handle.in_use.take_alone("set_velocity", "motion");
-            require(handle.motion->set_velocity(number_in_motion(number), t,
-                                                vector_of(velocity, {"set_velocity", "velocity"}, plane)));
+            require(handle.motion->set_velocity(
+                number_in_motion(number), t,
+                vector_of(velocity, {"set_velocity", "velocity"}, any_dimension)));
           },
           py::arg("number"), py::arg("t"), py::arg("velocity"),
-          "Gives a body a new velocity at time t. The world that watches it has to be told too: World.set_velocity().")
+          "Gives a body a new velocity at time t. The world that watches it has to be told too: "
+          "World.set_velocity().")
       .def(
           "teleport",
-          [](MotionHandle& handle, long long number, double t, const py::object& position, const py::object& velocity) {
+          [](MotionHandle& handle, long long number, double t, const py::object& position,
+             const py::object& velocity) {
             const auto turn = handle.in_use.take_alone("teleport", "motion");
             require(handle.motion->teleport(number_in_motion(number), t,
-                                            {vector_of(position, {"teleport", "position"}, plane),
-                                             vector_of(velocity, {"teleport", "velocity"}, plane)}));
+                                            {vector_of(position, {"teleport", "position"}, any_dimension),
+                                             vector_of(velocity, {"teleport", "velocity"}, any_dimension)}));
           },
           py::arg("number"), py::arg("t"), py::arg("position"), py::arg("velocity"),
           "Puts a body into another state at time t. The world has to be told too: World.teleport().")
@@ -153,7 +159,8 @@ The arguments of World.add(): world.add(**motion.definitions(0.0), radii=0.5).)"
             return bytes_of(bytes);
           },
           py::arg("number"),
-          "What the motion knows of this body alone, for read_body() of a motion that was made with the same arguments.")
+          "What the motion knows of this body alone, for read_body() of a motion that was made with the same "
+          "arguments.")
       .def(
           "read_body",
           [](MotionHandle& handle, const py::object& written) {
@@ -167,9 +174,8 @@ The arguments of World.add(): world.add(**motion.definitions(0.0), radii=0.5).)"
 
 /// A kind of motion with what is the same in all of them.
 template <class Kind>
-py::class_<HandleOf<Kind>, MotionHandle, std::shared_ptr<HandleOf<Kind>>> bind_kind(py::module_& module,
-                                                                                   const char* name,
-                                                                                   const char* documentation) {
+py::class_<HandleOf<Kind>, MotionHandle, std::shared_ptr<HandleOf<Kind>>> bind_kind(
+    py::module_& module, const char* name, const char* documentation) {
   using Handle = HandleOf<Kind>;
   const auto copy = [](Handle& handle) {
     const auto turn = handle.in_use.take_alone("copy", "motion");
@@ -185,10 +191,13 @@ void bind_add_with_limit(Class& kind) {
   using Handle = typename Class::type;
   kind.def(
       "add",
-      [](Handle& handle, double t, const py::object& position, const py::object& velocity, double acceleration_limit) {
+      [](Handle& handle, double t, const py::object& position, const py::object& velocity,
+         double acceleration_limit) {
         const auto turn = handle.in_use.take_alone("add", "motion");
         return handle.get()
-            .add(t, {vector_of(position, {"add", "position"}, plane), vector_of(velocity, {"add", "velocity"}, plane)},
+            .add(t,
+                 {vector_of(position, {"add", "position"}, any_dimension),
+                  vector_of(velocity, {"add", "velocity"}, any_dimension)},
                  acceleration_limit)
             .value();
       },
@@ -197,14 +206,16 @@ void bind_add_with_limit(Class& kind) {
 }
 
 void bind_ready_made(py::module_& module) {
-  bind_kind<Ballistic>(module, "Ballistic", R"(Bodies that fly freely under a common gravity (length / time^2).
+  bind_kind<Ballistic>(module, "Ballistic",
+                       R"(Bodies that fly freely under a common gravity (length / time^2).
 
 positions and velocities have shape (n, 3) or (n, 2); without velocities all are at rest.)")
-      .def(py::init([](const py::object& positions, const py::object& velocities, const py::object& gravity, double start_time) {
+      .def(py::init([](const py::object& positions, const py::object& velocities, const py::object& gravity,
+                       double start_time) {
              const std::string_view call = "Ballistic";
              return std::make_shared<HandleOf<Ballistic>>(
-                 Ballistic::create({.start = states_of(positions, velocities, call, plane),
-                                    .gravity = vector_of(gravity, {call, "gravity"}, plane),
+                 Ballistic::create({.start = states_of(positions, velocities, call, any_dimension),
+                                    .gravity = vector_of(gravity, {call, "gravity"}, any_dimension),
                                     .start_time = start_time}));
            }),
            py::arg("positions"), py::arg("velocities") = py::none(), py::kw_only(),
@@ -214,8 +225,8 @@ positions and velocities have shape (n, 3) or (n, 2); without velocities all are
           [](HandleOf<Ballistic>& handle, double t, const py::object& position, const py::object& velocity) {
             const auto turn = handle.in_use.take_alone("add", "motion");
             return handle.get()
-                .add(t, {vector_of(position, {"add", "position"}, plane),
-                         vector_of(velocity, {"add", "velocity"}, plane)})
+                .add(t, {vector_of(position, {"add", "position"}, any_dimension),
+                         vector_of(velocity, {"add", "velocity"}, any_dimension)})
                 .value();
           },
           py::arg("t"), py::arg("position"), py::arg("velocity"),
@@ -227,23 +238,25 @@ positions and velocities have shape (n, 3) or (n, 2); without velocities all are
 
 Each acceleration is drawn uniformly from the ball of radius acceleration_limits (length / time^2): one number, or one of
 each body. The draw depends on seed, body and interval alone.)");
-  random_forces.def(py::init([](const py::object& positions, const py::object& velocities, const py::object& limits, double interval,
-                                std::uint64_t seed, double start_time) {
-                      auto definition = with_limits<RandomForcesDefinition>("RandomForces", positions, velocities,
-                                                                            limits, start_time);
-                      definition.interval = interval;
-                      definition.seed = seed;
-                      return std::make_shared<HandleOf<RandomForces>>(RandomForces::create(std::move(definition)));
-                    }),
-                    py::arg("positions"), py::arg("velocities") = py::none(), py::arg("acceleration_limits") = 1.0,
-                    py::kw_only(), py::arg("interval") = 0.2, py::arg("seed") = 1, py::arg("start_time") = 0.0);
+  random_forces.def(
+      py::init([](const py::object& positions, const py::object& velocities, const py::object& limits,
+                  double interval, std::uint64_t seed, double start_time) {
+        auto definition =
+            with_limits<RandomForcesDefinition>("RandomForces", positions, velocities, limits, start_time);
+        definition.interval = interval;
+        definition.seed = seed;
+        return std::make_shared<HandleOf<RandomForces>>(RandomForces::create(std::move(definition)));
+      }),
+      py::arg("positions"), py::arg("velocities") = py::none(), py::arg("acceleration_limits") = 1.0,
+      py::kw_only(), py::arg("interval") = 0.2, py::arg("seed") = 1, py::arg("start_time") = 0.0);
   bind_add_with_limit(random_forces);
 
   auto steered = bind_kind<Steered>(
       module, "Steered",
       R"(Bodies steered by hand: each keeps its acceleration, at first zero, until it is steered again.)");
   steered
-      .def(py::init([](const py::object& positions, const py::object& velocities, const py::object& limits, double start_time) {
+      .def(py::init([](const py::object& positions, const py::object& velocities, const py::object& limits,
+                       double start_time) {
              return std::make_shared<HandleOf<Steered>>(Steered::create(
                  with_limits<SteeredDefinition>("Steered", positions, velocities, limits, start_time)));
            }),
@@ -254,16 +267,20 @@ each body. The draw depends on seed, body and interval alone.)");
           [](HandleOf<Steered>& handle, long long number, double t, const py::object& acceleration) {
             const auto turn = handle.in_use.take_alone("steer", "motion");
             require(handle.get().steer(number_in_motion(number), t,
-                                       vector_of(acceleration, {"steer", "acceleration"}, plane)));
+                                       vector_of(acceleration, {"steer", "acceleration"}, any_dimension)));
           },
           py::arg("number"), py::arg("t"), py::arg("acceleration"),
-          "Sets the acceleration of a body from t on, no longer than its limit. The world need not hear of it.");
+          "Sets the acceleration of a body from t on, no longer than its limit. The world need not hear of "
+          "it.");
   bind_add_with_limit(steered);
 
-  py::class_<Circulation>(module, "Circulation",
-                          R"(The velocity field of the paper: up along the centre line of a box, down its sides.)")
-      .def(py::init([](const Box& box, double speed) { return Circulation{box, speed}; }), py::arg("box"),
-           py::arg("speed"))
+  py::class_<Circulation>(
+      module, "Circulation",
+      R"(The velocity field of the paper: up along the centre line of a box, down its sides.)")
+      .def(py::init([](const Box& box, double speed) {
+             return Circulation{box, speed};
+           }),
+           py::arg("box"), py::arg("speed"))
       .def_readonly("box", &Circulation::box)
       .def_readonly("speed", &Circulation::speed)
       .def(
@@ -278,8 +295,8 @@ each body. The draw depends on seed, body and interval alone.)");
 
 At the multiples of `interval` (time) each looks at the field; it would reach its velocity in response_time (time).)");
   velocity_field.def(
-      py::init([](const Circulation& field, const py::object& positions, const py::object& velocities, const py::object& limits,
-                  double interval, double response_time, double start_time) {
+      py::init([](const Circulation& field, const py::object& positions, const py::object& velocities,
+                  const py::object& limits, double interval, double response_time, double start_time) {
         auto definition =
             with_limits<VelocityFieldDefinition>("VelocityField", positions, velocities, limits, start_time);
         definition.field = field;
@@ -298,8 +315,9 @@ std::vector<Track> tracks_of(const py::object& given) {
   for (const py::handle item : py::reinterpret_borrow<py::iterable>(given)) {
     const py::sequence pair = py::reinterpret_borrow<py::sequence>(item);
     if (py::len(pair) != 2)
-      refuse({"RecordedTracks", "tracks"}, "must be pairs (times, positions)", "one has " + std::to_string(py::len(pair)) + " things");
-    const std::vector<Vec3> positions = vectors_of(pair[1], {"RecordedTracks", "positions"}, plane);
+      refuse({"RecordedTracks", "tracks"}, "must be pairs (times, positions)",
+             "one has " + std::to_string(py::len(pair)) + " things");
+    const std::vector<Vec3> positions = vectors_of(pair[1], {"RecordedTracks", "positions"}, any_dimension);
     const std::vector<double> times = each_of(pair[0], {"RecordedTracks", "times"}, positions.size());
     Track& track = tracks.emplace_back();
     for (std::size_t k = 0; k < times.size(); ++k) track.push_back({times[k], positions[k]});
@@ -308,8 +326,9 @@ std::vector<Track> tracks_of(const py::object& given) {
 }
 
 void bind_recorded(py::module_& module) {
-  bind_kind<RecordedTracks>(module, "RecordedTracks",
-                            R"(Bodies that go along the natural cubic splines through samples of their positions.
+  bind_kind<RecordedTracks>(
+      module, "RecordedTracks",
+      R"(Bodies that go along the natural cubic splines through samples of their positions.
 
 tracks has a pair (times, positions) for each body: times of shape (k,), rising, k >= 2; positions of shape (k, 3) or
 (k, 2). The promise of each is the largest acceleration of its curve. Before the first and after the last sample it goes
@@ -319,20 +338,22 @@ straight on. Bodies can be removed, but not be changed.)")
            }),
            py::arg("tracks"));
 
-  auto frames = bind_kind<Frames>(module, "Frames", R"(Bodies of a program that moves them in fixed steps: straight lines between its last two frames.
+  auto frames = bind_kind<Frames>(
+      module, "Frames",
+      R"(Bodies of a program that moves them in fixed steps: straight lines between its last two frames.
 
 acceleration_limits (length / time^2, gravity included) is one number, or one of each body: positions of successive
 frames obey |p[k+1] - 2 p[k] + p[k-1]| <= limit * interval^2. position_error (length) is how far positions may be off.
 States can be asked for from previous_time to latest_time.)");
   frames
-      .def(py::init([](const py::object& positions, const py::object& velocities, const py::object& limits, double interval,
-                       double position_error, double start_time, bool refuse_violations) {
+      .def(py::init([](const py::object& positions, const py::object& velocities, const py::object& limits,
+                       double interval, double position_error, double start_time, bool refuse_violations) {
              const std::string_view call = "Frames";
              FramesDefinition definition;
-             definition.start = vectors_of(positions, {call, "positions"}, plane);
+             definition.start = vectors_of(positions, {call, "positions"}, any_dimension);
              const std::size_t count = definition.start.size();
              if (!velocities.is_none())
-               definition.velocities = vectors_of(velocities, {call, "velocities"}, plane, count);
+               definition.velocities = vectors_of(velocities, {call, "velocities"}, any_dimension, count);
              definition.acceleration_limits = each_of(limits, {call, "acceleration_limits"}, count);
              definition.interval = interval;
              definition.position_error = position_error;
@@ -347,7 +368,7 @@ States can be asked for from previous_time to latest_time.)");
           "push",
           [](HandleOf<Frames>& handle, const py::object& positions) {
             const auto turn = handle.in_use.take_alone("push", "frames");
-            require(handle.get().push(vectors_of(positions, {"push", "positions"}, plane)));
+            require(handle.get().push(vectors_of(positions, {"push", "positions"}, any_dimension)));
           },
           py::arg("positions"), "The next frame: the position of every body, shape (n, 3) or (n, 2).")
       .def(
@@ -355,7 +376,8 @@ States can be asked for from previous_time to latest_time.)");
           [](const HandleOf<Frames>& handle) {
             const std::vector<Vec3>& latest = handle.get().latest();
             NewArray array = new_doubles({latest.size(), 3});
-            if (!latest.empty()) std::memcpy(array.data<double>(), latest.data(), latest.size() * sizeof(Vec3));
+            if (!latest.empty())
+              std::memcpy(array.data<double>(), latest.data(), latest.size() * sizeof(Vec3));
             return array.take();
           },
           "Where the bodies are at latest_time, changes included: shape (n, 3).")
@@ -370,7 +392,8 @@ States can be asked for from previous_time to latest_time.)");
           [](const HandleOf<Frames>& handle) {
             py::list violations;
             for (const FrameViolation& found : handle.get().violations())
-              violations.append(py::make_tuple(found.body, found.excess, found.acceleration, array_of(found.velocity)));
+              violations.append(
+                  py::make_tuple(found.body, found.excess, found.acceleration, array_of(found.velocity)));
             return violations;
           },
           R"(Who broke its promise in the frame that was pushed last: tuples of number, excess (length), the acceleration limit

@@ -12,7 +12,8 @@ namespace {
 template <class Moving>
 class Interruptible final : public Mover {
  public:
-  Interruptible(Moving moving, Interruptions& interruptions) : moving_(std::move(moving)), interruptions_(interruptions) {}
+  Interruptible(Moving moving, Interruptions& interruptions)
+      : moving_(std::move(moving)), interruptions_(interruptions) {}
   void states(std::span<const BodyId> ids, double time, std::span<State> states) override {
     interruptions_.look();
     moving_.states(ids, time, states);
@@ -43,7 +44,8 @@ Asked::Asked(const py::object& given, std::string_view call, bool plane)
   } else if (py::isinstance<BodyMapHandle>(given)) {
     auto& handle = given.cast<BodyMapHandle&>();
     keep_to_itself(handle.in_use, "body map");
-    for (const py::object& motion : handle.motions) keep_to_itself(motion.cast<MotionHandle&>().in_use, "motion");
+    for (const py::object& motion : handle.motions)
+      keep_to_itself(motion.cast<MotionHandle&>().in_use, "motion");
     mover_ = interruptible(handle.map.mover(), interruptions_);
   } else if (PyCallable_Check(given.ptr()) == 0) {
     throw py::type_error(call_ + ": probe must be a motion or a function of (ids, t), but is " +
@@ -71,7 +73,8 @@ Bouncing::Bouncing(const py::object& masses, double restitution, double resting_
   if (numbers.dimensions() == 0) {
     common_mass_ = numbers.scalar();
   } else {
-    if (numbers.dimensions() != 1) refuse({call, "masses"}, "must have shape (n,)", "has shape " + numbers.shape());
+    if (numbers.dimensions() != 1)
+      refuse({call, "masses"}, "must have shape (n,)", "has shape " + numbers.shape());
     masses_ = each_of(masses, {call, "masses"}, numbers.length(0));
   }
   const auto check = [call](bool good, std::string_view name, std::string_view expectation, double found) {
@@ -80,7 +83,8 @@ Bouncing::Bouncing(const py::object& masses, double restitution, double resting_
   if (common_mass_) check(*common_mass_ > 0.0, "masses", "must be > 0", *common_mass_);
   for (const double mass : masses_) check(mass > 0.0, "masses", "must be > 0", mass);
   check(restitution >= 0.0 && restitution <= 1.0, "restitution", "must lie in [0, 1]", restitution);
-  check(resting_speed >= 0.0 && std::isfinite(resting_speed), "resting_speed", "must be finite and >= 0", resting_speed);
+  check(resting_speed >= 0.0 && std::isfinite(resting_speed), "resting_speed", "must be finite and >= 0",
+        resting_speed);
 }
 
 double Bouncing::mass(BodyId body) const {
@@ -107,12 +111,14 @@ Answer answer_of(const py::object& returned, bool plane) {
 }
 
 void bind_moving(py::module_& module) {
-  py::class_<Bouncing>(module, "Bouncing", R"(A ready-made response for World.run(): bodies bounce off each other, walls and fixed bodies.
+  py::class_<Bouncing>(
+      module, "Bouncing",
+      R"(A ready-made response for World.run(): bodies bounce off each other, walls and fixed bodies.
 
 masses (> 0) is one number for all, or an array with one at the index of each body; fixed bodies count as infinitely
 heavy. restitution lies in [0, 1]. With a resting_speed (length / time) bodies come to rest as settle() has them.)")
-      .def(py::init<const py::object&, double, double>(), py::arg("masses") = 1.0, py::arg("restitution") = 1.0,
-           py::arg("resting_speed") = 0.0);
+      .def(py::init<const py::object&, double, double>(), py::arg("masses") = 1.0,
+           py::arg("restitution") = 1.0, py::arg("resting_speed") = 0.0);
 }
 
 }  // namespace kinesphere::python

@@ -17,10 +17,12 @@ void set(const py::object& given, Value& parameter) {
   if (!given.is_none()) parameter = given.cast<Value>();
 }
 
-std::shared_ptr<Scene> create(const std::string& name, const py::object& bodies, const py::object& seed, const py::object& seconds,
-                              const py::object& packing, const py::object& radius_min, const py::object& radius_max, const py::object& speed_min,
-                              const py::object& speed_max, const py::object& limit_min, const py::object& limit_max,
-                              const py::object& restitution, const py::object& contact_tolerance) {
+std::shared_ptr<Scene> create_scene(const std::string& name, const py::object& bodies, const py::object& seed,
+                                    const py::object& seconds, const py::object& packing,
+                                    const py::object& radius_min, const py::object& radius_max,
+                                    const py::object& speed_min, const py::object& speed_max,
+                                    const py::object& limit_min, const py::object& limit_max,
+                                    const py::object& restitution, const py::object& contact_tolerance) {
   for (const SceneParameters& known : built_in_scenes()) {
     if (known.name != name) continue;
     SceneParameters parameters = known;
@@ -57,7 +59,8 @@ void bind_scenes(py::module_& module) {
       },
       "The built-in scenes of the program `kinesphere`: \"paper1\" and so on.");
   const auto none = [](const char* name) { return py::arg(name) = py::none(); };
-  py::class_<Scene, std::shared_ptr<Scene>>(module, "Scene", R"(A built-in scene of the program `kinesphere`, to the last bit.
+  py::class_<Scene, std::shared_ptr<Scene>>(module, "Scene",
+                                            R"(A built-in scene of the program `kinesphere`, to the last bit.
 
     scene = Scene("paper1", bodies=500)
     world, motion = World(**scene.definition), scene.motion()
@@ -65,12 +68,14 @@ void bind_scenes(py::module_& module) {
     events = world.run(scene.end_time, motion, scene)
 
 What may differ from the scene as it is built in is named as in `kinesphere run --help`.)")
-      .def(py::init(&create), py::arg("name"), py::kw_only(), none("bodies"), none("seed"), none("seconds"),
-           none("packing"), none("radius_min"), none("radius_max"), none("speed_min"), none("speed_max"),
-           none("limit_min"), none("limit_max"), none("restitution"), none("contact_tolerance"))
+      .def(py::init(&create_scene), py::arg("name"), py::kw_only(), none("bodies"), none("seed"),
+           none("seconds"), none("packing"), none("radius_min"), none("radius_max"), none("speed_min"),
+           none("speed_max"), none("limit_min"), none("limit_max"), none("restitution"),
+           none("contact_tolerance"))
       .def_readonly("name", &Scene::name)
       .def_property_readonly(
-          "definition", [](const Scene& scene) { return arguments_of(scene.world); }, "World(**scene.definition).")
+          "definition", [](const Scene& scene) { return arguments_of(scene.world); },
+          "World(**scene.definition).")
       .def_property_readonly(
           "radii",
           [](const Scene& scene) {
@@ -83,15 +88,16 @@ What may differ from the scene as it is built in is named as in `kinesphere run 
           "masses",
           [](const Scene& scene) {
             std::vector<double> masses;
-            for (const SceneBody& body : scene.bodies) masses.push_back(body.radius * body.radius * body.radius);
+            for (const SceneBody& body : scene.bodies)
+              masses.push_back(body.radius * body.radius * body.radius);
             return array_of(masses);
           },
-          "The cubes of the radii, shape (n,): Bouncing(scene.masses, scene.restitution) answers as the scene does.")
+          "The cubes of the radii, shape (n,): Bouncing(scene.masses, scene.restitution) answers as the "
+          "scene does.")
       .def_readonly("end_time", &Scene::end_time)
       .def_readonly("restitution", &Scene::restitution)
       .def(
-          "motion",
-          [](const Scene& scene) { return object_of(scene.motion->clone()); },
+          "motion", [](const Scene& scene) { return object_of(scene.motion->clone()); },
           "What moves the bodies, from the start: a new Motion each time.")
       .def("__len__", [](const Scene& scene) { return scene.bodies.size(); });
 }

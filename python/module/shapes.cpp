@@ -5,12 +5,16 @@
 namespace kinesphere::python {
 namespace {
 
-Vec3 corner_of(const py::object& given, const char* call, const char* name) { return vector_of(given, {call, name}, false); }
+Vec3 corner_of(const py::object& given, const char* call, const char* name) {
+  return vector_of(given, {call, name}, false);
+}
 
 template <class Class>
 void bind_equality(Class& shape, const char* name) {
   using Kind = typename Class::type;
-  shape.def("__eq__", [](const Kind& a, const py::object& b) { return py::isinstance<Kind>(b) && a == b.cast<const Kind&>(); });
+  shape.def("__eq__", [](const Kind& a, const py::object& b) {
+    return py::isinstance<Kind>(b) && a == b.cast<const Kind&>();
+  });
   shape.def("__repr__", [name](const py::object& self) {
     std::string text = std::string(name) + "(";
     for (const py::handle part : self.attr("_parts")) {
@@ -33,7 +37,9 @@ std::optional<Box> box_of(const py::object& given, const Argument& argument) {
   if (given.is_none()) return {};
   if (py::isinstance<Box>(given)) return given.cast<Box>();
   const std::vector<Vec3> corners = vectors_of(given, argument, false);
-  if (corners.size() != 2) refuse(argument, "must be a Box, or its lower and upper corner", "has " + std::to_string(corners.size()) + " corners");
+  if (corners.size() != 2)
+    refuse(argument, "must be a Box, or its lower and upper corner",
+           "has " + std::to_string(corners.size()) + " corners");
   return Box{corners[0], corners[1]};
 }
 
@@ -52,7 +58,8 @@ py::object object_of(const Shape& shape) {
 }
 
 void bind_shapes(py::module_& module) {
-  py::class_<Box> box(module, "Box", "An axis-aligned box between two corners, lower <= upper on each axis; solid.");
+  py::class_<Box> box(module, "Box",
+                      "An axis-aligned box between two corners, lower <= upper on each axis; solid.");
   box.def(py::init([](const py::object& lower, const py::object& upper) {
             return Box{corner_of(lower, "Box", "lower"), corner_of(upper, "Box", "upper")};
           }),
@@ -63,15 +70,17 @@ void bind_shapes(py::module_& module) {
   bind_equality(box, "Box");
 
   py::class_<Ball> ball(module, "Ball", "A ball that never moves; radius >= 0 (length).");
-  ball.def(py::init([](const py::object& centre, double radius) { return Ball{corner_of(centre, "Ball", "centre"), radius}; }),
+  ball.def(py::init([](const py::object& centre, double radius) {
+             return Ball{corner_of(centre, "Ball", "centre"), radius};
+           }),
            py::arg("centre"), py::arg("radius"))
       .def_property_readonly("centre", [](const Ball& of) { return array_of(of.centre); })
       .def_readonly("radius", &Ball::radius);
   ball.attr("_parts") = py::make_tuple("centre", "radius");
   bind_equality(ball, "Ball");
 
-  py::class_<HalfSpace> half_space(module, "HalfSpace",
-                                   "Bodies may be where dot(normal, p) >= offset; the rest of space is solid.");
+  py::class_<HalfSpace> half_space(
+      module, "HalfSpace", "Bodies may be where dot(normal, p) >= offset; the rest of space is solid.");
   half_space
       .def(py::init([](const py::object& normal, double offset) {
              return HalfSpace{corner_of(normal, "HalfSpace", "normal"), offset};

@@ -12,6 +12,7 @@
 namespace kinesphere::python {
 namespace {
 
+/// A row; first and second are numbers of tracks.
 struct ApproachRecord {
   std::int64_t first;
   std::int64_t second;
@@ -26,32 +27,19 @@ struct ApproachRecord {
   bool ends_with_track;
 };
 
-/// What numpy.dtype() makes the type of a row of; first and second are numbers of tracks.
-py::object approach_type() {
-  py::list names, formats, offsets;
-  const auto field = [&](const char* name, const char* format, std::size_t offset) {
-    names.append(name);
-    formats.append(format);
-    offsets.append(offset);
-  };
-  field("first", "i8", offsetof(ApproachRecord, first));
-  field("second", "i8", offsetof(ApproachRecord, second));
-  field("begin", "f8", offsetof(ApproachRecord, begin));
-  field("end", "f8", offsetof(ApproachRecord, end));
-  field("closest_time", "f8", offsetof(ApproachRecord, closest_time));
-  field("closest_distance", "f8", offsetof(ApproachRecord, closest_distance));
-  field("relative_speed", "f8", offsetof(ApproachRecord, relative_speed));
-  field("first_position", "3f8", offsetof(ApproachRecord, first_position));
-  field("second_position", "3f8", offsetof(ApproachRecord, second_position));
-  field("begins_with_track", "?", offsetof(ApproachRecord, begins_with_track));
-  field("ends_with_track", "?", offsetof(ApproachRecord, ends_with_track));
-  py::dict type;
-  type["names"] = names;
-  type["formats"] = formats;
-  type["offsets"] = offsets;
-  type["itemsize"] = sizeof(ApproachRecord);
-  return numpy("dtype")(type);
-}
+constexpr Field approach_fields[] = {
+    {"first", "i8", offsetof(ApproachRecord, first)},
+    {"second", "i8", offsetof(ApproachRecord, second)},
+    {"begin", "f8", offsetof(ApproachRecord, begin)},
+    {"end", "f8", offsetof(ApproachRecord, end)},
+    {"closest_time", "f8", offsetof(ApproachRecord, closest_time)},
+    {"closest_distance", "f8", offsetof(ApproachRecord, closest_distance)},
+    {"relative_speed", "f8", offsetof(ApproachRecord, relative_speed)},
+    {"first_position", "3f8", offsetof(ApproachRecord, first_position)},
+    {"second_position", "3f8", offsetof(ApproachRecord, second_position)},
+    {"begins_with_track", "?", offsetof(ApproachRecord, begins_with_track)},
+    {"ends_with_track", "?", offsetof(ApproachRecord, ends_with_track)},
+};
 
 /// Track k has the samples from starts[k] to starts[k + 1].
 std::vector<Track> tracks_of(const std::vector<double>& times, const std::vector<Vec3>& positions,
@@ -66,13 +54,14 @@ std::vector<Track> tracks_of(const std::vector<double>& times, const std::vector
 }
 
 /// The approaches, and how many states were asked for.
-py::tuple approaches(const py::object& times, const py::object& positions, const py::object& starts, double distance, double tolerance,
-                     bool straight, bool plane) {
+py::tuple approaches(const py::object& times, const py::object& positions, const py::object& starts,
+                     double distance, double tolerance, bool straight, bool plane) {
   const char* const call = "tracks";
   const std::vector<Vec3> places = vectors_of(positions, {call, "positions"}, plane);
   const std::vector<double> moments = each_of(times, {call, "t"}, places.size());
   const auto count = static_cast<std::size_t>(py::len(starts));
-  const std::vector<Track> tracks = tracks_of(moments, places, each_whole_of(starts, {call, "starts"}, count));
+  const std::vector<Track> tracks =
+      tracks_of(moments, places, each_whole_of(starts, {call, "starts"}, count));
   std::vector<Approach> found;
   std::uint64_t probes = 0;
   if (!tracks.empty()) {
@@ -90,7 +79,7 @@ py::tuple approaches(const py::object& times, const py::object& positions, const
     found = approaches_in(scene, events);
     find_closest(*scene.motion, found);
   }
-  NewArray table({found.size()}, approach_type(), sizeof(ApproachRecord));
+  NewArray table({found.size()}, row_type(approach_fields, sizeof(ApproachRecord)), sizeof(ApproachRecord));
   for (std::size_t k = 0; k < found.size(); ++k) {
     const Approach& one = found[k];
     table.data<ApproachRecord>()[k] = {one.first,

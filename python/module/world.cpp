@@ -18,7 +18,8 @@ Axes axes_of(const py::object& given) {
     return {all, all, all};
   }
   if (!py::isinstance<py::str>(given))
-    throw py::type_error("World: periodic must be a bool or a text such as \"xy\", but is " + py::repr(given).cast<std::string>());
+    throw py::type_error("World: periodic must be a bool or a text such as \"xy\", but is " +
+                         py::repr(given).cast<std::string>());
   const auto text = given.cast<std::string>();
   if (text.find_first_not_of("xyz") != std::string::npos)
     refuse(argument, "must be a text of the letters x, y and z", "is \"" + text + "\"");
@@ -36,9 +37,10 @@ ContactMode contact_mode_of(const std::string& name) {
   refuse({"World", "contacts"}, "must be \"begin_and_end\" or \"impacts\"", "is \"" + name + "\"");
 }
 
-std::shared_ptr<WorldHandle> create(const py::object& box, const py::object& periodic, int dimensions, double contact_tolerance,
-                                    const py::object& separation_distance, const std::string& contacts,
-                                    bool allow_overlap, double zeno_interval, double start_time) {
+std::shared_ptr<WorldHandle> create_world(const py::object& box, const py::object& periodic, int dimensions,
+                                          double contact_tolerance, const py::object& separation_distance,
+                                          const std::string& contacts, bool allow_overlap,
+                                          double zeno_interval, double start_time) {
   WorldDefinition definition;
   definition.box = box_of(box, {"World", "box"});
   definition.periodic = axes_of(periodic);
@@ -59,8 +61,8 @@ std::shared_ptr<WorldHandle> create(const py::object& box, const py::object& per
 
 std::shared_ptr<WorldHandle> clone(WorldHandle& handle) {
   const auto turn = handle.take("clone");
-  auto copy = std::make_shared<WorldHandle>(
-      without_gil(handle, [&] { return handle.world.clone(); }).value());
+  auto copy =
+      std::make_shared<WorldHandle>(without_gil(handle, [&] { return handle.world.clone(); }).value());
   copy->fixed = handle.fixed;
   copy->filter_trouble = handle.filter_trouble;
   copy->told = handle.told;
@@ -75,10 +77,12 @@ py::bytes save(WorldHandle& handle) {
 py::tuple pickled(const py::object& self) {
   auto& handle = self.cast<WorldHandle&>();
   if (handle.filter_trouble)
-    throw py::type_error("pickle: a world with a pair filter cannot be pickled, as the filter is code; use save() and "
-                         "World.restore(snapshot, pair_filter)");
+    throw py::type_error(
+        "pickle: a world with a pair filter cannot be pickled, as the filter is code; use save() and "
+        "World.restore(snapshot, pair_filter)");
   if (!handle.told.empty())
-    throw_state_error("run_in_progress", "world", "pickle: world must have told its events, but a run was interrupted; run it on first");
+    throw_state_error("run_in_progress", "world",
+                      "pickle: world must have told its events, but a run was interrupted; run it on first");
   return py::make_tuple(package_attribute("kinesphere.recordings", "restored"), py::make_tuple(save(handle)));
 }
 
@@ -90,8 +94,9 @@ py::dict arguments_of(const WorldDefinition& definition) {
   arguments["periodic"] = text_of(definition.periodic);
   arguments["dimensions"] = definition.dimensions;
   arguments["contact_tolerance"] = definition.contact_tolerance;
-  arguments["separation_distance"] =
-      std::isnan(definition.separation_distance) ? py::none() : py::object(py::float_(definition.separation_distance));
+  arguments["separation_distance"] = std::isnan(definition.separation_distance)
+                                         ? py::none()
+                                         : py::object(py::float_(definition.separation_distance));
   arguments["contacts"] = definition.contacts == ContactMode::impacts ? "impacts" : "begin_and_end";
   arguments["allow_overlap"] = definition.allow_overlap;
   arguments["zeno_interval"] = definition.zeno_interval;
@@ -123,7 +128,8 @@ std::shared_ptr<WorldHandle> restored(const py::object& snapshot, const py::obje
   const std::vector<std::byte> bytes = bytes_from(snapshot, {"restore", "snapshot"});
   std::shared_ptr<FilterTrouble> trouble;
   if (!pair_filter.is_none()) trouble = std::make_shared<FilterTrouble>();
-  auto handle = std::make_shared<WorldHandle>(World::restore(bytes, pair_filter_of(pair_filter, trouble)).value());
+  auto handle =
+      std::make_shared<WorldHandle>(World::restore(bytes, pair_filter_of(pair_filter, trouble)).value());
   handle->filter_trouble = trouble;
   end_call(*handle);
   for (const BodyId body : handle->world.bodies())
@@ -132,7 +138,8 @@ std::shared_ptr<WorldHandle> restored(const py::object& snapshot, const py::obje
 }
 
 void bind_world(py::module_& module) {
-  WorldClass world(module, "World", R"(Moving spheres with unknown trajectories, and every contact among them, in time order.
+  WorldClass world(module, "World",
+                   R"(Moving spheres with unknown trajectories, and every contact among them, in time order.
 
 Somebody else moves the bodies. The world asks a probe where they are, only when that can matter, and stops at each
 event. As long as bodies keep within the limits that they have promised, no two of them overlap by more than the contact
@@ -148,7 +155,7 @@ has been removed, so arrays can be indexed by them. Units are yours: lengths, ti
 Every call checks what it is handed, and one that raises has changed nothing unless it says so. One thread at a time may
 use a world; another one is refused with StateError.)");
   world
-      .def(py::init(&create), py::kw_only(), py::arg("box") = py::none(), py::arg("periodic") = false,
+      .def(py::init(&create_world), py::kw_only(), py::arg("box") = py::none(), py::arg("periodic") = false,
            py::arg("dimensions") = 3, py::arg("contact_tolerance") = 1e-6,
            py::arg("separation_distance") = py::none(), py::arg("contacts") = "begin_and_end",
            py::arg("allow_overlap") = true, py::arg("zeno_interval") = 0.0, py::arg("start_time") = 0.0,
@@ -172,13 +179,15 @@ Raises ValueError (InvalidValue) that names the argument.)")
              const auto turn = handle.take("contains");
              return handle.world.contains(id_of(body, {"contains", "body"}));
            })
-      .def("__repr__", reading("repr", [](const World& now) {
-             return py::str("<World of {} bodies at {}>").format(now.size(), now.time());
-           }))
+      .def("__repr__", reading("repr",
+                               [](const World& now) {
+                                 return py::str("<World of {} bodies at {}>").format(now.size(), now.time());
+                               }))
       .def("clone", clone, "A world of its own that goes on as this one does, to the bit. Cost: O(n).")
       .def("__copy__", clone)
       .def("__deepcopy__", [](WorldHandle& handle, const py::object&) { return clone(handle); })
-      .def("save", save, R"(The whole world as bytes: World.restore() makes one that goes on as this one does, to the bit.
+      .def("save", save,
+           R"(The whole world as bytes: World.restore() makes one that goes on as this one does, to the bit.
 
 What moves the bodies, and a pair filter, are the caller's to save.)")
       .def_static("restore", restored, py::arg("snapshot"), py::arg("pair_filter") = py::none(),

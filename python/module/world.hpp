@@ -18,8 +18,8 @@ namespace kinesphere::python {
 
 namespace py = pybind11;
 
-/// What a function of Python's raised as the pair filter, which must not throw: kept until the call that asked
-/// it is over.
+/// What a function of Python's raised as the pair filter, which must not throw: kept until the call that
+/// asked it is over.
 struct FilterTrouble {
   std::exception_ptr thrown;
 };

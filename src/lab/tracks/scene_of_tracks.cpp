@@ -8,7 +8,8 @@
 
 namespace kinesphere {
 
-Result<Scene> scene_of_tracks(const std::vector<Track>& tracks, double distance, Interpolation interpolation) {
+Result<Scene> scene_of_tracks(const std::vector<Track>& tracks, double distance,
+                              Interpolation interpolation) {
   Scene scene;
   scene.name = "tracks";
   if (interpolation == Interpolation::linear) {

@@ -15,8 +15,9 @@ enum class Interpolation {
   linear,  ///< straight on: never beyond the samples, with a sudden turn at each
 };
 
-/// Each track is a body of half the distance as radius, which is there from its first sample to its last. The tolerance of
-/// the world, and whether it is a plane, are left to the caller. There must be at least one track. Errors: as RecordedTracks::create().
+/// Each track is a body of half the distance as radius, which is there from its first sample to its last. The
+/// tolerance of the world, and whether it is a plane, are left to the caller. There must be at least one
+/// track. Errors: as RecordedTracks::create().
 Result<Scene> scene_of_tracks(const std::vector<Track>& tracks, double distance, Interpolation interpolation);
 
 }  // namespace kinesphere
