@@ -11,7 +11,7 @@ source=$(realpath "$(dirname "${BASH_SOURCE[0]}")/..")
 work=$build/python
 log=$work/log
 # ccache, if it is used, knows the folder in which things are compiled; pip's own are different each time.
-rm -rf "$work/unpacked" "$work/wheel" "$work/venv" && mkdir -p "$work/wheel"
+rm -rf "$work/unpacked" "$work/wheel" "$work/venv" && mkdir -p "$work/wheel" "$work/pictures"
 quietly() { "$@" >"$log" 2>&1 || { cat "$log"; exit 1; }; }
 
 # The source distribution has all that the package is built from.
@@ -31,9 +31,25 @@ cd "$work"
 "$python" -m mypy --config-file "$source/mypy.ini" --cache-dir "$work/mypy" --python-executable "$clean" \
   "$source/kinesphere" "$source/test" "$source/examples" >"$work/mypy.log" 2>&1 &
 mypy=$!
-awk '/^```python/ {on = 1; next} /^```/ {exit} on' "$source/README.md" >"$work/ten_lines.py"
+# The first block of Python in a page: the README of the project shows the same.
+python_of() { awk '/^```python/ {on = 1; next} on && /^```/ {exit} on' "$1"; }
+python_of "$source/README.md" >"$work/ten_lines.py"
+diff "$work/ten_lines.py" <(python_of "$source/../README.md")
 "$clean" "$work/ten_lines.py"
 export KINESPHERE_PROGRAM=$build/programs/kinesphere
 "$clean" -B -m pytest -q -p no:cacheprovider "$source/test"
+
+cd "$work/pictures"
+for example in gas drones certainty side_by_side; do
+  echo "example $example:"
+  "$clean" "$source/examples/$example.py"
+done
+recording=${KINESPHERE_DATA:-$source/../../shared/data}/ucy_students03/ucy_students03_obsmat.txt.gz
+if [[ -e $recording ]]; then
+  echo "example walkers:"
+  "$clean" "$source/examples/walkers.py" "$recording"
+else
+  echo "example walkers: skipped, as there is no $recording"
+fi
 wait $mypy || { cat "$work/mypy.log"; exit 1; }
 cat "$work/mypy.log"

@@ -15,6 +15,7 @@ from conftest import Doubles, Ids
 import kinesphere as ks
 
 nan = float("nan")
+nobody: Any = None
 
 
 class Things:
@@ -77,8 +78,8 @@ ways: list[Way] = [
     (lambda o: o.w.nearest((nan, 0, 0), 1), "not_finite", "point", None),
     (lambda o: o.w.advance(nan, o.motion), "not_finite", "until", None),
     (lambda o: o.w.advance(-1, o.motion), "time_backwards", "until", None),
-    (lambda o: o.w.advance(1, None), "null_probe", "probe", None),
-    (lambda o: o.w.run(1, None), "null_probe", "probe", None),
+    (lambda o: o.w.advance(1, nobody), "null_probe", "probe", None),
+    (lambda o: o.w.run(1, nobody), "null_probe", "probe", None),
     (lambda o: o.w.advance(20, o.probe_with_nan), "not_finite", "position", "any"),
     (lambda o: o.w.advance(10, o.probe_that_saves), "probe_in_progress", "", None),
     (lambda o: ks.World.restore(o.half), "bad_snapshot", "snapshot", None),
@@ -156,9 +157,13 @@ def test_wrong_answers_of_a_probe_are_named_and_dropped(number: int) -> None:
     answer, kind, message = answers[number]
     things = Things()
     things.w.remove(things.post)
+
+    def probe(ids: Ids, t: float) -> Any:
+        return answer(ids)
+
     for _ in range(2):
         with pytest.raises(kind, match=message):
-            things.w.run(20.0, lambda ids, t: answer(ids))
+            things.w.run(20.0, probe)
     expected = ks.World(**things.w.definition)
     expected.add(**things.motion.definitions(0.0, [0, 1]))
     assert str(ks.EventHash().add(things.w.run(20.0, things.motion))) == str(ks.EventHash().add(expected.run(20.0, things.motion)))
@@ -213,7 +218,7 @@ def test_wrong_kinds_of_things_are_named() -> None:
     wrong: list[tuple[Callable[[], Any], type[Exception], str]] = [
         (lambda: things.w.remove("all"), TypeError, "remove: bodies must be"),  # type: ignore[arg-type]
         (lambda: things.w.remove(1.0), TypeError, "remove: bodies must be"),  # type: ignore[arg-type]
-        (lambda: things.w.remove(np.array([0.0])), TypeError, "whole numbers"),  # type: ignore[arg-type]
+        (lambda: things.w.remove(np.array([0.0])), TypeError, "whole numbers"),
         (lambda: things.w.remove(np.zeros((2, 2), dtype=int)), ks.InvalidValue, r"shape \(n,\)"),
         (lambda: things.w.body(-1), ks.BodyError, "body"),
         (lambda: things.w.body(2**70), ks.BodyError, "body"),
