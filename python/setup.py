@@ -11,7 +11,9 @@ from skbuild import setup
 
 here = Path(__file__).resolve().parent
 library = here / "library" if (here / "library").exists() else here.parent
-version = re.search(r"project\(kinesphere VERSION ([\d.]+)", (library / "CMakeLists.txt").read_text()).group(1)
+version = re.search(r"project\(kinesphere VERSION ([\d.]+)", (library / "CMakeLists.txt").read_text()).group(
+    1
+)
 
 
 class SourceDistribution(sdist):

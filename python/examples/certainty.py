@@ -18,7 +18,9 @@ for packing in packings:
     events = world.run(scene.end_time, motion, scene)
     asked.append(world.counters.probes / (len(scene) * scene.end_time))
     contacts.append(len(events) / (len(scene) * scene.end_time))
-    print(f"packing {packing:6}: {contacts[-1]:7.3f} contacts and {asked[-1]:6.2f} probes per body and second")
+    print(
+        f"packing {packing:6}: {contacts[-1]:7.3f} contacts and {asked[-1]:6.2f} probes per body and second"
+    )
 
 plt.loglog(packings, asked, "o-", label="probes")
 plt.loglog(packings, contacts, "s-", label="contacts, those with walls too")

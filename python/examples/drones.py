@@ -1,6 +1,7 @@
-"""Drones and alarms: 60 drones fly from station to station; whoever comes within 5 m of another is told so, and when.
+"""Drones and alarms: whoever comes within 5 m of another is told so, and when.
 
-The world knows of each drone that it accelerates with at most 4 m/s^2, and asks for reports only when that could matter.
+The world knows of each drone that it accelerates with at most 4 m/s^2, and asks for reports only when that
+could matter.
 Usage: drones.py [picture.png]
 """
 
@@ -17,7 +18,8 @@ import matplotlib.pyplot as plt
 rng = np.random.default_rng(4)
 count, limit, flight = 60, 4.0, 120.0
 centres, sizes = rng.uniform(0, 400, (count, 3)), rng.uniform(5, 40, (count, 3))
-rates = np.sqrt(limit / np.linalg.norm(sizes, axis=1))[:, None]  # so that the acceleration stays within the limit
+# Each swings around its centre, as fast as the limit of its acceleration lets it.
+rates = np.sqrt(limit / np.linalg.norm(sizes, axis=1))[:, None]
 phases = rng.uniform(0, 2 * np.pi, (count, 3))
 
 
@@ -37,7 +39,9 @@ print(f"{world.counters.probes / count / flight:.2f} reports per drone and secon
 quiet = [world.earliest_approach(drone, 5.0).time - world.time for drone in drones]
 print(f"certain now, whatever they do: no alarm of the median drone for {np.median(quiet):.2f} s")
 
-plt.eventplot([alarms["time"][alarms["distance"] == d] for d in (20.0, 5.0)], colors=["tab:orange", "tab:red"])
+plt.eventplot(
+    [alarms["time"][alarms["distance"] == d] for d in (20.0, 5.0)], colors=["tab:orange", "tab:red"]
+)
 plt.yticks([0, 1], ["20 m", "5 m"])
 plt.xlabel("time (s)")
 plt.savefig(sys.argv[1] if len(sys.argv) > 1 else "drones.png")

@@ -1,4 +1,4 @@
-"""A gas of hard spheres, and its pressure: measured from its collisions, against the Carnahan-Starling equation of state.
+"""A gas of hard spheres: its pressure, measured from its collisions, against the Carnahan-Starling equation.
 
 Each contact is at its exact time, so the virial is a plain sum over events. Usage: gas.py [picture.png]
 """
@@ -20,7 +20,7 @@ for packing in packings:
     world.add_motion(motion, scene.radii)
     world.run(1.0, motion, scene)  # until the start is forgotten
     events = world.run(scene.end_time, motion, scene)
-    # The velocity that each contact gives the first, along the vector between the two centres; masses are radii**3.
+    # The velocity that each contact gives the first, along the vector between the two centres.
     first, second, masses = events["first"], events["second"], scene.masses
     kick = 2 * masses[second] / (masses[first] + masses[second]) * events["approach_speed"]
     distance = np.linalg.norm(events["second_position"] - events["first_position"], axis=1)

@@ -1,6 +1,7 @@
-"""What people use now, side by side: a KD-tree per frame, a NumPy loop over all pairs, and Kinesphere. Time, and what each misses.
+"""A KD-tree per frame, a NumPy loop over all pairs, and Kinesphere, side by side: time, and what each misses.
 
-Small fast spheres fly straight through each other; the truth is computed for every pair from the exact roots.
+Small fast spheres fly straight through each other; the truth is computed for every pair from the exact
+roots.
 Usage: side_by_side.py [bodies]
 """
 
@@ -54,7 +55,9 @@ def kinesphere_with_numpy_probe() -> Pairs:
     world = ks.World()
     world.add(positions, velocities, radius)
     begins = world.run(duration, lambda ids, t: (positions[ids] + velocities[ids] * t, velocities[ids]))
-    return set(zip(*(begins.of_kind(ks.EventKind.contact_begin)[end].tolist() for end in ("first", "second"))))
+    return set(
+        zip(*(begins.of_kind(ks.EventKind.contact_begin)[end].tolist() for end in ("first", "second")))
+    )
 
 
 def truth() -> Pairs:

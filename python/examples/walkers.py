@@ -1,6 +1,7 @@
 """Closest approaches in a recording of pedestrians, and what looking at its frames alone would have missed.
 
-Usage: walkers.py RECORDING [picture.png], where RECORDING is an obsmat file of UCY: rows of frame, id, x, z, y, velocities.
+Usage: walkers.py RECORDING [picture.png], where RECORDING is an obsmat file of UCY: rows of frame, id, x,
+z, y, velocities.
 """
 
 import sys
@@ -25,13 +26,18 @@ for now in np.unique(frame):
     for a, b in cKDTree(here).query_pairs(distance):
         seen.add((min(who[a], who[b]), max(who[a], who[b])))
 pairs = set(zip(found["first"].tolist(), found["second"].tolist()))
-print(f"{len(found)} approaches of {len(pairs)} pairs below {distance} m; frame by frame {len(seen)} of these pairs are seen")
-print(f"the closest: {found['closest_distance'].min():.3f} m; {found.probes} looks for certainty, {len(frame)} samples")
+print(
+    f"{len(found)} approaches of {len(pairs)} pairs below {distance} m; {len(seen)} pairs are seen in frames"
+)
+print(f"the closest: {found['closest_distance'].min():.3f} m, on curves through {len(frame)} samples")
 assert seen <= pairs
 
 plt.plot(x, y, ",", color="lightgrey")
 missed = np.array([pair not in seen for pair in zip(found["first"].tolist(), found["second"].tolist())])
-for which, colour, name in ((~missed, "tab:blue", "seen in a frame too"), (missed, "tab:red", "between frames only")):
+for which, colour, name in (
+    (~missed, "tab:blue", "seen in a frame too"),
+    (missed, "tab:red", "between frames only"),
+):
     plt.plot(*found["first_position"][which, :2].T, ".", color=colour, label=name)
 plt.axis("equal")
 plt.legend()

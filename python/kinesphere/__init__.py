@@ -9,8 +9,9 @@
     world.add_motion(motion, radii=1.0)
     events = world.run(10.0, motion, Bouncing())
 
-Each body promises a bound on its acceleration, and nothing else is known of it. The world asks for states only when that
-can matter, and tells each contact at its exact time. There is no time step, and nothing is missed between two of them.
+Each body promises a bound on its acceleration, and nothing else is known of it. The world asks for states
+only when that can matter, and tells each contact at its exact time. There is no time step, and nothing is
+missed between two of them.
 """
 
 from ._kinesphere import (
@@ -31,6 +32,7 @@ from ._kinesphere import (
     Frames,
     HalfSpace,
     Motion,
+    Mover,
     RandomForces,
     RecordedTracks,
     Replay,
@@ -83,6 +85,7 @@ __all__ = [
     "InvalidValue",
     "KinesphereError",
     "Motion",
+    "Mover",
     "RandomForces",
     "RecordedRun",
     "RecordedTracks",

@@ -13,8 +13,10 @@ from .errors import InvalidValue
 if TYPE_CHECKING:
     import pandas as pd
 
-_gap_factor = 2.5  # as `kinesphere tracks`: of the median time between the samples of an id
-_tolerances_in_extent = 2.0**40  # coordinates reach to 2**41 tolerances; half of that is left to curves that swing out
+# As `kinesphere tracks`: of the median time between the samples of an id.
+_gap_factor = 2.5
+# Coordinates reach to 2**41 tolerances; half of that is left to curves that swing out.
+_tolerances_in_extent = 2.0**40
 
 
 class Approaches:
@@ -22,8 +24,8 @@ class Approaches:
 
     first, second: the ids as they were given.
     begin, end: times between which the two were closer than the distance.
-    closest_time, closest_distance, first_position, second_position, relative_speed: where they were nearest, on their
-    curves; the distance is that of the two points.
+    closest_time, closest_distance, first_position, second_position, relative_speed: where they were
+    nearest, on their curves; the distance is that of the two points.
     begins_with_track, ends_with_track: they were so close when the track of one of them began, or ended.
     """
 
@@ -68,17 +70,18 @@ def tracks(
     max_gap: Optional[float] = None,
     tolerance: Optional[float] = None,
 ) -> Approaches:
-    """Finds every time that two bodies of a recording were closer to each other than `distance` (length, > 0).
+    """Finds every time that two bodies of a recording were closer to each other than `distance` (length).
 
-    t, x, y, z: shape (n,), a sample in each row, in any order; z is None for motion in a plane. id: shape (n,), whole
-    numbers or texts, says whose sample it is. Times and coordinates may be large (Unix times, UTM): they are calculated
-    from origins near them.
+    t, x, y, z: shape (n,), a sample in each row, in any order; z is None for motion in a plane. id: shape
+    (n,), whole numbers or texts, says whose sample it is. Times and coordinates may be large (Unix times,
+    UTM): they are calculated from origins near them.
 
     interpolate: between two samples a body goes along a natural cubic spline, or straight on ("linear").
-    max_gap: a longer time between two samples of an id ends its track, and another begins behind; by default 2.5 times
-    its median interval, or that of all where it has fewer than 4 samples. A sample between two gaps is left out.
-    tolerance (length): how exactly the distance is meant; by default a millionth of it, or 2**-40 of the extent if that is
-    more.
+    max_gap: a longer time between two samples of an id ends its track, and another begins behind; by
+    default 2.5 times its median interval, or that of all where it has fewer than 4 samples. A sample
+    between two gaps is left out.
+    tolerance (length): how exactly the distance is meant; by default a millionth of it, or 2**-40 of the
+    extent if that is more.
 
     Raises InvalidValue for NaN, two samples of an id at one time, and arrays of different lengths.
     """
@@ -101,16 +104,20 @@ def tracks(
     same = np.flatnonzero((np.diff(who) == 0) & (np.diff(times) == 0))
     if len(same) > 0:
         when = times[same[0]] + time_origin
-        raise _refused("t", f"must have one sample of each id at a time, but id {unique[who[same[0]]]} has two at {when}")
+        raise _refused(
+            "t", f"must have one sample of each id at a time, but id {unique[who[same[0]]]} has two at {when}"
+        )
 
     starts = _starts(who, times, max_gap)
-    kept = np.concatenate([np.arange(a, b) for a, b in starts]) if len(starts) > 0 else np.zeros(0, dtype=np.int64)
+    kept = np.concatenate([np.zeros(0, dtype=np.int64), *(np.arange(a, b) for a, b in starts)])
     lengths = starts[:, 1] - starts[:, 0]
     extent = float(np.max(np.abs(positions), initial=0.0))
     finest = extent / _tolerances_in_extent
     exactness = max(1e-6 * distance, finest) if tolerance is None else float(tolerance)
     if not finest <= exactness < distance:
-        raise _refused("tolerance", f"must be from {finest:.3g} to less than the distance {distance}, but is {exactness}")
+        raise _refused(
+            "tolerance", f"must be from {finest:.3g} to less than the distance {distance}, but is {exactness}"
+        )
 
     found, probes = _approaches(
         times[kept], positions[kept], np.concatenate([[0], np.cumsum(lengths)]), distance, exactness,
@@ -146,17 +153,22 @@ def _origin(column: npt.NDArray[np.float64]) -> float:
 
 
 def _lower_median(intervals: npt.NDArray[np.float64]) -> float:
-    return float(np.partition(intervals, (len(intervals) - 1) // 2)[(len(intervals) - 1) // 2]) if len(intervals) > 0 else 0.0
+    if len(intervals) == 0:
+        return 0.0
+    middle = (len(intervals) - 1) // 2
+    return float(np.partition(intervals, middle)[middle])
 
 
-def _starts(who: npt.NDArray[Any], times: npt.NDArray[np.float64], max_gap: Optional[float]) -> npt.NDArray[np.int64]:
+def _starts(
+    who: npt.NDArray[Any], times: npt.NDArray[np.float64], max_gap: Optional[float]
+) -> npt.NDArray[np.int64]:
     """Begin and end of the samples of each track, which has two at least."""
     intervals, goes_on = np.diff(times), np.diff(who) == 0
     if max_gap is not None:
         limits = np.full(len(intervals), float(max_gap))
     else:
         of_all = _lower_median(intervals[goes_on])
-        edges = np.flatnonzero(np.concatenate([[True], ~goes_on, [True]])) if len(times) > 0 else np.zeros(0, dtype=int)
+        edges = np.flatnonzero(np.concatenate([[True], ~goes_on, [True]]))
         limits = np.zeros(len(intervals))
         for a, b in zip(edges[:-1], edges[1:]):
             limits[a : b - 1] = _gap_factor * (_lower_median(intervals[a : b - 1]) if b - a >= 4 else of_all)

@@ -15,7 +15,9 @@ class KinesphereError(Exception):
     body: the id of the body that it concerns, or None.
     """
 
-    def __init__(self, message: str, code: str = "", argument: str = "", body: Optional[BodyId] = None) -> None:
+    def __init__(
+        self, message: str, code: str = "", argument: str = "", body: Optional[BodyId] = None
+    ) -> None:
         super().__init__(message, code, argument, body)
         self.code = code
         self.argument = argument

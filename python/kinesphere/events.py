@@ -14,14 +14,15 @@ from .kinds import EventKind, Senses, Wall
 if TYPE_CHECKING:
     import pandas as pd
 
+
 class Events(Sequence[Event]):
     """Events in the order in which they were told: a table, of which Event has the columns.
 
-    array is a structured array of shape (n,) whose type is event_dtype: vectors have shape (3,); kind, wall and senses are
-    numbers of EventKind, Wall and Senses; second is no_body where there is none.
+    array is a structured array of shape (n,) whose type is event_dtype: vectors have shape (3,); kind, wall
+    and senses are numbers of EventKind, Wall and Senses; second is no_body where there is none.
 
-    Events of one kind: events.of_kind(EventKind.contact_begin); a column: events["time"], shape (n,), or (n, 3) for
-    vectors; one Event: events[0]; some Events: events[events["gap"] < 0], events[:10].
+    Events of one kind: events.of_kind(EventKind.contact_begin); a column: events["time"], shape (n,), or
+    (n, 3) for vectors; one Event: events[0]; some Events: events[events["gap"] < 0], events[:10].
     """
 
     def __init__(self, array: npt.NDArray[np.void]) -> None:
@@ -31,11 +32,17 @@ class Events(Sequence[Event]):
         return len(self.array)
 
     @overload
-    def __getitem__(self, key: int) -> Event: ...
+    def __getitem__(self, key: int) -> Event:
+        ...
+
     @overload
-    def __getitem__(self, key: str) -> npt.NDArray[Any]: ...
+    def __getitem__(self, key: str) -> npt.NDArray[Any]:
+        ...
+
     @overload
-    def __getitem__(self, key: Union[slice, npt.NDArray[Any], list[int]]) -> Events: ...
+    def __getitem__(self, key: Union[slice, npt.NDArray[Any], list[int]]) -> Events:
+        ...
+
     def __getitem__(self, key: Any) -> Union[Event, Events, npt.NDArray[Any]]:
         if isinstance(key, str):
             column: npt.NDArray[Any] = self.array[key]
@@ -49,7 +56,9 @@ class Events(Sequence[Event]):
             yield self[k]
 
     def __repr__(self) -> str:
-        kinds = ", ".join(f"{count} {EventKind(k)}" for k, count in enumerate(np.bincount(self["kind"])) if count > 0)
+        kinds = ", ".join(
+            f"{count} {EventKind(k)}" for k, count in enumerate(np.bincount(self["kind"])) if count > 0
+        )
         return f"<Events: {kinds}>" if kinds else "<Events: none>"
 
     def of_kind(self, *kinds: EventKind) -> Events:
@@ -57,10 +66,10 @@ class Events(Sequence[Event]):
         return self[np.isin(self["kind"], [int(kind) for kind in kinds])]
 
     def to_pandas(self) -> pd.DataFrame:
-        """A data frame with a row for each event: names instead of numbers, and a column for each coordinate.
+        """A data frame with a row for each event: names for numbers, and a column for each coordinate.
 
-        kind, wall and senses are categories; second and wall are missing where there is none; "first_position" becomes
-        first_position_x, first_position_y and first_position_z.
+        kind, wall and senses are categories; second and wall are missing where there is none;
+        "first_position" becomes first_position_x, first_position_y and first_position_z.
         """
         import pandas as pd
 

@@ -11,9 +11,10 @@ import numpy.typing as npt
 class BodyId(int):
     """Names a body for as long as it lives.
 
-    The number is index + 2**32 * generation. When a body is removed its index may be used again, with another
-    generation, so an old id is recognised as stale and never mistaken for a newer body. It also knows the world that
-    gave it out: another one refuses it (foreign_body). Arrays of ids, and whole numbers, are taken by every world.
+    The number is index + 2**32 * generation. When a body is removed its index may be used again, with
+    another generation, so an old id is recognised as stale and never mistaken for a newer body. It also
+    knows the world that gave it out: another one refuses it (foreign_body). Arrays of ids, and whole numbers,
+    are taken by every world.
     """
 
     world: int

@@ -1,4 +1,4 @@
-"""What events are about. Members are whole numbers, as they stand in tables of events; their texts are their names."""
+"""What events are about. Members are whole numbers, as in tables of events; their texts are their names."""
 
 from enum import IntEnum
 

@@ -205,9 +205,9 @@ void bind_answers(py::module_& module, WorldClass& world) {
            py::arg("distance") = py::none(), no_probe,
            R"(Until when it is certain that nothing begins to touch: anything; a body; two bodies.
 
-With two bodies and a distance (length): until when their surfaces stay further apart than that. With a probe the answer
-is as late as fresh reports allow; without one it costs no report. It holds until somebody changes a velocity or adds
-something. Returns a SafeTime, or with a distance a SafeSeparation. Cost: O(n).)")
+With two bodies and a distance (length): until when their surfaces stay further apart than that. With a
+probe the answer is as late as fresh reports allow; without one it costs no report. It holds until somebody
+changes a velocity or adds something. Returns a SafeTime, or with a distance a SafeSeparation. Cost: O(n).)")
       .def("earliest_contact", earliest_contact, py::arg("body"), no_probe,
            "As safe_until(body), naming the partner or wall that may come first. Cost: O(n).")
       .def("earliest_approach", earliest_approach, py::arg("body"), py::arg("distance"), no_probe,

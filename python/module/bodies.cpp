@@ -296,39 +296,41 @@ void bind_bodies(WorldClass& world) {
            py::arg("user_data") = 0,
            R"(Adds bodies at the current time, all of them or, where something is wrong, none.
 
-positions (length): shape (n, 3), or (n, 2) in a world of two dimensions; with shape (3,) or (2,) a single body.
+positions (length): shape (n, 3), or (n, 2) in a world of two dimensions; shape (3,) or (2,) for one body.
 velocities (length / time): the same shape; zero without.
-What follows is one number for all, or one of each body:
-radii (length, >= 0); acceleration_limits (length / time^2, >= 0): the largest deviation from the planned acceleration;
-planned_accelerations (length / time^2): shape (n, 3), or one vector for all; position_errors (length) and
-velocity_errors (length / time): how far reports may be off; categories, masks (64 bits each) and group (32 bits): which
-others they may touch; solid: False for what touches nobody and only senses and is sensed; sensor_classes (0 to 254);
+
+What follows is one number for all, or one of each body, shape (n,):
+radii (length, >= 0).
+acceleration_limits (length / time^2, >= 0): the largest deviation from the planned acceleration.
+planned_accelerations (length / time^2): shape (n, 3), or one vector for all.
+position_errors (length) and velocity_errors (length / time): how far reports may be off.
+categories, masks (64 bits each), and one group (32 bits): which others they may touch; see set_filter().
+solid: False for what touches nobody and only senses and is sensed.
+sensor_classes (0 to 254).
 user_data (64 bits): kept for you.
 
-Returns the ids: an array of int64, shape (n,), or a BodyId for a single body.
-Raises InvalidValue that names the argument and the body. Cost: O(1) each, and a search when the world goes on.)")
+Returns the ids: an array of int64, shape (n,), or a BodyId for a single body. Raises InvalidValue that
+names the argument and the body. Cost: O(1) each, and a search when the world goes on.)")
       .def("add_motion", add_motion, py::arg("motion"), py::arg("radii") = 1.0,
-           R"(Adds all bodies of a motion to a world that never had any, so that their numbers are their ids.
+           R"(Adds all bodies of a motion to a world that never had any: their numbers are their ids.
 
-radii (length) is one number, or one of each body. Returns the ids, 0 to n - 1. States and promises are the motion's at
-world.time.)")
+radii (length) is one number, or one of each body. Returns the ids, 0 to n - 1. States and promises are the
+motion's at world.time.)")
       .def("add_fixed", add_fixed, py::arg("shape"), py::kw_only(), py::arg("category") = 1,
            py::arg("mask") = all_categories, py::arg("group") = 0, py::arg("solid") = true,
            py::arg("sensor_class") = 0, py::arg("user_data") = 0,
            R"(Adds a body that never moves: a Ball, Box, HalfSpace or Triangle. Returns its BodyId.
 
 It may reach out of the box of the world; it is never probed. Where space repeats it has to be a Ball.)")
-      .def(
-          "add_zone", add_zone, py::arg("shape"), py::arg("user_data") = 0,
-          R"(Adds a zone: it touches nobody and tells who comes in and goes, by sensor_enter and sensor_leave at distance 0.
+      .def("add_zone", add_zone, py::arg("shape"), py::arg("user_data") = 0,
+           R"(Adds a zone: it touches nobody and tells who comes in and goes.
 
-Zones are of the sensor class zone_class.)")
-      .def(
-          "add_mesh", add_mesh, py::arg("vertices"), py::arg("corners"), py::kw_only(),
-          py::arg("category") = 1, py::arg("mask") = all_categories, py::arg("group") = 0,
-          R"(Adds a fixed triangle for each row of corners, which are numbers of vertices: shapes (n, 3) and (m, 3).
+Its events are sensor_enter and sensor_leave at distance 0. Zones are of the sensor class zone_class.)")
+      .def("add_mesh", add_mesh, py::arg("vertices"), py::arg("corners"), py::kw_only(),
+           py::arg("category") = 1, py::arg("mask") = all_categories, py::arg("group") = 0,
+           R"(Adds a fixed triangle for each row of corners, which are numbers of vertices.
 
-Returns their ids, shape (m,).)")
+Shapes: vertices (n, 3), corners (m, 3). Returns their ids, shape (m,).)")
       .def(
           "reserve",
           [](WorldHandle& handle, std::size_t bodies) {
@@ -343,8 +345,9 @@ Their contacts end: the end events come next. Ids of removed bodies are stale fo
       .def("set_velocity", set_velocity, py::arg("bodies"), py::arg("velocities"),
            R"(Tells the world that these velocities (length / time) hold from the current time on.
 
-One id and shape (3,), or n ids and shape (n, 3). The probe has to answer accordingly. On an error the bodies before the
-one that it names have been changed; this holds for all calls below that take several bodies.)")
+One id and shape (3,), or n ids and shape (n, 3). The probe has to answer accordingly. On an error the
+bodies before the one that it names have been changed; this holds for all calls below that take several
+bodies.)")
       .def(
           "teleport",
           [](WorldHandle& handle, const py::object& bodies, const py::object& positions,
@@ -374,15 +377,15 @@ one that it names have been changed; this holds for all calls below that take se
            "These bodies stay exactly where they are until they are woken, and cost nothing meanwhile.")
       .def("wake", changing("wake", [](World& of, BodyId body) { return of.wake(body); }), py::arg("bodies"),
            "Wakes these bodies, and all resting ones in touch with them.")
-      .def(
-          "set_filter", set_filter, py::arg("bodies"), py::kw_only(), py::arg("category") = 1,
-          py::arg("mask") = all_categories, py::arg("group") = 0,
-          R"(Two bodies touch if the category of each has a bit in the mask of the other; of the same non-zero group, if it is positive.)")
+      .def("set_filter", set_filter, py::arg("bodies"), py::kw_only(), py::arg("category") = 1,
+           py::arg("mask") = all_categories, py::arg("group") = 0,
+           R"(Two bodies touch if the category of each has a bit in the mask of the other; of the same
+non-zero group, if it is positive.)")
       .def("set_pair_filter", set_pair_filter, py::arg("function"),
            R"(A function of two ids that says whether these bodies may touch, or None.
 
-It must be symmetric, and its answers must not change but before refilter(). What it raises comes out of the call of the
-world that asked it, and counts as True.)")
+It must be symmetric, and its answers must not change but before refilter(). What it raises comes out of the
+call of the world that asked it, and counts as True.)")
       .def("refilter", changing("refilter", [](World& of, BodyId body) { return of.refilter(body); }),
            py::arg("bodies"),
            "Tells the world that the pair filter's answers about these bodies have changed.")
@@ -393,12 +396,12 @@ world that asked it, and counts as True.)")
                         [&](BodyId body, std::size_t) { return handle.world.set_solid(body, solid); });
           },
           py::arg("bodies"), py::arg("solid"))
-      .def(
-          "set_sensor", set_sensor, py::arg("sensor_class"), py::arg("distances"),
-          py::arg("mask") = all_categories,
-          R"(From now on all bodies of this class sense others at these distances (length, each >= 0), shape (k,) or a number.
+      .def("set_sensor", set_sensor, py::arg("sensor_class"), py::arg("distances"),
+           py::arg("mask") = all_categories,
+           R"(From now on all bodies of this class sense others at these distances (length, each >= 0).
 
-Each crossing is told by sensor_enter and sensor_leave. The mask says which categories are sensed. Cost: O(n).)")
+distances: shape (k,), or a number. Each crossing is told by sensor_enter and sensor_leave. The mask says which categories are sensed. Cost:
+O(n).)")
       .def(
           "set_sensor_class",
           [](WorldHandle& handle, const py::object& bodies, std::uint64_t sensor_class) {

@@ -81,7 +81,8 @@ void bind_body_map(py::module_& module) {
       module, "BodyMap",
       R"(Which body of a world is which body of which motion, where several move them or bodies come and go.
 
-It serves wherever a probe or a motion is asked for. It keeps its motions alive. One map may serve clones of a world.)")
+It serves wherever a probe or a motion is asked for. It keeps its motions alive. One map may serve clones of
+a world.)")
       .def(py::init([] { return std::make_shared<BodyMapHandle>(); }))
       .def("add", add_moved, py::arg("world"), py::arg("motion"), py::arg("number"), py::arg("radius") = 1.0,
            py::kw_only(), py::arg("category") = 1, py::arg("mask") = all_categories, py::arg("group") = 0,

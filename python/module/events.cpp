@@ -134,8 +134,8 @@ void bind_events(py::module_& module) {
 
   py::class_<Event>(module, "Event", R"(Something that happened, at its exact time.
 
-Positions are lengths, times and speeds in the units of the world; vectors are arrays of shape (3,) that cannot be
-changed.)")
+Positions are lengths, times and speeds in the units of the world; vectors are arrays of shape (3,) that
+cannot be changed.)")
       .def_static("_from_record",
                   [](const py::object& record) { return event_of(records_of(record, "Event").at(0)); })
       .def_property_readonly(
@@ -202,8 +202,8 @@ changed.)")
 
   py::class_<EventHash>(module, "EventHash", R"(One number for all events of a run.
 
-Two runs with the same number went the same way, to the last bit: any bit of a time, kind, id, wall or sensor distance
-that differs changes it. str(hash) has the 16 digits that the program `kinesphere` prints.)")
+Two runs with the same number went the same way, to the last bit: any bit of a time, kind, id, wall or
+sensor distance that differs changes it. str(hash) has the 16 digits that the program `kinesphere` prints.)")
       .def(py::init<>())
       .def(
           "add",
@@ -243,10 +243,12 @@ that differs changes it. str(hash) has the 16 digits that the program `kinespher
       },
       py::arg("contact"), py::arg("first_mass") = 1.0, py::arg("second_mass") = 1.0,
       py::arg("restitution") = 1.0,
-      R"(Velocities after a frictionless central bounce: two arrays of shape (3,); at a wall the second is None.
+      R"(Velocities after a frictionless central bounce: two arrays of shape (3,); at a wall the second is
+None.
 
-Masses are > 0; the second is unused for a wall, and infinite for a fixed body. The restitution lies in [0, 1]. Momentum
-is kept; a repeated contact is answered without loss. A NaN gives velocities that the world refuses by name.)");
+Masses are > 0; the second is unused for a wall, and infinite for a fixed body. The restitution lies in [0,
+1]. Momentum is kept; a repeated contact is answered without loss. A NaN gives velocities that the world
+refuses by name.)");
   module.def(
       "settle",
       [velocities](const Event& contact, double first_mass, double second_mass, double restitution,
@@ -255,8 +257,8 @@ is kept; a repeated contact is answered without loss. A NaN gives velocities tha
       },
       py::arg("contact"), py::arg("first_mass"), py::arg("second_mass"), py::arg("restitution"),
       py::arg("resting_speed"),
-      R"(As bounce(), for bodies that come to rest in a heap: a repeated contact loses energy too, but no two leave each
-other more slowly than with resting_speed (length / time, > 0) or than they came.)");
+      R"(As bounce(), for bodies that come to rest in a heap: a repeated contact loses energy too, but no
+two leave each other more slowly than with resting_speed (length / time, > 0) or than they came.)");
   module.def("least_resting_speed", least_resting_speed, py::arg("contact_tolerance"),
              py::arg("acceleration"),
              "sqrt(3 tolerance acceleration): the least resting speed for which heaps do not sink into the "

@@ -67,7 +67,24 @@ Vec3 row_of(const Numbers& numbers, std::size_t row) {
   return {numbers.at(row, 0), numbers.at(row, 1), numbers.length(1) == 3 ? numbers.at(row, 2) : 0.0};
 }
 
-py::object double_type() { return py::str("f8"); }
+/// numpy.dtype() of that name, made once.
+template <int Which>
+const py::object& type_named(const char* name) {
+  // For ever: there is no interpreter any more when statics are destroyed.
+  static const auto* const type = new py::object(numpy("dtype")(name));
+  return *type;
+}
+const py::object& double_type() { return type_named<0>("f8"); }
+const py::object& whole_type() { return type_named<1>("i8"); }
+
+/// numpy.ndarray(shape, dtype, buffer).
+py::object made_array(PyObject* shape, const py::object& dtype, PyObject* memory) {
+  static PyObject* const array_class = numpy("ndarray").release().ptr();
+  PyObject* const arguments[] = {shape, dtype.ptr(), memory};
+  auto array = py::reinterpret_steal<py::object>(PyObject_Vectorcall(array_class, arguments, 3, nullptr));
+  if (!array) throw py::error_already_set();
+  return array;
+}
 
 std::uint64_t whole_number(py::handle given, const Argument& argument) {
   const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(given.ptr()));
@@ -235,7 +252,7 @@ NewArray::NewArray(std::initializer_list<std::size_t> shape, const py::object& d
       PyByteArray_FromStringAndSize(nullptr, static_cast<Py_ssize_t>(items * item_size)));
   if (!bytes) throw py::error_already_set();
   memory_ = PyByteArray_AS_STRING(bytes.ptr());
-  array_ = numpy("ndarray")(lengths, dtype, bytes);
+  array_ = made_array(lengths.ptr(), dtype, bytes.ptr());
 }
 
 py::object row_type(std::span<const Field> fields, std::size_t row_size) {
@@ -256,7 +273,7 @@ py::object row_type(std::span<const Field> fields, std::size_t row_size) {
 NewArray new_doubles(std::initializer_list<std::size_t> shape) {
   return {shape, double_type(), sizeof(double)};
 }
-NewArray new_whole_numbers(std::size_t count) { return {{count}, py::str("i8"), sizeof(std::int64_t)}; }
+NewArray new_whole_numbers(std::size_t count) { return {{count}, whole_type(), sizeof(std::int64_t)}; }
 
 py::object array_of(std::span<const double> numbers) {
   NewArray array = new_doubles({numbers.size()});
@@ -267,7 +284,8 @@ py::object array_of(std::span<const double> numbers) {
 py::object array_of(const Vec3& vector) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   const py::bytes bytes(reinterpret_cast<const char*>(&vector), sizeof vector);
-  return numpy("ndarray")(3, double_type(), bytes);
+  static PyObject* const three = PyLong_FromLong(3);
+  return made_array(three, double_type(), bytes.ptr());
 }
 
 py::tuple arrays_of(std::span<const State> states) {

@@ -116,7 +116,8 @@ py::object run(WorldHandle& handle, double until, const py::object& motion, cons
   const Responding responding(respond, handle, asked.interruptions());
   if (responding && asked.mover() == nullptr) {
     throw py::type_error(
-        "run: motion must be a Motion or a BodyMap where there is a respond, as bodies are given velocities, "
+        "run: motion must be a Motion, a BodyMap or a Mover where there is a respond, as bodies are given "
+        "velocities, "
         "but is a "
         "function; loop over world.events() instead");
   }
@@ -153,10 +154,10 @@ They work for one run at a time.)")
 
   world
       .def("advance", advance, py::arg("until"), py::arg("probe"),
-           R"(Goes on to the next event, at most to time `until`: the Event, or None when world.time == until.
+           R"(Goes on to the next event, at most to time `until`: the Event, or None at `until`.
 
-What the probe answers is checked: an answer of another shape, or with a NaN, raises InvalidValue that names argument and
-body, is dropped, and the call may be repeated. The same holds when the probe raises.)")
+What the probe answers is checked: an answer of another shape, or with a NaN, raises InvalidValue that names
+argument and body, is dropped, and the call may be repeated. The same holds when the probe raises.)")
       .def(
           "events",
           [](std::shared_ptr<WorldHandle> handle, double until, py::object probe) {
@@ -165,20 +166,22 @@ body, is dropped, and the call may be repeated. The same holds when the probe ra
           py::arg("until"), py::arg("probe"),
           R"(Goes through all events up to time `until`: for event in world.events(60.0, probe).
 
-In the loop bodies may be changed, added and removed. When it has run to its end, world.time == until; when it is left
-early, the world stands at the last event. Each step is an advance().)")
+In the loop bodies may be changed, added and removed. When it has run to its end, world.time == until; when
+it is left early, the world stands at the last event. Each step is an advance().)")
       .def("run", run, py::arg("until"), py::arg("motion"), py::arg("respond") = py::none(), py::kw_only(),
            py::arg("sink") = py::none(), py::arg("threads") = 1,
            R"(Goes on to time `until` by itself and returns all Events, in order.
 
-motion: a Motion or BodyMap, and then no Python is called for states; without respond also a probe.
-respond: what gives bodies new velocities at an event: a Bouncing, a Scene, or a function of the Event that returns None or
-(first velocity or None, second velocity or None). It must depend on the event alone, and may not call the world.
+motion: a Motion or BodyMap, and then no Python is called for states; a Mover; without respond any probe.
+respond: what gives bodies new velocities at an event: a Bouncing, a Scene, or a function of the Event that
+returns None or (first velocity or None, second velocity or None). It must depend on the event alone, and
+may not call the world.
 sink: a function that is told each Event, in order; then no Events are returned.
 threads: how many share the work, or Workers; the outcome is the same.
 
-The GIL is released while the engine works, and Ctrl-C interrupts it. When something is raised the world stands at a stop
-and can go on with another run; the Events that were told before come first in what that one returns.)");
+The GIL is released while the engine works, and Ctrl-C interrupts it. When something is raised the world
+stands at a stop and can go on with another run; the Events that were told before come first in what that
+one returns.)");
 }
 
 }  // namespace kinesphere::python

@@ -210,9 +210,9 @@ void bind_inspection(py::module_& module, WorldClass& world) {
             return handle.world.body(id_of(body, {"body", "body"})).value();
           },
           py::arg("body"), "What the world knows of a body: a BodyView.")
-      .def(
-          "bounds", bounds, py::arg("bodies") = py::none(),
-          R"(The spheres that certainly contain these bodies now, or all bodies: centres, shape (n, 3), and radii, shape (n,).)")
+      .def("bounds", bounds, py::arg("bodies") = py::none(),
+           R"(The spheres that certainly contain these bodies now, or all bodies: centres, shape (n, 3), and
+radii, shape (n,).)")
       .def(
           "shape_of",
           [](WorldHandle& handle, const py::object& body) {

@@ -8,6 +8,7 @@
 #include "kinesphere/sensor.hpp"
 #include "kinesphere/version.hpp"
 #include "motions.hpp"
+#include "mover.hpp"
 #include "moving.hpp"
 #include "shapes.hpp"
 #include "world.hpp"
@@ -23,6 +24,7 @@ PYBIND11_MODULE(_kinesphere, module) {
   bind_events(module);
   bind_motions(module);
   bind_moving(module);
+  bind_mover(module);
   bind_world(module);
   bind_body_map(module);
   bind_replay(module);

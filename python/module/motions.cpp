@@ -86,10 +86,10 @@ py::dict definitions_at(MotionHandle& handle, double time, const py::object& nam
 void bind_motion(py::module_& module) {
   py::class_<MotionHandle, std::shared_ptr<MotionHandle>>(module, "Motion", R"(How bodies really move.
 
-Bodies are named by their numbers 0, 1, 2, ..., which are their ids in a world to which they were added in this order.
-A motion serves wherever a probe is asked for, and then no Python is called for states. It is itself the probe
-motion(ids, t) -> (positions, velocities), to be called by a probe of your own. copy.copy() makes one that goes its own
-way.)")
+Bodies are named by their numbers 0, 1, 2, ..., which are their ids in a world to which they were added in
+this order. A motion serves wherever a probe is asked for, and then no Python is called for states. It is
+itself the probe motion(ids, t) -> (positions, velocities), to be called by a probe of your own. copy.copy()
+makes one that goes its own way.)")
       .def("__len__", [](const MotionHandle& handle) { return handle.motion->size(); })
       .def("__contains__", [](const MotionHandle& handle,
                               long long number) { return handle.motion->contains(number_in_motion(number)); })
@@ -106,7 +106,7 @@ way.)")
             return states_at(handle, numbers, t, "states");
           },
           py::arg("t"), py::arg("numbers") = py::none(),
-          R"(Positions and velocities at time t, two arrays of shape (n, 3): of these bodies, or of all that are there.
+          R"(Positions and velocities of these bodies, or of all, at time t: two arrays of shape (n, 3).
 
 t must not lie before the last change of a body (time_backwards).)")
       .def("definitions", definitions_at, py::arg("t"), py::arg("numbers") = py::none(),
@@ -236,8 +236,8 @@ positions and velocities have shape (n, 3) or (n, 2); without velocities all are
       module, "RandomForces",
       R"(Bodies pushed around by random forces that change at the multiples of `interval` (time).
 
-Each acceleration is drawn uniformly from the ball of radius acceleration_limits (length / time^2): one number, or one of
-each body. The draw depends on seed, body and interval alone.)");
+Each acceleration is drawn uniformly from the ball of radius acceleration_limits (length / time^2): one
+number, or one of each body. The draw depends on seed, body and interval alone.)");
   random_forces.def(
       py::init([](const py::object& positions, const py::object& velocities, const py::object& limits,
                   double interval, std::uint64_t seed, double start_time) {
@@ -293,7 +293,8 @@ each body. The draw depends on seed, body and interval alone.)");
       module, "VelocityField",
       R"(Bodies that follow a velocity field as well as their acceleration limits let them.
 
-At the multiples of `interval` (time) each looks at the field; it would reach its velocity in response_time (time).)");
+At the multiples of `interval` (time) each looks at the field; it would reach its velocity in response_time
+(time).)");
   velocity_field.def(
       py::init([](const Circulation& field, const py::object& positions, const py::object& velocities,
                   const py::object& limits, double interval, double response_time, double start_time) {
@@ -330,9 +331,9 @@ void bind_recorded(py::module_& module) {
       module, "RecordedTracks",
       R"(Bodies that go along the natural cubic splines through samples of their positions.
 
-tracks has a pair (times, positions) for each body: times of shape (k,), rising, k >= 2; positions of shape (k, 3) or
-(k, 2). The promise of each is the largest acceleration of its curve. Before the first and after the last sample it goes
-straight on. Bodies can be removed, but not be changed.)")
+tracks has a pair (times, positions) for each body: times of shape (k,), rising, k >= 2; positions of shape
+(k, 3) or (k, 2). The promise of each is the largest acceleration of its curve. Before the first and after
+the last sample it goes straight on. Bodies can be removed, but not be changed.)")
       .def(py::init([](const py::iterable& tracks) {
              return std::make_shared<HandleOf<RecordedTracks>>(RecordedTracks::create(tracks_of(tracks)));
            }),
@@ -342,9 +343,9 @@ straight on. Bodies can be removed, but not be changed.)")
       module, "Frames",
       R"(Bodies of a program that moves them in fixed steps: straight lines between its last two frames.
 
-acceleration_limits (length / time^2, gravity included) is one number, or one of each body: positions of successive
-frames obey |p[k+1] - 2 p[k] + p[k-1]| <= limit * interval^2. position_error (length) is how far positions may be off.
-States can be asked for from previous_time to latest_time.)");
+acceleration_limits (length / time^2, gravity included) is one number, or one of each body: positions of
+successive frames obey |p[k+1] - 2 p[k] + p[k-1]| <= limit * interval^2. position_error (length) is how far
+positions may be off. States can be asked for from previous_time to latest_time.)");
   frames
       .def(py::init([](const py::object& positions, const py::object& velocities, const py::object& limits,
                        double interval, double position_error, double start_time, bool refuse_violations) {
@@ -396,8 +397,8 @@ States can be asked for from previous_time to latest_time.)");
                   py::make_tuple(found.body, found.excess, found.acceleration, array_of(found.velocity)));
             return violations;
           },
-          R"(Who broke its promise in the frame that was pushed last: tuples of number, excess (length), the acceleration limit
-that would have allowed it, and velocity.)");
+          R"(Who broke its promise in the frame that was pushed last: tuples of number, excess (length), the
+acceleration limit that would have allowed it, and velocity.)");
   bind_add_with_limit(frames);
 }
 

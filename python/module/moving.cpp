@@ -4,6 +4,7 @@
 
 #include "errors.hpp"
 #include "exchange.hpp"
+#include "mover.hpp"
 
 namespace kinesphere::python {
 namespace {
@@ -47,6 +48,10 @@ Asked::Asked(const py::object& given, std::string_view call, bool plane)
     for (const py::object& motion : handle.motions)
       keep_to_itself(motion.cast<MotionHandle&>().in_use, "motion");
     mover_ = interruptible(handle.map.mover(), interruptions_);
+  } else if (py::isinstance<MoverHandle>(given)) {
+    auto& handle = given.cast<MoverHandle&>();
+    keep_to_itself(handle.in_use, "mover");
+    mover_ = std::make_unique<FunctionMover>(handle, interruptions_, call_, plane_);
   } else if (PyCallable_Check(given.ptr()) == 0) {
     throw py::type_error(call_ + ": probe must be a motion or a function of (ids, t), but is " +
                          py::repr(given).cast<std::string>());
@@ -115,8 +120,9 @@ void bind_moving(py::module_& module) {
       module, "Bouncing",
       R"(A ready-made response for World.run(): bodies bounce off each other, walls and fixed bodies.
 
-masses (> 0) is one number for all, or an array with one at the index of each body; fixed bodies count as infinitely
-heavy. restitution lies in [0, 1]. With a resting_speed (length / time) bodies come to rest as settle() has them.)")
+masses (> 0) is one number for all, or an array with one at the index of each body; fixed bodies count as
+infinitely heavy. restitution lies in [0, 1]. With a resting_speed (length / time) bodies come to rest as
+settle() has them.)")
       .def(py::init<const py::object&, double, double>(), py::arg("masses") = 1.0,
            py::arg("restitution") = 1.0, py::arg("resting_speed") = 0.0);
 }

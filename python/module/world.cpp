@@ -141,19 +141,20 @@ void bind_world(py::module_& module) {
   WorldClass world(module, "World",
                    R"(Moving spheres with unknown trajectories, and every contact among them, in time order.
 
-Somebody else moves the bodies. The world asks a probe where they are, only when that can matter, and stops at each
-event. As long as bodies keep within the limits that they have promised, no two of them overlap by more than the contact
-tolerance unreported.
+Somebody else moves the bodies. The world asks a probe where they are, only when that can matter, and stops
+at each event. As long as bodies keep within the limits that they have promised, no two of them overlap by
+more than the contact tolerance unreported.
 
-A probe is a ready-made Motion, a BodyMap, or a function f(ids, t) -> (positions, velocities): ids is an array of int64,
-shape (n,); both answers have shape (n, 3), or (n, 2) where dimensions is 2. It may raise, which comes out of the call
-that asked it, and that call can be repeated.
+A probe is a ready-made Motion, a BodyMap, or a function f(ids, t) -> (positions, velocities): ids is an
+array of int64, shape (n,); both answers have shape (n, 3), or (n, 2) where dimensions is 2. It may raise,
+which comes out of the call that asked it, and that call can be repeated.
 
-Bodies are named by ids: whole numbers, which are 0, 1, 2, ... in the order in which bodies were added as long as none
-has been removed, so arrays can be indexed by them. Units are yours: lengths, times and so on must be consistent.
+Bodies are named by ids: whole numbers, which are 0, 1, 2, ... in the order in which bodies were added as
+long as none has been removed, so arrays can be indexed by them. Units are yours: lengths, times and so on
+must be consistent.
 
-Every call checks what it is handed, and one that raises has changed nothing unless it says so. One thread at a time may
-use a world; another one is refused with StateError.)");
+Every call checks what it is handed, and one that raises has changed nothing unless it says so. One thread
+at a time may use a world; another one is refused with StateError.)");
   world
       .def(py::init(&create_world), py::kw_only(), py::arg("box") = py::none(), py::arg("periodic") = false,
            py::arg("dimensions") = 3, py::arg("contact_tolerance") = 1e-6,
@@ -162,12 +163,14 @@ use a world; another one is refused with StateError.)");
            R"(box: walls, a Box or a pair of corners; without one the world is unbounded.
 periodic: True, or axes such as "xy", on which the box repeats instead of having walls.
 dimensions: 3, or 2 for discs in the plane z = 0.
-contact_tolerance (length, > 0): a contact begins when the gap is at most this, and no gap falls below minus this unreported.
-separation_distance (length, > contact_tolerance; default 4 of it): a contact ends when the gap has grown to this.
+contact_tolerance (length, > 0): a contact begins when the gap is at most this, and no gap falls below minus
+this unreported.
+separation_distance (length, > contact_tolerance; default 4 of it): a contact ends when the gap has grown to
+this.
 contacts: "begin_and_end", or "impacts" for what bounces: a begin for each approach, and no ends.
 allow_overlap: when False, add() refuses a body that certainly overlaps another or a wall.
-zeno_interval (time, >= 0): contacts of a body that follow each other sooner are marked as repeated.
-Raises ValueError (InvalidValue) that names the argument.)")
+zeno_interval (time, >= 0): contacts of a body that follow each other sooner are marked as repeated. Raises
+ValueError (InvalidValue) that names the argument.)")
       .def_property_readonly(
           "definition",
           reading("definition", [](const World& made) { return arguments_of(made.definition()); }),

@@ -39,6 +39,16 @@ diff "$work/ten_lines.py" <(python_of "$source/../README.md")
 export KINESPHERE_PROGRAM=$build/programs/kinesphere
 "$clean" -B -m pytest -q -p no:cacheprovider "$source/test"
 
+# The same build with another NumPy, where there is one.
+if [[ -n ${KINESPHERE_NUMPY2:-} ]]; then
+  PYTHONPATH=$KINESPHERE_NUMPY2 "$clean" -c 'import numpy; assert numpy.__version__.startswith("2."), numpy.__version__'
+  PYTHONPATH=$KINESPHERE_NUMPY2 "$clean" -B -m pytest -q -p no:cacheprovider "$source/test"
+else
+  echo "NumPy 2: skipped, as KINESPHERE_NUMPY2 does not name a folder with one"
+fi
+
+"$clean" -m kinesphere.bench --program "$KINESPHERE_PROGRAM" --bodies 2000 --repeats 1
+
 cd "$work/pictures"
 for example in gas drones certainty side_by_side; do
   echo "example $example:"

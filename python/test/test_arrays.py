@@ -92,7 +92,9 @@ def test_wrong_shapes_name_argument_and_shape(shape: tuple[int, ...]) -> None:
 
 def test_arrays_that_do_not_fit_each_other_are_refused() -> None:
     world = ks.World()
-    with pytest.raises(ks.InvalidValue, match=r"velocities must have shape \(n, 3\) with n = 20, but has shape \(19, 3\)"):
+    with pytest.raises(
+        ks.InvalidValue, match=r"velocities must have shape \(n, 3\) with n = 20, but has shape \(19, 3\)"
+    ):
         world.add(positions, velocities[:19])
     with pytest.raises(ks.InvalidValue, match=r"radii must be one number, or one for each of 20 bodies"):
         world.add(positions, radii=[1.0, 2.0])
@@ -136,7 +138,9 @@ def test_two_columns_are_the_plane() -> None:
     world = ks.World(dimensions=2)
     world.add(positions[:, :2], velocities[:, :2])
     assert world.body(0).position.tolist() == [positions[0, 0], positions[0, 1], 0.0]
-    events = world.run(5.0, lambda ids, t: (positions[ids, :2] + t * velocities[ids, :2], velocities[ids, :2]))
+    events = world.run(
+        5.0, lambda ids, t: (positions[ids, :2] + t * velocities[ids, :2], velocities[ids, :2])
+    )
     assert np.all(events["point"][:, 2] == 0)
     with pytest.raises(ks.InvalidValue, match=r"\(n, 3\), but has shape \(20, 2\)"):
         ks.World().add(positions[:, :2])

@@ -1,6 +1,7 @@
 """Ready-made motions, maps of several, frames of a game."""
 
 import copy
+from typing import Any
 
 import numpy as np
 import pytest
@@ -130,7 +131,9 @@ def test_frames_of_a_game() -> None:
 
 def test_recorded_tracks() -> None:
     times = np.linspace(0, 4, 9)
-    motion = ks.RecordedTracks([(times, np.stack([times, 0 * times], axis=1)), ([0, 4], [[4, 0.5, 0], [0, 0.5, 0]])])
+    motion = ks.RecordedTracks(
+        [(times, np.stack([times, 0 * times], axis=1)), ([0, 4], [[4, 0.5, 0], [0, 0.5, 0]])]
+    )
     world = ks.World()
     world.add_motion(motion, radii=0.3)
     begin = world.advance(4.0, motion)
@@ -152,3 +155,68 @@ def test_a_motion_is_added_where_its_numbers_are_ids() -> None:
     with pytest.raises(ks.InvalidValue, match="never had bodies"):
         world.add_motion(motion)
     assert len(world) == 0
+
+
+def straight_on(ids: Any, t: float, since: Any, places: Any, speeds: Any) -> tuple[Any, Any]:
+    assert (
+        ids.shape == (len(since),)
+        and since.shape == (len(ids), 1)
+        and places.shape == speeds.shape == (len(ids), 3)
+    )
+    return places + speeds * (t - since), speeds
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_a_mover_of_numpy_is_answered_as_a_motion_is(threads: int) -> None:
+    scene = ks.Scene("gas", bodies=200, seconds=2.0)
+    world, motion = ks.World(**scene.definition), scene.motion()
+    world.add_motion(motion, scene.radii)
+    expected = hash_of(world.run(2.0, motion, scene))
+    start = scene.motion().definitions(0.0)
+    world = ks.World(**scene.definition)
+    world.add(**start, radii=scene.radii)
+    mover = ks.Mover(straight_on, start["positions"], start["velocities"])
+    probed = copy.copy(mover)
+    assert hash_of(world.run(2.0, mover, scene, threads=threads)) == expected
+    assert np.array_equal(mover(np.arange(200), 2.0)[0], motion.states(2.0)[0])
+    # As the probe of a loop that tells it of changes.
+    world = ks.World(**scene.definition)
+    world.add(**start, radii=scene.radii)
+    hash = ks.EventHash()
+    for event in world.events(0.5, probed):
+        hash.add(event)
+        one, other = event.first, event.second
+        first, second = ks.bounce(event, scene.masses[one], scene.masses[other] if other is not None else 1.0)
+        probed.depart(one, event.time, event.first_position, first)
+        world.set_velocity(one, first)
+        if other is not None and second is not None:
+            probed.depart([other], event.time, [event.second_position], [second])
+            world.set_velocity(other, second)
+    again, motion = ks.World(**scene.definition), scene.motion()
+    again.add_motion(motion, scene.radii)
+    assert str(hash) == hash_of(again.run(0.5, motion, scene))
+
+
+def test_wrong_movers_are_named() -> None:
+    with pytest.raises(TypeError, match="function must be a function"):
+        ks.Mover(5, positions)  # type: ignore[arg-type]
+    with pytest.raises(ks.InvalidValue, match="velocities must have shape"):
+        ks.Mover(straight_on, positions, velocities[1:])
+    mover = ks.Mover(straight_on, positions, velocities)
+    world = ks.World()
+    world.add(positions, velocities)
+    newcomer = world.add((60, 0, 0), (-1, 0, 0), acceleration_limits=50.0)
+    with pytest.raises(ks.BodyError, match="does not of body 40"):
+        world.run(1.0, mover, ks.Bouncing())
+    mover.depart(newcomer, 0.0, (60, 0, 0), (-1, 0, 0))
+    world.run(1.0, mover, ks.Bouncing())
+    assert len(mover) == 41
+    with pytest.raises(ks.InvalidValue, match="bodies"):
+        mover.depart(2**31, 0.0, (0, 0, 0), (0, 0, 0))
+    with pytest.raises(ks.InvalidValue):
+        mover.depart([1, 2], 0.0, [(0, 0, 0)], [(0, 0, 0)])
+    broken = ks.Mover(lambda ids, t, since, places, speeds: (places, speeds[:, :1]), positions, velocities)
+    world = ks.World()
+    world.add(positions, velocities, acceleration_limits=1.0)
+    with pytest.raises(ks.InvalidValue, match="velocities of the probe must have shape"):
+        world.run(5.0, broken, ks.Bouncing())

@@ -10,7 +10,9 @@ import kinesphere as ks
 @pytest.mark.parametrize("threads", [1, 2])
 def test_a_scene_has_the_hash_of_the_program(name: str, threads: int) -> None:
     bodies, seconds = 80, 1.0
-    expected = native("run", name, "--bodies", str(bodies), "--seconds", str(seconds), "--seed", "7", "--hash-only")
+    expected = native(
+        "run", name, "--bodies", str(bodies), "--seconds", str(seconds), "--seed", "7", "--hash-only"
+    )
     if expected is None:
         pytest.skip("KINESPHERE_PROGRAM does not say where the program is")
     scene = ks.Scene(name, bodies=bodies, seconds=seconds, seed=7)

@@ -53,7 +53,12 @@ def test_the_gil_is_released_and_another_thread_is_refused() -> None:
     refusals, turns = [], 0
     while runner.is_alive():
         turns += 1
-        uses: list[Callable[[], object]] = [lambda: world.time, lambda: world.add((0, 0, 0)), lambda: motion.states(0.0), lambda: world.clone()]
+        uses: list[Callable[[], object]] = [
+            lambda: world.time,
+            lambda: world.add((0, 0, 0)),
+            lambda: motion.states(0.0),
+            lambda: world.clone(),
+        ]
         for use in uses:
             try:
                 use()
@@ -134,7 +139,12 @@ def test_the_world_cannot_be_changed_inside_its_own_callbacks() -> None:
     codes = []
 
     def forbidden() -> None:
-        uses: list[Callable[[], object]] = [lambda: world.add((50, 0, 0)), lambda: world.advance(11.0, motion), lambda: world.save(), lambda: world.clone()]
+        uses: list[Callable[[], object]] = [
+            lambda: world.add((50, 0, 0)),
+            lambda: world.advance(11.0, motion),
+            lambda: world.save(),
+            lambda: world.clone(),
+        ]
         for use in uses:
             with pytest.raises(ks.StateError) as caught:
                 use()
@@ -154,7 +164,10 @@ def test_the_world_cannot_be_changed_inside_its_own_callbacks() -> None:
     asked: list[str] = []
 
     def respond(event: ks.Event) -> None:
-        uses: list[Callable[[], object]] = [lambda: motion.states(event.time), lambda: motion.set_velocity(0, event.time, (0, 0, 0))]
+        uses: list[Callable[[], object]] = [
+            lambda: motion.states(event.time),
+            lambda: motion.set_velocity(0, event.time, (0, 0, 0)),
+        ]
         for use in uses:
             with pytest.raises(ks.StateError) as caught:
                 use()

@@ -60,7 +60,11 @@ def test_an_event_says_what_happened() -> None:
     world, motion = pair()
     event = world.advance(10.0, motion)
     assert event is not None
-    assert event.kind == EventKind.contact_begin and str(event.kind) == "contact_begin" and f"{event.kind:>14}" == " contact_begin"
+    assert (
+        event.kind == EventKind.contact_begin
+        and str(event.kind) == "contact_begin"
+        and f"{event.kind:>14}" == " contact_begin"
+    )
     assert event.time == pytest.approx(4.0, abs=1e-5)
     assert event.normal.tolist() == [1, 0, 0]
     assert event.point == pytest.approx([9, 0, 0], abs=1e-5)
@@ -205,7 +209,9 @@ def test_certificates_and_queries() -> None:
     limits = world.distance_limits(0, 1, 2.0)
     assert limits.lower <= 4.0 <= limits.upper
     found = world.nearest((11.5, 0, 0), 1, probe=motion)
-    assert found["body"].tolist() == [1] and found["certain"].all() and found["lower"][0] == pytest.approx(0.5)
+    assert (
+        found["body"].tolist() == [1] and found["certain"].all() and found["lower"][0] == pytest.approx(0.5)
+    )
     assert world.overlapping((0, 0, 0), 0.5)["body"].tolist() == [0]
     assert world.overlapping_box(((9, -1, -1), (11, 1, 1)))["body"].tolist() == [1]
     assert world.ray_cast((-5, 0, 0), (1, 0, 0), 50.0)["body"].tolist() == [0]
@@ -232,7 +238,13 @@ def test_snapshots_clones_copies_and_pickles_go_the_same_way() -> None:
     world, motion = ks.World(**scene.definition), scene.motion()
     world.add_motion(motion, scene.radii)
     world.run(0.5, motion, scene)
-    ways = [world.clone(), copy.copy(world), copy.deepcopy(world), ks.World.restore(world.save()), pickle.loads(pickle.dumps(world))]
+    ways = [
+        world.clone(),
+        copy.copy(world),
+        copy.deepcopy(world),
+        ks.World.restore(world.save()),
+        pickle.loads(pickle.dumps(world)),
+    ]
     motions = [copy.copy(motion) for _ in ways]
     expected = hash_of(world.run(1.0, motion, scene))
     assert {hash_of(way.run(1.0, moved, scene)) for way, moved in zip(ways, motions)} == {expected}
@@ -256,7 +268,9 @@ def test_recordings_are_repeated_without_the_motion() -> None:
     assert str(again) == hash_of(events) and replay.world().time == 10.0
     run = ks.read_recording(recording)
     assert hash_of(run.events) == hash_of(events) and run.end_time == 10.0
-    assert run.positions.shape == (len(run.times), 3) == run.velocities.shape and len(run.bodies) == len(run.times)
+    assert run.positions.shape == (len(run.times), 3) == run.velocities.shape and len(run.bodies) == len(
+        run.times
+    )
 
 
 def test_space_that_repeats() -> None:

@@ -1,7 +1,7 @@
 """Wrong use in the 45 ways of examples/wrong_use.cpp, translated, and those that only Python has.
 
-Nothing crashes, nothing is silently wrong: each is answered with an exception that names the call, the argument and, where
-there is one, the body.
+Nothing crashes, nothing is silently wrong: each is answered with an exception that names the call, the
+argument and, where there is one, the body.
 """
 
 import threading
@@ -24,7 +24,11 @@ class Things:
     def __init__(self) -> None:
         self.motion = ks.Ballistic([(0, 0, 0), (10, 0, 0), (0, 30, 0)], [(1, 0, 0), (0, 0, 0), (0, 0, 0)])
         room = ((-99, -99, -99), (99, 99, 99))
-        self.w, self.another, self.tight = ks.World(box=room), ks.World(box=room), ks.World(allow_overlap=False)
+        self.w, self.another, self.tight = (
+            ks.World(box=room),
+            ks.World(box=room),
+            ks.World(allow_overlap=False),
+        )
         self.plane = ks.World(dimensions=2)
         definitions = [self.motion.definitions(0.0, k) for k in range(3)]
         self.a, self.b, self.gone = (self.w.add(**each)[0] for each in definitions)
@@ -166,7 +170,9 @@ def test_wrong_answers_of_a_probe_are_named_and_dropped(number: int) -> None:
             things.w.run(20.0, probe)
     expected = ks.World(**things.w.definition)
     expected.add(**things.motion.definitions(0.0, [0, 1]))
-    assert str(ks.EventHash().add(things.w.run(20.0, things.motion))) == str(ks.EventHash().add(expected.run(20.0, things.motion)))
+    assert str(ks.EventHash().add(things.w.run(20.0, things.motion))) == str(
+        ks.EventHash().add(expected.run(20.0, things.motion))
+    )
 
 
 def test_a_probe_may_return_views_lists_float32_and_read_only_arrays() -> None:
