@@ -18,6 +18,13 @@ function(kinesphere_compile target)
   endif()
 endfunction()
 
+# For static libraries that may become part of a shared object, as in the Python package. Nobody puts other functions in
+# the place of theirs when a program is loaded, so calls within a source are as direct as in a program.
+function(kinesphere_relocatable target)
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(${target} PRIVATE -fno-semantic-interposition)
+endfunction()
+
 # Where UNITY_BUILD is on (all targets of the presets release and bench, of same_hash and lint; the program everywhere),
 # the sources of a folder are compiled together, as if they were one, which reads headers once: no name may stand for two
 # things in a folder.

@@ -7,13 +7,13 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build=build/lint
 
-find include src programs browser/module examples tests -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run -Werror
+find include src programs browser/module python/module examples tests -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run -Werror
 if grep -rn '#include ["<]lab/' include examples src --exclude-dir=lab; then
   echo "lint: only the lab itself, the program and the tests may include the lab" >&2
   exit 1
 fi
 
-if grep -rnE '#include .*\.cpp[">]' include src programs browser examples; then
+if grep -rnE '#include .*\.cpp[">]' include src programs browser python/module examples; then
   echo "lint: a source includes another" >&2
   exit 1
 fi

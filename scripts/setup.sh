@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that are missing here. Where none is, it does nothing, without network.
-# Usage: setup.sh run | mpi | browser | bench | test | coverage
+# Usage: setup.sh run | mpi | browser | python | bench | test | coverage
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libhwy-dev libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev libgeographiclib-dev libcpp-httplib-dev)
@@ -8,15 +8,18 @@ mpi=(libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev)
 browser=(emscripten nodejs)
 # That of Node.js itself brings npm along.
 if ! command -v npm >/dev/null; then browser+=(npm); fi
-testing=("${mpi[@]}" "${browser[@]}" chromium libgtest-dev libtbb-dev librapidcheck-dev clang clang-format clang-tidy pkg-config valgrind)
+python=(python3-dev python3-pip python3-venv python3-setuptools python3-wheel python3-skbuild pybind11-dev python3-numpy)
+python_testing=(python3-pytest python3-pandas python3-matplotlib python3-scipy mypy)
+testing=("${mpi[@]}" "${browser[@]}" "${python[@]}" "${python_testing[@]}" chromium libgtest-dev libtbb-dev librapidcheck-dev clang clang-format clang-tidy pkg-config valgrind)
 case ${1:-} in
   run) ;;
   mpi) packages+=("${mpi[@]}") ;;
   browser) packages+=("${browser[@]}") ;;
+  python) packages+=("${python[@]}") ;;
   bench) packages+=(gnuplot-nox libbullet-dev) ;;
   test) packages+=("${testing[@]}") ;;
   coverage) packages+=("${testing[@]}" gcovr) ;;
-  *) echo "setup: usage: setup.sh run | mpi | browser | bench | test | coverage" >&2 && exit 2 ;;
+  *) echo "setup: usage: setup.sh run | mpi | browser | python | bench | test | coverage" >&2 && exit 2 ;;
 esac
 
 if ! command -v apt-get >/dev/null; then

@@ -10,7 +10,7 @@
 #include <memory>
 #include <utility>
 
-#include "approaches.hpp"
+#include "lab/tracks/approaches.hpp"
 #include "lab/truth/comparison.hpp"
 #include "output_paths.hpp"
 #include "program_error.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "approaches.hpp"
+#include "lab/tracks/approaches.hpp"
 #include "output_file.hpp"
 #include "table_file.hpp"
 #include "tracks/recording.hpp"

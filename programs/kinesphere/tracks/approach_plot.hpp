@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "approaches.hpp"
+#include "lab/tracks/approaches.hpp"
 #include "tracks/recording.hpp"
 
 namespace kinesphere::program {

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "lab/tracks/scene_of_tracks.hpp"
 #include "tracks/projection.hpp"
 #include "tracks/track_columns.hpp"
 
@@ -21,12 +22,6 @@ enum class DuplicatePolicy {
   fail,
   first,  ///< the first of the file counts
   mean,   ///< the mean of their positions
-};
-
-/// The motion between two samples.
-enum class Interpolation {
-  spline,  ///< the natural cubic spline: smooth, may swing out beyond the samples
-  linear,  ///< straight on: never beyond the samples, with a sudden turn at each
 };
 
 struct TrackOptions {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "lab/tracks/scene_of_tracks.hpp"
 #include "program_error.hpp"
-#include "tracks/linear_tracks.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -94,14 +94,15 @@ Overshoots overshoots_of(const Recording& recording, const Motion& motion, doubl
   return overshoots;
 }
 
-template <class Curves>
-Curves curves_through(const Recording& recording) {
+std::vector<Track> samples_of(const Recording& recording) {
   std::vector<Track> tracks;
   tracks.reserve(recording.tracks.size());
   for (const RecordedTrack& track : recording.tracks) tracks.push_back(track.samples);
-  Result<Curves> curves = Curves::create(tracks);
-  if (curves) return std::move(curves).value();
-  const Error& error = curves.error();
+  return tracks;
+}
+
+/// Of the curves through its samples.
+[[noreturn]] void refuse(const Recording& recording, const Error& error) {
   const bool is_known = error.body.index < recording.tracks.size();
   throw ProgramError(
       fmt::format("id '{}': {}", is_known ? recording.tracks[error.body.index].id : "", error.message));
@@ -110,32 +111,20 @@ Curves curves_through(const Recording& recording) {
 }  // namespace
 
 RecordedTracks splines_through(const Recording& recording) {
-  return curves_through<RecordedTracks>(recording);
+  auto curves = RecordedTracks::create(samples_of(recording));
+  if (!curves) refuse(recording, curves.error());
+  return std::move(*curves);
 }
 
 TrackScene scene_of(const Recording& recording, const ApproachQuestion& question) {
-  TrackScene result;
-  Scene& scene = result.scene;
-  scene.name = "tracks";
-  scene.world.contact_tolerance = tolerance_of(recording, question);
-  scene.world.dimensions = recording.is_plane ? 2 : 3;
-  scene.world.start_time = recording.tracks.front().samples.front().time;
-  scene.end_time = scene.world.start_time;
-  for (const RecordedTrack& track : recording.tracks) {
-    const double begin = track.samples.front().time;
-    const double end = track.samples.back().time;
-    scene.bodies.push_back({.radius = question.distance / 2, .appears = begin, .vanishes = end});
-    scene.world.start_time = std::min(scene.world.start_time, begin);
-    scene.end_time = std::max(scene.end_time, end);
-  }
-  if (question.interpolation == Interpolation::linear) {
-    auto lines = std::make_unique<LinearTracks>(curves_through<LinearTracks>(recording));
-    scene.turns = lines->turns();
-    scene.motion = std::move(lines);
-    return result;
-  }
-  scene.motion = std::make_unique<RecordedTracks>(splines_through(recording));
-  result.overshoots = overshoots_of(recording, *scene.motion, question.distance);
+  const double tolerance = tolerance_of(recording, question);
+  auto scene = scene_of_tracks(samples_of(recording), question.distance, question.interpolation);
+  if (!scene) refuse(recording, scene.error());
+  TrackScene result{.scene = std::move(*scene)};
+  result.scene.world.contact_tolerance = tolerance;
+  result.scene.world.dimensions = recording.is_plane ? 2 : 3;
+  if (question.interpolation == Interpolation::spline)
+    result.overshoots = overshoots_of(recording, *result.scene.motion, question.distance);
   return result;
 }
 

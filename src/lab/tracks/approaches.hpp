@@ -7,7 +7,7 @@
 #include "kinesphere/event.hpp"
 #include "lab/scene/scene.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere {
 
 /// Where two bodies were nearest: the exact least distance of their curves.
 struct ClosestApproach {
@@ -36,4 +36,4 @@ void find_closest(const Motion& motion, std::vector<Approach>& approaches);
 /// Numbers of approaches, the closest first, at most so many; equals by their begin.
 std::vector<std::size_t> closest_of(const std::vector<Approach>& approaches, std::size_t most);
 
-}  // namespace kinesphere::program
+}  // namespace kinesphere

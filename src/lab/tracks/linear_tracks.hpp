@@ -8,7 +8,7 @@
 #include "kinesphere/motion/recorded_tracks.hpp"
 #include "lab/scene/scene.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere {
 
 /// Each body promises an acceleration of zero and turns suddenly at each sample: whoever watches must be told
 /// so by set_velocity, with each of turns() at its time. Until then, and at that very time, state() gives the
@@ -38,4 +38,4 @@ class LinearTracks final : public Motion {
   std::vector<double> last_turns_;        ///< of each body: the time of the last turn that was told
 };
 
-}  // namespace kinesphere::program
+}  // namespace kinesphere

@@ -1,5 +1,5 @@
 // Motion along recorded tracks: straight on from sample to sample.
-#include "tracks/linear_tracks.hpp"
+#include "lab/tracks/linear_tracks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "motion/checks.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -105,4 +105,4 @@ Result<void> LinearTracks::set_velocity(std::uint32_t body, double t, const Vec3
 
 std::unique_ptr<Motion> LinearTracks::clone() const { return std::make_unique<LinearTracks>(*this); }
 
-}  // namespace kinesphere::program
+}  // namespace kinesphere

@@ -1,9 +1,9 @@
 // Approaches from events: pairs of begin and end, and tracks that end first.
-#include "approaches.hpp"
+#include "lab/tracks/approaches.hpp"
 
 #include <gtest/gtest.h>
 
-namespace kinesphere::program {
+namespace kinesphere {
 namespace {
 
 Event event(EventKind kind, double time, std::uint32_t first, std::uint32_t second) {
@@ -58,4 +58,4 @@ TEST(Approaches, KnowWhenATrackBeginsOrEndsClose) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere

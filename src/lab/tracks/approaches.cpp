@@ -1,5 +1,5 @@
 // When which two bodies of a recording were close, and how close they came.
-#include "approaches.hpp"
+#include "lab/tracks/approaches.hpp"
 
 #include <algorithm>
 #include <map>
@@ -8,7 +8,7 @@
 
 #include "lab/truth/gap_course.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere {
 namespace {
 
 Approach begun(const Scene& scene, const Event& event) {
@@ -72,4 +72,4 @@ std::vector<std::size_t> closest_of(const std::vector<Approach>& approaches, std
   return order;
 }
 
-}  // namespace kinesphere::program
+}  // namespace kinesphere

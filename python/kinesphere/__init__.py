@@ -1,0 +1,115 @@
+"""Finds every collision among moving spheres whose trajectories nobody knows in advance.
+
+    import numpy as np
+    from kinesphere import Bouncing, RandomForces, World
+
+    positions = np.random.default_rng(1).uniform(2, 98, (300, 3))
+    motion = RandomForces(positions, acceleration_limits=20.0)
+    world = World(box=((0, 0, 0), (100, 100, 100)))
+    world.add_motion(motion, radii=1.0)
+    events = world.run(10.0, motion, Bouncing())
+
+Each body promises a bound on its acceleration, and nothing else is known of it. The world asks for states
+only when that can matter, and tells each contact at its exact time. There is no time step, and nothing is
+missed between two of them.
+"""
+
+from ._kinesphere import (
+    Ball,
+    Ballistic,
+    BodyMap,
+    BodyView,
+    Bouncing,
+    Box,
+    Circulation,
+    Counters,
+    DistanceLimits,
+    EarliestApproach,
+    EarliestContact,
+    Event,
+    EventHash,
+    EventIterator,
+    Frames,
+    HalfSpace,
+    Motion,
+    Mover,
+    RandomForces,
+    RecordedTracks,
+    Replay,
+    SafeSeparation,
+    SafeTime,
+    Scene,
+    Steered,
+    Triangle,
+    VelocityField,
+    Workers,
+    World,
+    bounce,
+    event_dtype,
+    least_resting_speed,
+    no_body,
+    scene_names,
+    settle,
+    zone_class,
+)
+from ._kinesphere import version as __version__
+from .approaches import Approaches, tracks
+from .errors import BodyError, InvalidValue, KinesphereError, StateError
+from .events import Events
+from .ids import BodyId, index_of
+from .kinds import EventKind, Senses, Wall
+from .recordings import RecordedRun, read_recording
+
+__all__ = [
+    "Approaches",
+    "Ball",
+    "Ballistic",
+    "BodyError",
+    "BodyId",
+    "BodyMap",
+    "BodyView",
+    "Bouncing",
+    "Box",
+    "Circulation",
+    "Counters",
+    "DistanceLimits",
+    "EarliestApproach",
+    "EarliestContact",
+    "Event",
+    "EventHash",
+    "EventIterator",
+    "EventKind",
+    "Events",
+    "Frames",
+    "HalfSpace",
+    "InvalidValue",
+    "KinesphereError",
+    "Motion",
+    "Mover",
+    "RandomForces",
+    "RecordedRun",
+    "RecordedTracks",
+    "Replay",
+    "SafeSeparation",
+    "SafeTime",
+    "Scene",
+    "Senses",
+    "StateError",
+    "Steered",
+    "Triangle",
+    "VelocityField",
+    "Wall",
+    "Workers",
+    "World",
+    "__version__",
+    "bounce",
+    "event_dtype",
+    "index_of",
+    "least_resting_speed",
+    "no_body",
+    "read_recording",
+    "scene_names",
+    "settle",
+    "tracks",
+    "zone_class",
+]

@@ -1,0 +1,55 @@
+"""What events are about. Members are whole numbers, as in tables of events; their texts are their names."""
+
+from enum import IntEnum
+
+
+class _Named(IntEnum):
+    def __str__(self) -> str:
+        return self.name
+
+    def __format__(self, specification: str) -> str:
+        return format(self.name, specification)
+
+
+class EventKind(_Named):
+    """In the order in which events of one instant are told."""
+
+    bound_violation = 0
+    """A probe answered with a state that contradicts the body's own promise."""
+    contact_begin = 1
+    """Two bodies touch: their gap has come down to at most the contact tolerance."""
+    contact_end = 2
+    """Two bodies that touched are apart: their gap has grown to the separation distance."""
+    wall_begin = 3
+    """A body touches a wall of the box."""
+    wall_end = 4
+    """A body that touched a wall is clear of it."""
+    zeno_guard = 5
+    """Time was moved on at a contact that is deep in its tolerance already, by its least step."""
+    sensor_enter = 6
+    """The gap of two bodies has come down to a sensor distance."""
+    sensor_leave = 7
+    """The gap of two bodies that were within a sensor distance has grown beyond it."""
+    woken = 8
+    """A body that rested is awake again."""
+
+
+class Wall(_Named):
+    """The walls of the box, by the axis and side on which they stand."""
+
+    none = 0
+    x_lower = 1
+    x_upper = 2
+    y_lower = 3
+    y_upper = 4
+    z_lower = 5
+    z_upper = 6
+
+
+class Senses(_Named):
+    """Which of the two bodies of a sensor event senses the other."""
+
+    neither = 0
+    first = 1
+    second = 2
+    both = 3

@@ -1,0 +1,233 @@
+// Certificates as answers, and queries: calls of a world.
+#include <optional>
+#include <string>
+
+#include "errors.hpp"
+#include "exchange.hpp"
+#include "moving.hpp"
+#include "shapes.hpp"
+#include "world.hpp"
+
+namespace kinesphere::python {
+namespace {
+
+/// Asks with a probe where there is one (None: from what is known already).
+template <class Question>
+auto asked(WorldHandle& handle, const char* call, const py::object& probe, const Question& question) {
+  const auto turn = handle.take(call);
+  if (probe.is_none()) return without_gil(handle, [&] { return question(handle.world); }).value();
+  Asked who(probe, call, handle.is_plane());
+  return without_gil(handle, [&] { return question(handle.world, who.probe()); }).value();
+}
+
+py::object safe_until(WorldHandle& handle, const py::object& first, const py::object& second,
+                      const py::object& distance, const py::object& probe) {
+  const char* const call = "safe_until";
+  if (!distance.is_none()) {
+    const auto length = distance.cast<double>();
+    if (first.is_none() || second.is_none())
+      refuse({call, "distance"}, "must come with two bodies",
+             "there are fewer (earliest_approach() is for one)");
+    const BodyId a = id_of(first, {call, "first"}), b = id_of(second, {call, "second"});
+    return py::cast(asked(handle, call, probe, [&](World& world, auto&&... with) {
+      return world.safe_until(a, b, length, std::forward<decltype(with)>(with)...);
+    }));
+  }
+  if (!second.is_none()) {
+    const BodyId a = id_of(first, {call, "first"}), b = id_of(second, {call, "second"});
+    return py::cast(asked(handle, call, probe, [&](World& world, auto&&... with) {
+      return world.safe_until(a, b, std::forward<decltype(with)>(with)...);
+    }));
+  }
+  if (!first.is_none()) {
+    const BodyId body = id_of(first, {call, "first"});
+    return py::cast(asked(handle, call, probe, [&](World& world, auto&&... with) {
+      return world.safe_until(body, std::forward<decltype(with)>(with)...);
+    }));
+  }
+  return py::cast(asked(handle, call, probe, [&](World& world, auto&&... with) {
+    return world.safe_until(std::forward<decltype(with)>(with)...);
+  }));
+}
+
+EarliestContact earliest_contact(WorldHandle& handle, const py::object& body, const py::object& probe) {
+  const BodyId id = id_of(body, {"earliest_contact", "body"});
+  return asked(handle, "earliest_contact", probe, [&](World& world, auto&&... with) {
+    return world.earliest_contact(id, std::forward<decltype(with)>(with)...);
+  });
+}
+
+EarliestApproach earliest_approach(WorldHandle& handle, const py::object& body, double distance,
+                                   const py::object& probe) {
+  const BodyId id = id_of(body, {"earliest_approach", "body"});
+  return asked(handle, "earliest_approach", probe, [&](World& world, auto&&... with) {
+    return world.earliest_approach(id, distance, std::forward<decltype(with)>(with)...);
+  });
+}
+
+DistanceLimits distance_limits(WorldHandle& handle, const py::object& first, const py::object& second,
+                               double time, const py::object& probe) {
+  const BodyId a = id_of(first, {"distance_limits", "first"}),
+               b = id_of(second, {"distance_limits", "second"});
+  return asked(handle, "distance_limits", probe, [&](World& world, auto&&... with) {
+    return world.distance_limits(a, b, time, std::forward<decltype(with)>(with)...);
+  });
+}
+
+// Rows of what queries find.
+
+struct FoundRecord {
+  std::int64_t body;
+  double lower;
+  double upper;
+  bool certain;
+};
+
+constexpr Field found_fields[] = {{"body", "i8", offsetof(FoundRecord, body)},
+                                  {"certain", "?", offsetof(FoundRecord, certain)},
+                                  {"lower", "f8", offsetof(FoundRecord, lower)},
+                                  {"upper", "f8", offsetof(FoundRecord, upper)}};
+
+NewArray new_found(std::size_t count, bool with_limits) {
+  const std::span<const Field> fields(found_fields);
+  return {
+      {count}, row_type(with_limits ? fields : fields.first(2), sizeof(FoundRecord)), sizeof(FoundRecord)};
+}
+
+py::object found_table(const std::vector<Found>& found) {
+  NewArray table = new_found(found.size(), false);
+  for (std::size_t k = 0; k < found.size(); ++k)
+    table.data<FoundRecord>()[k] = {number_of(found[k].body), 0.0, 0.0,
+                                    found[k].certainty == Certainty::certainly};
+  return table.take();
+}
+
+template <class Item>
+py::object found_table(const std::vector<Item>& found) {
+  NewArray table = new_found(found.size(), true);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    table.data<FoundRecord>()[k] = {number_of(found[k].body), found[k].lower, found[k].upper,
+                                    found[k].certainty == Certainty::certainly};
+  }
+  return table.take();
+}
+
+py::object overlapping(WorldHandle& handle, const py::object& centre, double radius,
+                       const py::object& probe) {
+  const Vec3 middle = vector_of(centre, {"overlapping", "centre"}, handle.is_plane());
+  return found_table(asked(handle, "overlapping", probe, [&](World& world, auto&&... with) {
+    return world.overlapping(middle, radius, std::forward<decltype(with)>(with)...);
+  }));
+}
+
+py::object overlapping_box(WorldHandle& handle, const py::object& given, const py::object& probe) {
+  const Argument argument{"overlapping_box", "box"};
+  const auto box = box_of(given, argument);
+  if (!box) throw py::type_error("overlapping_box: box must be a Box or two corners, but is None");
+  return found_table(asked(handle, "overlapping_box", probe, [&](World& world, auto&&... with) {
+    return world.overlapping(*box, std::forward<decltype(with)>(with)...);
+  }));
+}
+
+py::object nearest(WorldHandle& handle, const py::object& point, std::size_t count, const py::object& probe) {
+  const Vec3 from = vector_of(point, {"nearest", "point"}, handle.is_plane());
+  return found_table(asked(handle, "nearest", probe, [&](World& world, auto&&... with) {
+    return world.nearest(from, count, std::forward<decltype(with)>(with)...);
+  }));
+}
+
+py::object ray_cast(WorldHandle& handle, const py::object& origin, const py::object& direction, double length,
+                    const py::object& probe) {
+  const Vec3 from = vector_of(origin, {"ray_cast", "origin"}, handle.is_plane());
+  const Vec3 towards = vector_of(direction, {"ray_cast", "direction"}, handle.is_plane());
+  return found_table(asked(handle, "ray_cast", probe, [&](World& world, auto&&... with) {
+    return world.ray_cast(from, towards, length, std::forward<decltype(with)>(with)...);
+  }));
+}
+
+py::object sphere_cast(WorldHandle& handle, const py::object& origin, double radius,
+                       const py::object& direction, double length, const py::object& probe) {
+  const Vec3 from = vector_of(origin, {"sphere_cast", "origin"}, handle.is_plane());
+  const Vec3 towards = vector_of(direction, {"sphere_cast", "direction"}, handle.is_plane());
+  return found_table(asked(handle, "sphere_cast", probe, [&](World& world, auto&&... with) {
+    return world.sphere_cast(from, radius, towards, length, std::forward<decltype(with)>(with)...);
+  }));
+}
+
+template <class Result>
+py::object partner_of(const Result& result) {
+  return object_of(result.partner);
+}
+template <class Result>
+py::object wall_of(const Result& result) {
+  if (result.wall == Wall::none) return py::none();
+  return package_attribute("kinesphere.kinds", "Wall")(static_cast<int>(result.wall));
+}
+
+void bind_results(py::module_& module) {
+  py::class_<SafeTime>(module, "SafeTime", "No contact begins before `time`.")
+      .def_readonly("time", &SafeTime::time, "From now to infinity.")
+      .def_readonly("touching", &SafeTime::touching, "Something touches now: `time` is now.")
+      .def_readonly("probed", &SafeTime::probed);
+  py::class_<SafeSeparation>(module, "SafeSeparation",
+                             "No two surfaces are within the distance before `time`.")
+      .def_readonly("time", &SafeSeparation::time)
+      .def_readonly("within", &SafeSeparation::within, "They certainly are within the distance now.")
+      .def_readonly("probed", &SafeSeparation::probed);
+  py::class_<EarliestContact>(module, "EarliestContact", "The first contact that a body may come to.")
+      .def_readonly("time", &EarliestContact::time, "Infinite when there can be none.")
+      .def_property_readonly("partner", partner_of<EarliestContact>)
+      .def_property_readonly("wall", wall_of<EarliestContact>)
+      .def_readonly("touching", &EarliestContact::touching)
+      .def_readonly("probed", &EarliestContact::probed);
+  py::class_<EarliestApproach>(module, "EarliestApproach",
+                               "The first time at which something may be within a distance of a body.")
+      .def_readonly("time", &EarliestApproach::time)
+      .def_property_readonly("partner", partner_of<EarliestApproach>)
+      .def_property_readonly("wall", wall_of<EarliestApproach>)
+      .def_readonly("within", &EarliestApproach::within)
+      .def_readonly("probed", &EarliestApproach::probed);
+  py::class_<DistanceLimits>(
+      module, "DistanceLimits",
+      "The distance between two surfaces (negative when they overlap) lies in [lower, upper].")
+      .def_readonly("lower", &DistanceLimits::lower)
+      .def_readonly("upper", &DistanceLimits::upper)
+      .def_readonly("probed", &DistanceLimits::probed);
+}
+
+}  // namespace
+
+void bind_answers(py::module_& module, WorldClass& world) {
+  bind_results(module);
+  const auto no_probe = py::arg("probe") = py::none();
+  world
+      .def("safe_until", safe_until, py::arg("first") = py::none(), py::arg("second") = py::none(),
+           py::arg("distance") = py::none(), no_probe,
+           R"(Until when it is certain that nothing begins to touch: anything; a body; two bodies.
+
+With two bodies and a distance (length): until when their surfaces stay further apart than that. With a
+probe the answer is as late as fresh reports allow; without one it costs no report. It holds until somebody
+changes a velocity or adds something. Returns a SafeTime, or with a distance a SafeSeparation. Cost: O(n).)")
+      .def("earliest_contact", earliest_contact, py::arg("body"), no_probe,
+           "As safe_until(body), naming the partner or wall that may come first. Cost: O(n).")
+      .def("earliest_approach", earliest_approach, py::arg("body"), py::arg("distance"), no_probe,
+           "Who may be the first within this distance (length) of the body, and when at the earliest. Cost: "
+           "O(n).")
+      .def("distance_limits", distance_limits, py::arg("first"), py::arg("second"), py::arg("time"), no_probe,
+           "How far apart the surfaces of two bodies are at `time` >= now, at least and at most. Cost: O(1).")
+      .def("overlapping", overlapping, py::arg("centre"), py::arg("radius"), no_probe,
+           R"(The bodies that may overlap a sphere now: a structured array with the fields body and certain.
+
+Who is left out certainly does not. With a probe those in doubt are asked.)")
+      .def("overlapping_box", overlapping_box, py::arg("box"), no_probe, "As overlapping(), for a Box.")
+      .def("nearest", nearest, py::arg("point"), py::arg("count"), no_probe,
+           R"(All bodies that may be among the `count` nearest to a point: fields body, certain, lower, upper.
+
+Their surfaces are between lower and upper (length) away.)")
+      .def("ray_cast", ray_cast, py::arg("origin"), py::arg("direction"), py::arg("length"), no_probe,
+           "All bodies that may be the first on the way; fields as in nearest(), lengths along the way.")
+      .def("sphere_cast", sphere_cast, py::arg("origin"), py::arg("radius"), py::arg("direction"),
+           py::arg("length"), no_probe, "As ray_cast(), for a sphere of this radius.");
+}
+
+}  // namespace kinesphere::python

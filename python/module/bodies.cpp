@@ -1,0 +1,425 @@
+// Bodies that come, change and go: calls of a world.
+#include <limits>
+#include <string>
+
+#include "errors.hpp"
+#include "exchange.hpp"
+#include "motions.hpp"
+#include "shapes.hpp"
+#include "world.hpp"
+
+namespace kinesphere::python {
+namespace {
+
+constexpr std::uint64_t all_categories = std::numeric_limits<std::uint64_t>::max();
+
+std::int32_t group_of(const py::object& given, const Argument& argument) {
+  const auto group = given.cast<long long>();
+  constexpr long long least = std::numeric_limits<std::int32_t>::min(),
+                      most = std::numeric_limits<std::int32_t>::max();
+  if (group < least || group > most) refuse(argument, "must have 32 bits", "is " + std::to_string(group));
+  return static_cast<std::int32_t>(group);
+}
+
+SensorClass sensor_class_of(std::uint64_t given, const Argument& argument) {
+  if (given > std::numeric_limits<SensorClass>::max())
+    refuse(argument, "must lie in [0, 255]", "is " + std::to_string(given));
+  return static_cast<SensorClass>(given);
+}
+
+/// "add: body 3: ..." becomes the number in the arrays that came.
+std::vector<BodyDefinition> definitions_of(
+    WorldHandle& handle, const py::object& positions, const py::object& velocities, const py::object& radii,
+    const py::object& acceleration_limits, const py::object& planned_accelerations,
+    const py::object& position_errors, const py::object& velocity_errors, const py::object& categories,
+    const py::object& masks, const py::object& groups, const py::object& solid,
+    const py::object& sensor_classes, const py::object& user_data) {
+  const std::string_view call = "add";
+  const std::vector<State> states = states_of(positions, velocities, call, handle.is_plane());
+  const std::size_t count = states.size();
+  std::vector<BodyDefinition> bodies(count);
+  const auto set = [&](const auto& values, auto assign) {
+    for (std::size_t k = 0; k < count; ++k) assign(bodies[k], values[k]);
+  };
+  set(states, [](BodyDefinition& body, const State& state) {
+    body.position = state.position;
+    body.velocity = state.velocity;
+  });
+  set(each_of(radii, {call, "radii"}, count),
+      [](BodyDefinition& body, double radius) { body.radius = radius; });
+  set(each_of(acceleration_limits, {call, "acceleration_limits"}, count),
+      [](BodyDefinition& body, double limit) { body.acceleration_limit = limit; });
+  if (!planned_accelerations.is_none()) {
+    const Argument argument{call, "planned_accelerations"};
+    const Numbers numbers(planned_accelerations, argument);
+    const bool is_one = numbers.dimensions() == 1 && numbers.length(0) > 0;
+    const auto plan_of = [](BodyDefinition& body, const Vec3& plan) { body.planned_acceleration = plan; };
+    if (is_one)
+      set(std::vector<Vec3>(count, vector_of(planned_accelerations, argument, handle.is_plane())), plan_of);
+    else
+      set(vectors_of(planned_accelerations, argument, handle.is_plane(), count), plan_of);
+  }
+  set(each_of(position_errors, {call, "position_errors"}, count),
+      [](BodyDefinition& body, double error) { body.position_error = error; });
+  set(each_of(velocity_errors, {call, "velocity_errors"}, count),
+      [](BodyDefinition& body, double error) { body.velocity_error = error; });
+  set(each_whole_of(categories, {call, "categories"}, count),
+      [](BodyDefinition& body, std::uint64_t category) { body.filter.category = category; });
+  set(each_whole_of(masks, {call, "masks"}, count),
+      [](BodyDefinition& body, std::uint64_t mask) { body.filter.mask = mask; });
+  const std::int32_t group = group_of(groups, {call, "group"});
+  const bool is_solid = solid.cast<bool>();
+  for (BodyDefinition& body : bodies) {
+    body.filter.group = group;
+    body.solid = is_solid;
+  }
+  set(each_whole_of(sensor_classes, {call, "sensor_classes"}, count),
+      [&](BodyDefinition& body, std::uint64_t sensor_class) {
+        body.sensor_class = sensor_class_of(sensor_class, {call, "sensor_classes"});
+      });
+  set(each_whole_of(user_data, {call, "user_data"}, count),
+      [](BodyDefinition& body, std::uint64_t data) { body.user_data = data; });
+  return bodies;
+}
+
+/// One vector, which stands for a single body.
+bool is_vector(const py::object& given) {
+  const Numbers numbers(given, {"add", "positions"});
+  return numbers.dimensions() == 1 && numbers.length(0) > 0;
+}
+
+py::object one_row(const py::object& vector) {
+  if (vector.is_none()) return py::none();
+  return numpy("asarray")(vector).attr("reshape")(1, -1);
+}
+
+py::object add_bodies(WorldHandle& handle, const py::object& positions, const py::object& velocities,
+                      const py::object& radii, const py::object& acceleration_limits,
+                      const py::object& planned_accelerations, const py::object& position_errors,
+                      const py::object& velocity_errors, const py::object& categories,
+                      const py::object& masks, const py::object& group, const py::object& solid,
+                      const py::object& sensor_classes, const py::object& user_data) {
+  const auto turn = handle.take("add");
+  const bool single = is_vector(positions);
+  const auto bodies =
+      definitions_of(handle, single ? one_row(positions) : py::reinterpret_borrow<py::object>(positions),
+                     single ? one_row(velocities) : py::reinterpret_borrow<py::object>(velocities), radii,
+                     acceleration_limits, planned_accelerations, position_errors, velocity_errors, categories,
+                     masks, group, solid, sensor_classes, user_data);
+  if (single) {
+    const BodyId id = handle.world.add(bodies.front()).value();
+    end_call(handle);
+    return object_of(id);
+  }
+  const std::vector<BodyId> ids = without_gil(handle, [&] { return handle.world.add_all(bodies); }).value();
+  return array_of(ids);
+}
+
+/// All bodies of a motion, in a world in which their ids will be their numbers.
+py::object add_motion(WorldHandle& handle, MotionHandle& moved, const py::object& radii) {
+  const auto turn = handle.take("add_motion");
+  const auto turn_of_motion = moved.in_use.take_alone("add_motion", "motion");
+  const Motion& motion = *moved.motion;
+  const Argument argument{"add_motion", "motion"};
+  const std::vector<double> each_radius = each_of(radii, {"add_motion", "radii"}, motion.size());
+  std::vector<BodyDefinition> bodies;
+  for (std::uint32_t number = 0; number < motion.size(); ++number) {
+    if (!motion.contains(number))
+      refuse(argument, "must have all its bodies", "has lost number " + std::to_string(number));
+    bodies.push_back(motion.definition(number, handle.world.time()));
+    bodies.back().radius = each_radius[number];
+  }
+  if (handle.world.size() > 0)
+    refuse(argument, "must be added to a world without bodies, so that its numbers are ids",
+           "there are " + std::to_string(handle.world.size()) + " (a BodyMap has no such need)");
+  const std::vector<BodyId> ids = without_gil(handle, [&] { return handle.world.add_all(bodies); }).value();
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    if (ids[k].index == k) continue;
+    require(handle.world.remove_all(ids));
+    refuse(argument, "must be added to a world that never had bodies, so that its numbers are ids",
+           "some have been removed (a BodyMap has no such need)");
+  }
+  return array_of(ids);
+}
+
+py::object add_fixed(WorldHandle& handle, const py::object& shape, std::uint64_t category, std::uint64_t mask,
+                     const py::object& group, bool solid, std::uint64_t sensor_class,
+                     std::uint64_t user_data) {
+  const auto turn = handle.take("add_fixed");
+  const BodyId id =
+      handle.world
+          .add_fixed({.shape = shape_of(shape, {"add_fixed", "shape"}),
+                      .filter = {category, mask, group_of(group, {"add_fixed", "group"})},
+                      .solid = solid,
+                      .sensor_class = sensor_class_of(sensor_class, {"add_fixed", "sensor_class"}),
+                      .user_data = user_data})
+          .value();
+  handle.fixed.insert(id.pack());
+  end_call(handle);
+  return object_of(id);
+}
+
+py::object add_zone(WorldHandle& handle, const py::object& shape, std::uint64_t user_data) {
+  const auto turn = handle.take("add_zone");
+  const BodyId id = handle.world.add_zone(shape_of(shape, {"add_zone", "shape"}), user_data).value();
+  handle.fixed.insert(id.pack());
+  end_call(handle);
+  return object_of(id);
+}
+
+py::object add_mesh(WorldHandle& handle, const py::object& vertices, const py::object& corners,
+                    std::uint64_t category, std::uint64_t mask, const py::object& group) {
+  const auto turn = handle.take("add_mesh");
+  const std::vector<Vec3> places = vectors_of(vertices, {"add_mesh", "vertices"}, false);
+  const Argument argument{"add_mesh", "corners"};
+  std::vector<std::array<std::uint32_t, 3>> triples;
+  for (const py::handle item : py::reinterpret_borrow<py::iterable>(corners)) {
+    const std::vector<std::uint64_t> numbers = each_whole_of(item, argument, 3);
+    auto& triple = triples.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k)
+      triple[k] = static_cast<std::uint32_t>(std::min<std::uint64_t>(numbers[k], 0xffffffffu));
+  }
+  const auto triangles =
+      mesh(places, triples, {category, mask, group_of(group, {"add_mesh", "group"})}).value();
+  const std::vector<BodyId> ids = handle.world.add_fixed_all(triangles).value();
+  for (const BodyId id : ids) handle.fixed.insert(id.pack());
+  end_call(handle);
+  return array_of(ids);
+}
+
+void remove(WorldHandle& handle, const py::object& bodies) {
+  const auto turn = handle.take("remove");
+  const Ids named = ids_of(bodies, {"remove", "bodies"});
+  require(named.is_single ? handle.world.remove(named.ids.front()) : handle.world.remove_all(named.ids));
+  end_call(handle);
+}
+
+/// A change of one body, or of many, one after the other.
+template <class Change>
+void change_each(WorldHandle& handle, const py::object& bodies, const char* call, const Change& change) {
+  const auto turn = handle.take(call);
+  const Ids named = ids_of(bodies, {call, "bodies"});
+  for (std::size_t k = 0; k < named.ids.size(); ++k) require(change(named.ids[k], k));
+  end_call(handle);
+}
+
+/// A call that changes bodies, each in the same way.
+template <class Change>
+auto changing(const char* call, Change change) {
+  return [call, change](WorldHandle& handle, const py::object& bodies) {
+    change_each(handle, bodies, call, [&](BodyId body, std::size_t) { return change(handle.world, body); });
+  };
+}
+
+/// Vectors for bodies: one for one id, one in a row for an array of ids.
+std::vector<Vec3> vectors_for(WorldHandle& handle, const py::object& bodies, const py::object& vectors,
+                              const Argument& argument) {
+  const Ids named = ids_of(bodies, {argument.call, "bodies"});
+  if (named.is_single) return {vector_of(vectors, argument, handle.is_plane())};
+  return vectors_of(vectors, argument, handle.is_plane(), named.ids.size());
+}
+
+void set_velocity(WorldHandle& handle, const py::object& bodies, const py::object& velocities) {
+  const std::vector<Vec3> each = vectors_for(handle, bodies, velocities, {"set_velocity", "velocities"});
+  change_each(handle, bodies, "set_velocity",
+              [&](BodyId body, std::size_t k) { return handle.world.set_velocity(body, each[k]); });
+}
+
+/// The states of teleport() and enable().
+template <class Change>
+void put(WorldHandle& handle, const py::object& bodies, const py::object& positions,
+         const py::object& velocities, const char* call, const Change& change) {
+  const std::vector<Vec3> places = vectors_for(handle, bodies, positions, {call, "positions"});
+  std::vector<Vec3> speeds(places.size());
+  if (!velocities.is_none()) speeds = vectors_for(handle, bodies, velocities, {call, "velocities"});
+  change_each(handle, bodies, call, [&](BodyId body, std::size_t k) {
+    return change(handle.world, body, State{places[k], speeds[k]});
+  });
+}
+
+void set_radius(WorldHandle& handle, const py::object& bodies, const py::object& radii) {
+  const std::vector<double> each =
+      each_of(radii, {"set_radius", "radii"}, ids_of(bodies, {"set_radius", "bodies"}).ids.size());
+  change_each(handle, bodies, "set_radius",
+              [&](BodyId body, std::size_t k) { return handle.world.set_radius(body, each[k]); });
+}
+
+void set_motion_limits(WorldHandle& handle, const py::object& bodies, double acceleration_limit,
+                       const py::object& plan, double position_error, double velocity_error) {
+  const MotionLimits limits{acceleration_limit,
+                            vector_of(plan, {"set_motion_limits", "planned_acceleration"}, handle.is_plane()),
+                            position_error, velocity_error};
+  change_each(handle, bodies, "set_motion_limits",
+              [&](BodyId body, std::size_t) { return handle.world.set_motion_limits(body, limits); });
+}
+
+void set_filter(WorldHandle& handle, const py::object& bodies, std::uint64_t category, std::uint64_t mask,
+                const py::object& group) {
+  const Filter filter{category, mask, group_of(group, {"set_filter", "group"})};
+  change_each(handle, bodies, "set_filter",
+              [&](BodyId body, std::size_t) { return handle.world.set_filter(body, filter); });
+}
+
+void set_pair_filter(WorldHandle& handle, const py::object& function) {
+  const auto turn = handle.take("set_pair_filter");
+  if (!function.is_none() && PyCallable_Check(function.ptr()) == 0)
+    throw py::type_error("set_pair_filter: function must be a function of (first, second), but is " +
+                         py::repr(function).cast<std::string>());
+  std::shared_ptr<FilterTrouble> trouble;
+  if (!function.is_none()) trouble = std::make_shared<FilterTrouble>();
+  require(handle.world.set_pair_filter(pair_filter_of(function, trouble)));
+  handle.filter_trouble = trouble;
+  end_call(handle);
+}
+
+void set_sensor(WorldHandle& handle, std::uint64_t sensor_class, const py::object& distances,
+                std::uint64_t mask) {
+  const auto turn = handle.take("set_sensor");
+  const Argument argument{"set_sensor", "distances"};
+  const Numbers numbers(distances, argument);
+  if (numbers.dimensions() > 1) refuse(argument, "must have shape (n,)", "has shape " + numbers.shape());
+  Sensor sensor{.mask = mask};
+  sensor.distances = each_of(distances, argument, numbers.dimensions() == 0 ? 1 : numbers.length(0));
+  require(handle.world.set_sensor(sensor_class_of(sensor_class, {"set_sensor", "sensor_class"}), sensor));
+  end_call(handle);
+}
+
+}  // namespace
+
+void bind_bodies(WorldClass& world) {
+  world
+      .def("add", add_bodies, py::arg("positions"), py::arg("velocities") = py::none(),
+           py::arg("radii") = 1.0, py::arg("acceleration_limits") = 0.0, py::kw_only(),
+           py::arg("planned_accelerations") = py::none(), py::arg("position_errors") = 0.0,
+           py::arg("velocity_errors") = 0.0, py::arg("categories") = 1, py::arg("masks") = all_categories,
+           py::arg("group") = 0, py::arg("solid") = true, py::arg("sensor_classes") = 0,
+           py::arg("user_data") = 0,
+           R"(Adds bodies at the current time, all of them or, where something is wrong, none.
+
+positions (length): shape (n, 3), or (n, 2) in a world of two dimensions; shape (3,) or (2,) for one body.
+velocities (length / time): the same shape; zero without.
+
+What follows is one number for all, or one of each body, shape (n,):
+radii (length, >= 0).
+acceleration_limits (length / time^2, >= 0): the largest deviation from the planned acceleration.
+planned_accelerations (length / time^2): shape (n, 3), or one vector for all.
+position_errors (length) and velocity_errors (length / time): how far reports may be off.
+categories, masks (64 bits each), and one group (32 bits): which others they may touch; see set_filter().
+solid: False for what touches nobody and only senses and is sensed.
+sensor_classes (0 to 254).
+user_data (64 bits): kept for you.
+
+Returns the ids: an array of int64, shape (n,), or a BodyId for a single body. Raises InvalidValue that
+names the argument and the body. Cost: O(1) each, and a search when the world goes on.)")
+      .def("add_motion", add_motion, py::arg("motion"), py::arg("radii") = 1.0,
+           R"(Adds all bodies of a motion to a world that never had any: their numbers are their ids.
+
+radii (length) is one number, or one of each body. Returns the ids, 0 to n - 1. States and promises are the
+motion's at world.time.)")
+      .def("add_fixed", add_fixed, py::arg("shape"), py::kw_only(), py::arg("category") = 1,
+           py::arg("mask") = all_categories, py::arg("group") = 0, py::arg("solid") = true,
+           py::arg("sensor_class") = 0, py::arg("user_data") = 0,
+           R"(Adds a body that never moves: a Ball, Box, HalfSpace or Triangle. Returns its BodyId.
+
+It may reach out of the box of the world; it is never probed. Where space repeats it has to be a Ball.)")
+      .def("add_zone", add_zone, py::arg("shape"), py::arg("user_data") = 0,
+           R"(Adds a zone: it touches nobody and tells who comes in and goes.
+
+Its events are sensor_enter and sensor_leave at distance 0. Zones are of the sensor class zone_class.)")
+      .def("add_mesh", add_mesh, py::arg("vertices"), py::arg("corners"), py::kw_only(),
+           py::arg("category") = 1, py::arg("mask") = all_categories, py::arg("group") = 0,
+           R"(Adds a fixed triangle for each row of corners, which are numbers of vertices.
+
+Shapes: vertices (n, 3), corners (m, 3). Returns their ids, shape (m,).)")
+      .def(
+          "reserve",
+          [](WorldHandle& handle, std::size_t bodies) {
+            const auto turn = handle.take("reserve");
+            require(handle.world.reserve(bodies));
+          },
+          py::arg("bodies"), "Makes room for this many bodies in all, before many are added one by one.")
+      .def("remove", remove, py::arg("bodies"),
+           R"(Removes a body, or all bodies of an array, or on an error none.
+
+Their contacts end: the end events come next. Ids of removed bodies are stale for ever.)")
+      .def("set_velocity", set_velocity, py::arg("bodies"), py::arg("velocities"),
+           R"(Tells the world that these velocities (length / time) hold from the current time on.
+
+One id and shape (3,), or n ids and shape (n, 3). The probe has to answer accordingly. On an error the
+bodies before the one that it names have been changed; this holds for all calls below that take several
+bodies.)")
+      .def(
+          "teleport",
+          [](WorldHandle& handle, const py::object& bodies, const py::object& positions,
+             const py::object& velocities) {
+            put(handle, bodies, positions, velocities, "teleport",
+                [](World& of, BodyId body, const State& state) { return of.teleport(body, state); });
+          },
+          py::arg("bodies"), py::arg("positions"), py::arg("velocities") = py::none(),
+          "These bodies are in other states from now on; shapes as in set_velocity().")
+      .def("set_radius", set_radius, py::arg("bodies"), py::arg("radii"))
+      .def("set_motion_limits", set_motion_limits, py::arg("bodies"), py::arg("acceleration_limit"),
+           py::kw_only(), py::arg("planned_acceleration") = py::make_tuple(0.0, 0.0, 0.0),
+           py::arg("position_error") = 0.0, py::arg("velocity_error") = 0.0,
+           "From now on these bodies move within these limits; see add().")
+      .def("disable", changing("disable", [](World& of, BodyId body) { return of.disable(body); }),
+           py::arg("bodies"), "Disabled bodies touch nobody and are not probed. They keep their ids.")
+      .def(
+          "enable",
+          [](WorldHandle& handle, const py::object& bodies, const py::object& positions,
+             const py::object& velocities) {
+            put(handle, bodies, positions, velocities, "enable",
+                [](World& of, BodyId body, const State& state) { return of.enable(body, state); });
+          },
+          py::arg("bodies"), py::arg("positions"), py::arg("velocities") = py::none(),
+          "These bodies are back, in these states.")
+      .def("rest", changing("rest", [](World& of, BodyId body) { return of.rest(body); }), py::arg("bodies"),
+           "These bodies stay exactly where they are until they are woken, and cost nothing meanwhile.")
+      .def("wake", changing("wake", [](World& of, BodyId body) { return of.wake(body); }), py::arg("bodies"),
+           "Wakes these bodies, and all resting ones in touch with them.")
+      .def("set_filter", set_filter, py::arg("bodies"), py::kw_only(), py::arg("category") = 1,
+           py::arg("mask") = all_categories, py::arg("group") = 0,
+           R"(Two bodies touch if the category of each has a bit in the mask of the other; of the same
+non-zero group, if it is positive.)")
+      .def("set_pair_filter", set_pair_filter, py::arg("function"),
+           R"(A function of two ids that says whether these bodies may touch, or None.
+
+It must be symmetric, and its answers must not change but before refilter(). What it raises comes out of the
+call of the world that asked it, and counts as True.)")
+      .def("refilter", changing("refilter", [](World& of, BodyId body) { return of.refilter(body); }),
+           py::arg("bodies"),
+           "Tells the world that the pair filter's answers about these bodies have changed.")
+      .def(
+          "set_solid",
+          [](WorldHandle& handle, const py::object& bodies, bool solid) {
+            change_each(handle, bodies, "set_solid",
+                        [&](BodyId body, std::size_t) { return handle.world.set_solid(body, solid); });
+          },
+          py::arg("bodies"), py::arg("solid"))
+      .def("set_sensor", set_sensor, py::arg("sensor_class"), py::arg("distances"),
+           py::arg("mask") = all_categories,
+           R"(From now on all bodies of this class sense others at these distances (length, each >= 0).
+
+distances: shape (k,), or a number. Each crossing is told by sensor_enter and sensor_leave. The mask says which categories are sensed. Cost:
+O(n).)")
+      .def(
+          "set_sensor_class",
+          [](WorldHandle& handle, const py::object& bodies, std::uint64_t sensor_class) {
+            const SensorClass given = sensor_class_of(sensor_class, {"set_sensor_class", "sensor_class"});
+            change_each(handle, bodies, "set_sensor_class",
+                        [&](BodyId body, std::size_t) { return handle.world.set_sensor_class(body, given); });
+          },
+          py::arg("bodies"), py::arg("sensor_class"))
+      .def(
+          "set_user_data",
+          [](WorldHandle& handle, const py::object& bodies, const py::object& data) {
+            const std::vector<std::uint64_t> each = each_whole_of(
+                data, {"set_user_data", "data"}, ids_of(bodies, {"set_user_data", "bodies"}).ids.size());
+            change_each(handle, bodies, "set_user_data", [&](BodyId body, std::size_t k) {
+              return handle.world.set_user_data(body, each[k]);
+            });
+          },
+          py::arg("bodies"), py::arg("data"));
+}
+
+}  // namespace kinesphere::python

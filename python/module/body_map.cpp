@@ -1,0 +1,148 @@
+// Worlds whose bodies are moved by one motion or several.
+#include <algorithm>
+
+#include "errors.hpp"
+#include "exchange.hpp"
+#include "motions.hpp"
+#include "world.hpp"
+
+namespace kinesphere::python {
+namespace {
+
+using MapClass = py::class_<BodyMapHandle, std::shared_ptr<BodyMapHandle>>;
+
+constexpr const char* map_name = "body map";
+
+void keep(BodyMapHandle& map, const py::object& motion) {
+  const auto same = [&](const py::object& kept) { return kept.is(motion); };
+  if (std::none_of(map.motions.begin(), map.motions.end(), same)) map.motions.push_back(motion);
+}
+
+BodyDefinition like(double radius, std::uint64_t category, std::uint64_t mask, std::int32_t group, bool solid,
+                    SensorClass sensor_class, std::uint64_t user_data) {
+  return {.radius = radius,
+          .filter = {category, mask, group},
+          .solid = solid,
+          .sensor_class = sensor_class,
+          .user_data = user_data};
+}
+
+py::object add_moved(BodyMapHandle& map, WorldHandle& world, const py::object& moving, std::uint32_t number,
+                     double radius, std::uint64_t category, std::uint64_t mask, std::int32_t group,
+                     bool solid, SensorClass sensor_class, std::uint64_t user_data) {
+  auto& motion = moving.cast<MotionHandle&>();
+  const auto turn = map.in_use.take_alone("add", map_name);
+  const auto turn_of_motion = motion.in_use.take_alone("add", "motion");
+  const auto turn_of_world = world.take("add");
+  const BodyId id = map.map
+                        .add(world.world, *motion.motion, number,
+                             like(radius, category, mask, group, solid, sensor_class, user_data))
+                        .value();
+  keep(map, moving);
+  end_call(world);
+  return object_of(id);
+}
+
+py::object add_all_moved(BodyMapHandle& map, WorldHandle& world, const py::object& moving,
+                         const py::object& radii, std::uint64_t category, std::uint64_t mask,
+                         std::int32_t group, bool solid, SensorClass sensor_class, std::uint64_t user_data) {
+  auto& motion = moving.cast<MotionHandle&>();
+  const auto turn = map.in_use.take_alone("add_all", map_name);
+  const auto turn_of_motion = motion.in_use.take_alone("add_all", "motion");
+  const auto turn_of_world = world.take("add_all");
+  std::size_t count = 0;
+  for (std::uint32_t number = 0; number < motion.motion->size(); ++number)
+    count += motion.motion->contains(number) ? 1 : 0;
+  const std::vector<double> each = each_of(radii, {"add_all", "radii"}, count);
+  const std::vector<BodyId> ids =
+      map.map
+          .add_all(world.world, *motion.motion, each,
+                   like(1.0, category, mask, group, solid, sensor_class, user_data))
+          .value();
+  keep(map, moving);
+  end_call(world);
+  return array_of(ids);
+}
+
+/// A change of a body in its motion and in the world.
+template <class Change>
+void change(BodyMapHandle& map, WorldHandle& world, const char* call, const Change& made) {
+  const auto turn = map.in_use.take_alone(call, map_name);
+  const auto turn_of_world = world.take(call);
+  require(made(map.map, world.world));
+  end_call(world);
+}
+
+}  // namespace
+
+void bind_body_map(py::module_& module) {
+  constexpr std::uint64_t all_categories = ~std::uint64_t{0};
+  MapClass(
+      module, "BodyMap",
+      R"(Which body of a world is which body of which motion, where several move them or bodies come and go.
+
+It serves wherever a probe or a motion is asked for. It keeps its motions alive. One map may serve clones of
+a world.)")
+      .def(py::init([] { return std::make_shared<BodyMapHandle>(); }))
+      .def("add", add_moved, py::arg("world"), py::arg("motion"), py::arg("number"), py::arg("radius") = 1.0,
+           py::kw_only(), py::arg("category") = 1, py::arg("mask") = all_categories, py::arg("group") = 0,
+           py::arg("solid") = true, py::arg("sensor_class") = 0, py::arg("user_data") = 0,
+           "Adds a body of a motion to the world, with the motion's state and promise at world.time. Returns "
+           "its BodyId.")
+      .def("add_all", add_all_moved, py::arg("world"), py::arg("motion"), py::arg("radii") = 1.0,
+           py::kw_only(), py::arg("category") = 1, py::arg("mask") = all_categories, py::arg("group") = 0,
+           py::arg("solid") = true, py::arg("sensor_class") = 0, py::arg("user_data") = 0,
+           "All bodies of the motion, in the order of their numbers; radii is one number, or one of each. "
+           "Returns ids, shape (n,).")
+      .def(
+          "set_velocity",
+          [](BodyMapHandle& map, WorldHandle& world, const py::object& body, const py::object& velocity) {
+            const BodyId id = id_of(body, {"set_velocity", "body"});
+            const Vec3 given = vector_of(velocity, {"set_velocity", "velocity"}, world.is_plane());
+            change(map, world, "set_velocity",
+                   [&](BodyMap& known, World& of) { return known.set_velocity(of, id, given); });
+          },
+          py::arg("world"), py::arg("body"), py::arg("velocity"),
+          "In the motion and in the world, at world.time.")
+      .def(
+          "teleport",
+          [](BodyMapHandle& map, WorldHandle& world, const py::object& body, const py::object& position,
+             const py::object& velocity) {
+            const BodyId id = id_of(body, {"teleport", "body"});
+            const State state{vector_of(position, {"teleport", "position"}, world.is_plane()),
+                              vector_of(velocity, {"teleport", "velocity"}, world.is_plane())};
+            change(map, world, "teleport",
+                   [&](BodyMap& known, World& of) { return known.teleport(of, id, state); });
+          },
+          py::arg("world"), py::arg("body"), py::arg("position"), py::arg("velocity"))
+      .def(
+          "remove",
+          [](BodyMapHandle& map, WorldHandle& world, const py::object& body) {
+            const BodyId id = id_of(body, {"remove", "body"});
+            change(map, world, "remove", [&](BodyMap& known, World& of) { return known.remove(of, id); });
+          },
+          py::arg("world"), py::arg("body"))
+      .def(
+          "tell_violations",
+          [](BodyMapHandle& map, WorldHandle& world, const HandleOf<Frames>& frames) {
+            change(map, world, "tell_violations",
+                   [&](BodyMap& known, World& of) { return known.tell_violations(of, frames.get()); });
+          },
+          py::arg("world"), py::arg("frames"),
+          "After each Frames.push(): tells the world the velocities of bodies that broke their promise in "
+          "that frame.")
+      .def(
+          "find",
+          [](const BodyMapHandle& map, const py::object& body) -> py::object {
+            const auto found = map.map.find(id_of(body, {"find", "body"}));
+            if (!found) return py::none();
+            const auto moves_it = [&](const py::object& kept) {
+              return kept.cast<MotionHandle&>().motion.get() == found->motion;
+            };
+            return py::make_tuple(*std::find_if(map.motions.begin(), map.motions.end(), moves_it),
+                                  found->number);
+          },
+          py::arg("body"), "The motion and the number there of a body; None for one that is not known.");
+}
+
+}  // namespace kinesphere::python

@@ -1,0 +1,26 @@
+// Errors of the library as exceptions of Python.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "kinesphere/result.hpp"
+
+namespace kinesphere::python {
+
+namespace py = pybind11;
+
+/// From now on BadResult, which Result::value() throws, comes out as an exception of kinesphere.errors.
+void bind_errors(py::module_& module);
+
+/// Of this package alone: the library has no word for it.
+[[noreturn]] void throw_state_error(std::string_view code, std::string_view argument,
+                                    const std::string& message);
+
+/// Throws BadResult unless the call succeeded.
+inline void require(const Result<void>& result) { result.value(); }
+
+}  // namespace kinesphere::python

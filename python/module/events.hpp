@@ -1,0 +1,45 @@
+// Events as objects of Python, and as rows of a table.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kinesphere/event.hpp"
+
+namespace kinesphere::python {
+
+namespace py = pybind11;
+
+/// A row: kinesphere.event_dtype.
+struct EventRecord {
+  double time;
+  std::int64_t first;
+  std::int64_t second;
+  State first_state;
+  State second_state;
+  Vec3 point;
+  Vec3 normal;
+  double gap;
+  double approach_speed;
+  double position_excess;
+  double velocity_excess;
+  double distance;
+  std::uint64_t first_user_data;
+  std::uint64_t second_user_data;
+  EventKind kind;
+  Wall wall;
+  Senses senses;
+  bool repeated;
+  bool jammed;
+};
+EventRecord record_of(const Event& event);
+
+/// A kinesphere.Events.
+py::object table_of(std::span<const EventRecord> records);
+
+void bind_events(py::module_& module);
+
+}  // namespace kinesphere::python

@@ -1,0 +1,187 @@
+// A world that goes on: event by event, or by itself.
+#include <optional>
+#include <string>
+
+#include "errors.hpp"
+#include "exchange.hpp"
+#include "kinesphere/workers.hpp"
+#include "lab/simulation/scene_answer.hpp"
+#include "moving.hpp"
+#include "world.hpp"
+
+namespace kinesphere::python {
+namespace {
+
+/// One advance(): an Event, or nothing. To be called under the GIL.
+std::optional<Event> advanced(WorldHandle& handle, double until, Asked& asked) {
+  const auto turn = handle.take("advance");
+  return without_gil(handle, [&] { return handle.world.advance(until, asked.probe()); }).value();
+}
+
+py::object advance(WorldHandle& handle, double until, const py::object& probe) {
+  Asked asked(probe, "advance", handle.is_plane());
+  const std::optional<Event> event = advanced(handle, until, asked);
+  return event ? py::cast(*event) : py::none();
+}
+
+/// The events of a world up to a time, while a loop goes through them.
+class EventIterator {
+ public:
+  EventIterator(std::shared_ptr<WorldHandle> handle, double until, py::object probe)
+      : handle_(std::move(handle)), until_(until), probe_(std::move(probe)) {}
+
+  Event next() {
+    // Between two events the motion is the caller's to change.
+    Asked asked(probe_, "events", handle_->is_plane());
+    const std::optional<Event> event = advanced(*handle_, until_, asked);
+    if (!event) throw py::stop_iteration();
+    return *event;
+  }
+
+ private:
+  std::shared_ptr<WorldHandle> handle_;
+  double until_;
+  py::object probe_;
+};
+
+/// What answers the events of a run.
+class Responding {
+ public:
+  Responding(const py::object& given, const WorldHandle& handle, Interruptions& interruptions)
+      : interruptions_(interruptions),
+        plane_(handle.is_plane()),
+        fixed_(handle.fixed),
+        given_(py::reinterpret_borrow<py::object>(given)) {
+    if (given.is_none()) return;
+    if (py::isinstance<Bouncing>(given)) {
+      bouncing_ = &given.cast<const Bouncing&>();
+    } else if (py::isinstance<Scene>(given)) {
+      scene_ = &given.cast<const Scene&>();
+    } else if (PyCallable_Check(given.ptr()) == 0) {
+      throw py::type_error("run: respond must be a Bouncing, a Scene or a function of an event, but is " +
+                           py::repr(given).cast<std::string>());
+    }
+  }
+  explicit operator bool() const { return !given_.is_none(); }
+
+  /// Needs no GIL.
+  Answer operator()(const Event& event) const {
+    if (bouncing_ != nullptr)
+      return bouncing_->answer(event, [this](BodyId body) { return fixed_.contains(body.pack()); });
+    if (scene_ != nullptr) {
+      check_known(event.first);
+      check_known(event.second);
+      return scene_answer(*scene_, event);
+    }
+    return interruptions_.call([&] { return answer_of(given_(event), plane_); });
+  }
+
+ private:
+  void check_known(BodyId body) const {
+    if (body == no_body || body.index < scene_->bodies.size()) return;
+    throw BadResult({ErrorCode::unknown_body, "respond", body,
+                     "run: respond must know all bodies, but the scene has no body " + to_string(body)});
+  }
+
+  Interruptions& interruptions_;
+  bool plane_;
+  const std::unordered_set<std::uint64_t>& fixed_;
+  py::object given_;
+  const Bouncing* bouncing_ = nullptr;
+  const Scene* scene_ = nullptr;
+};
+
+/// Threads: a number, or Workers that are there already.
+class Threads {
+ public:
+  explicit Threads(const py::object& given) {
+    if (py::isinstance<Workers>(given)) {
+      workers_ = &given.cast<Workers&>();
+    } else if (given.cast<int>() != 1) {
+      own_.emplace(Workers::create(given.cast<int>()).value());
+      workers_ = &*own_;
+    }
+  }
+  Workers* workers() { return workers_; }
+
+ private:
+  std::optional<Workers> own_;
+  Workers* workers_ = nullptr;
+};
+
+py::object run(WorldHandle& handle, double until, const py::object& motion, const py::object& respond,
+               const py::object& sink, const py::object& threads) {
+  const auto turn = handle.take("run");
+  Asked asked(motion, "run", handle.is_plane());
+  const Responding responding(respond, handle, asked.interruptions());
+  if (responding && asked.mover() == nullptr) {
+    throw py::type_error(
+        "run: motion must be a Motion, a BodyMap or a Mover where there is a respond, as bodies are given "
+        "velocities, "
+        "but is a "
+        "function; loop over world.events() instead");
+  }
+  Threads shared(threads);
+  const auto note = [&](const Event& event) {
+    handle.told.push_back(record_of(event));
+    asked.interruptions().look();
+  };
+  const auto tell = [&](const Event& event) { asked.interruptions().call([&] { sink(event); }); };
+  const Sink told = sink.is_none() ? Sink(note) : Sink(tell);
+  const Result<void> done = without_gil(handle, [&] {
+    if (!responding) return handle.world.run(until, asked.probe(), told, shared.workers());
+    return handle.world.run(
+        until, *asked.mover(), [&](const Event& event) { return responding(event); }, told, shared.workers());
+  });
+  require(done);
+  const py::object table = table_of(handle.told);
+  handle.told = {};
+  return table;
+}
+
+}  // namespace
+
+void bind_going_on(py::module_& module, WorldClass& world) {
+  py::class_<EventIterator>(module, "EventIterator")
+      .def("__iter__", [](const py::object& self) { return self; })
+      .def("__next__", &EventIterator::next);
+  py::class_<Workers>(module, "Workers",
+                      R"(Threads that runs may use, for those who run often: threads in all, 1 to 256.
+
+They work for one run at a time.)")
+      .def(py::init([](int threads) { return Workers::create(threads).value(); }), py::arg("threads"))
+      .def_property_readonly("count", &Workers::count);
+
+  world
+      .def("advance", advance, py::arg("until"), py::arg("probe"),
+           R"(Goes on to the next event, at most to time `until`: the Event, or None at `until`.
+
+What the probe answers is checked: an answer of another shape, or with a NaN, raises InvalidValue that names
+argument and body, is dropped, and the call may be repeated. The same holds when the probe raises.)")
+      .def(
+          "events",
+          [](std::shared_ptr<WorldHandle> handle, double until, py::object probe) {
+            return EventIterator(std::move(handle), until, std::move(probe));
+          },
+          py::arg("until"), py::arg("probe"),
+          R"(Goes through all events up to time `until`: for event in world.events(60.0, probe).
+
+In the loop bodies may be changed, added and removed. When it has run to its end, world.time == until; when
+it is left early, the world stands at the last event. Each step is an advance().)")
+      .def("run", run, py::arg("until"), py::arg("motion"), py::arg("respond") = py::none(), py::kw_only(),
+           py::arg("sink") = py::none(), py::arg("threads") = 1,
+           R"(Goes on to time `until` by itself and returns all Events, in order.
+
+motion: a Motion or BodyMap, and then no Python is called for states; a Mover; without respond any probe.
+respond: what gives bodies new velocities at an event: a Bouncing, a Scene, or a function of the Event that
+returns None or (first velocity or None, second velocity or None). It must depend on the event alone, and
+may not call the world.
+sink: a function that is told each Event, in order; then no Events are returned.
+threads: how many share the work, or Workers; the outcome is the same.
+
+The GIL is released while the engine works, and Ctrl-C interrupts it. When something is raised the world
+stands at a stop and can go on with another run; the Events that were told before come first in what that
+one returns.)");
+}
+
+}  // namespace kinesphere::python

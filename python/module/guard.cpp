@@ -1,0 +1,45 @@
+#include "guard.hpp"
+
+#include <string>
+
+#include "errors.hpp"
+
+namespace kinesphere::python {
+
+InUse::Turn InUse::take(std::string_view call, std::string_view what) {
+  if (depth_ > 0 && owner_ != std::this_thread::get_id()) {
+    throw_state_error("in_use", what,
+                      std::string(call) + ": " + std::string(what) +
+                          " must be used by one thread at a time, but is in use by another");
+  }
+  owner_ = std::this_thread::get_id();
+  return Turn(*this);
+}
+
+InUse::Turn InUse::take_alone(std::string_view call, std::string_view what) {
+  if (depth_ > 0) {
+    throw_state_error("in_use", what,
+                      std::string(call) + ": " + std::string(what) +
+                          " must not be at work, but a run or query asks it now");
+  }
+  owner_ = std::this_thread::get_id();
+  return Turn(*this);
+}
+
+void Interruptions::look() {
+  // The clock takes longer than most states.
+  constexpr int calls_between_looks = 64;
+  if (std::this_thread::get_id() != thread_) return;
+  if (!has_raised_) {
+    if (++calls_ < calls_between_looks) return;
+    calls_ = 0;
+    const Clock::time_point now = Clock::now();
+    if (now < next_) return;
+    next_ = now + interval;
+  }
+  call([] {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  });
+}
+
+}  // namespace kinesphere::python

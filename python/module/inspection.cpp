@@ -1,0 +1,285 @@
+// Seeing inside a world, and its recordings: calls of a world.
+#include <memory>
+#include <string>
+
+#include "errors.hpp"
+#include "exchange.hpp"
+#include "kinesphere/recording.hpp"
+#include "shapes.hpp"
+#include "world.hpp"
+
+namespace kinesphere::python {
+namespace {
+
+/// The bodies that were named, or all of them.
+std::vector<BodyId> named_or_all(const WorldHandle& handle, const py::object& bodies, std::string_view call) {
+  return bodies.is_none() ? handle.world.bodies() : ids_of(bodies, {call, "bodies"}).ids;
+}
+
+py::tuple bounds(WorldHandle& handle, const py::object& bodies) {
+  const auto turn = handle.take("bounds");
+  const std::vector<BodyId> ids = named_or_all(handle, bodies, "bounds");
+  NewArray centres = new_doubles({ids.size(), 3}), radii = new_doubles({ids.size()});
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const BodyView view = handle.world.body(ids[k]).value();
+    const Vec3 centre = view.fixed ? view.definition.position : view.bound.centre_at(handle.world.time());
+    for (int axis = 0; axis < 3; ++axis)
+      centres.data<double>()[3 * k + static_cast<std::size_t>(axis)] = centre[axis];
+    radii.data<double>()[k] = view.fixed ? view.definition.radius : view.bound.radius_at(handle.world.time());
+  }
+  return py::make_tuple(centres.take(), radii.take());
+}
+
+py::object touching(WorldHandle& handle, const py::object& body) {
+  const auto turn = handle.take("touching");
+  return array_of(handle.world.touching(id_of(body, {"touching", "body"})).value());
+}
+
+py::list sensed(WorldHandle& handle, const py::object& body) {
+  const auto turn = handle.take("sensed");
+  py::list found;
+  for (const Sensed& one : handle.world.sensed(id_of(body, {"sensed", "body"})).value())
+    found.append(py::make_tuple(object_of(one.body), one.distance));
+  return found;
+}
+
+py::tuple sensor(const WorldHandle& handle, std::uint64_t sensor_class) {
+  if (sensor_class > 255)
+    refuse({"sensor", "sensor_class"}, "must lie in [0, 255]", "is " + std::to_string(sensor_class));
+  const Sensor& found = handle.world.sensor(static_cast<SensorClass>(sensor_class));
+  return py::make_tuple(array_of(found.distances), found.mask);
+}
+
+py::list certificates(WorldHandle& handle) {
+  const auto turn = handle.take("certificates");
+  py::list list;
+  for (const Certificate& known : handle.world.certificates())
+    list.append(py::make_tuple(object_of(known.first), object_of(known.second), known.until));
+  return list;
+}
+
+py::list cells(WorldHandle& handle) {
+  const auto turn = handle.take("cells");
+  py::list list;
+  for (const CellView& cell : handle.world.cells()) list.append(py::make_tuple(cell.box, cell.bodies));
+  return list;
+}
+
+/// None, or where and what.
+py::object audit(WorldHandle& handle) {
+  const auto turn = handle.take("audit");
+  const auto finding = without_gil(handle, [&] { return handle.world.audit(); });
+  if (!finding) return py::none();
+  return py::make_tuple(finding->where, finding->what);
+}
+
+py::bytes stop_recording(WorldHandle& handle) {
+  const auto turn = handle.take("stop_recording");
+  return bytes_of(handle.world.stop_recording().value());
+}
+
+void bind_views(py::module_& module) {
+  py::class_<BodyView>(module, "BodyView", "What the world knows of a body; a copy.")
+      .def_property_readonly("radius", [](const BodyView& view) { return view.definition.radius; })
+      .def_property_readonly("acceleration_limit",
+                             [](const BodyView& view) { return view.definition.acceleration_limit; })
+      .def_property_readonly(
+          "planned_acceleration",
+          [](const BodyView& view) { return array_of(view.definition.planned_acceleration); })
+      .def_property_readonly("position_error",
+                             [](const BodyView& view) { return view.definition.position_error; })
+      .def_property_readonly("velocity_error",
+                             [](const BodyView& view) { return view.definition.velocity_error; })
+      .def_property_readonly(
+          "position", [](const BodyView& view) { return array_of(view.definition.position); },
+          "At the last report, shape (3,).")
+      .def_property_readonly("velocity",
+                             [](const BodyView& view) { return array_of(view.definition.velocity); })
+      .def_property_readonly(
+          "report_time", [](const BodyView& view) { return view.bound.time; }, "When that was.")
+      .def_property_readonly("category", [](const BodyView& view) { return view.definition.filter.category; })
+      .def_property_readonly("mask", [](const BodyView& view) { return view.definition.filter.mask; })
+      .def_property_readonly("group", [](const BodyView& view) { return view.definition.filter.group; })
+      .def_property_readonly("solid", [](const BodyView& view) { return view.definition.solid; })
+      .def_property_readonly("sensor_class",
+                             [](const BodyView& view) { return view.definition.sensor_class; })
+      .def_property_readonly("user_data", [](const BodyView& view) { return view.definition.user_data; })
+      .def_readonly("box", &BodyView::box, "Contains the body, and all that it senses, until box_end.")
+      .def_readonly("box_end", &BodyView::box_end)
+      .def_property_readonly(
+          "image",
+          [](const BodyView& view) { return py::make_tuple(view.image[0], view.image[1], view.image[2]); },
+          "Where space repeats: how many boxes the body has gone beyond the first one.")
+      .def_readonly("enabled", &BodyView::enabled)
+      .def_readonly("fixed", &BodyView::fixed)
+      .def_readonly("resting", &BodyView::resting);
+
+  py::class_<Counters>(module, "Counters", "What a world has done so far; a copy.")
+      .def_readonly("probes", &Counters::probes, "States asked for, one per body and call.")
+      .def_readonly("window_ends", &Counters::window_ends)
+      .def_readonly("starts", &Counters::starts)
+      .def_readonly("restarts", &Counters::restarts)
+      .def_readonly("pair_checks", &Counters::pair_checks)
+      .def_readonly("wall_checks", &Counters::wall_checks)
+      .def_readonly("searches", &Counters::searches)
+      .def_readonly("candidates", &Counters::candidates)
+      .def_readonly("hot_pairs", &Counters::hot_pairs)
+      .def_readonly("certificates", &Counters::certificates)
+      .def_readonly("zeno_steps", &Counters::zeno_steps)
+      .def_readonly("repeated_contacts", &Counters::repeated_contacts)
+      .def_property_readonly("steps", &Counters::steps)
+      .def(
+          "count",
+          [](const Counters& counters, int kind) {
+            if (kind < 0 || kind >= event_kind_count)
+              refuse({"count", "kind"}, "must be an EventKind", "is " + std::to_string(kind));
+            return counters.count(static_cast<EventKind>(kind));
+          },
+          py::arg("kind"), "Events of an EventKind that have been told.");
+}
+
+/// A replay of which the world is read through WorldView.
+struct ReplayHandle {
+  std::shared_ptr<FilterTrouble> trouble;
+  Replay replay;
+};
+
+std::shared_ptr<ReplayHandle> open_replay(const py::object& recording, const py::object& pair_filter) {
+  const std::vector<std::byte> bytes = bytes_from(recording, {"Replay", "recording"});
+  auto trouble = std::make_shared<FilterTrouble>();
+  auto replay = Replay::open(bytes, pair_filter_of(pair_filter, trouble)).value();
+  return std::make_shared<ReplayHandle>(ReplayHandle{trouble, std::move(replay)});
+}
+
+py::object advance_replay(ReplayHandle& handle) {
+  const std::optional<Event> event = handle.replay.advance().value();
+  if (handle.trouble->thrown) std::rethrow_exception(std::exchange(handle.trouble->thrown, nullptr));
+  return event ? py::cast(*event) : py::none();
+}
+
+/// Everything in a recording, without repeating it.
+py::tuple read_all(const py::object& recording) {
+  const RecordedRun run = read_recording(bytes_from(recording, {"read_recording", "recording"})).value();
+  std::vector<EventRecord> events;
+  for (const Event& event : run.events) events.push_back(record_of(event));
+  std::vector<double> times;
+  std::vector<BodyId> bodies;
+  std::vector<State> states;
+  for (const Report& report : run.reports) {
+    times.push_back(report.time);
+    bodies.push_back(report.body);
+    states.push_back(report.state);
+  }
+  const py::tuple arrays = arrays_of(states);
+  return py::make_tuple(run.start_time, run.end_time, table_of(events), array_of(times), array_of(bodies),
+                        arrays[0], arrays[1]);
+}
+
+}  // namespace
+
+void bind_replay(py::module_& module) {
+  py::class_<ReplayHandle, std::shared_ptr<ReplayHandle>>(
+      module, "Replay", R"(A recorded run again, without what moved its bodies.
+
+The first step that goes another way than its recording raises StateError (diverged) that names it.)")
+      .def(py::init(&open_replay), py::arg("recording"), py::arg("pair_filter") = py::none())
+      .def("advance", advance_replay, "The outcome of the next recorded advance: an Event, or None.")
+      .def_property_readonly("finished", [](const ReplayHandle& handle) { return handle.replay.finished(); })
+      .def_property_readonly("step", [](const ReplayHandle& handle) { return handle.replay.step(); })
+      .def_property_readonly("step_count",
+                             [](const ReplayHandle& handle) { return handle.replay.step_count(); })
+      .def_property_readonly("hash", [](const ReplayHandle& handle) { return handle.replay.hash(); })
+      .def(
+          "world",
+          [](const ReplayHandle& handle) {
+            return std::make_shared<WorldHandle>(handle.replay.world().clone().value());
+          },
+          "A clone of the world as it is after the last step. Cost: O(n).");
+  module.def("_read_recording", read_all, py::arg("recording"));
+}
+
+void bind_inspection(py::module_& module, WorldClass& world) {
+  bind_views(module);
+  world
+      .def("bodies", reading("bodies", [](const World& now) { return array_of(now.bodies()); }),
+           "The ids of all bodies, fixed and disabled ones too: int64, shape (n,).")
+      .def(
+          "body",
+          [](WorldHandle& handle, const py::object& body) {
+            const auto turn = handle.take("body");
+            return handle.world.body(id_of(body, {"body", "body"})).value();
+          },
+          py::arg("body"), "What the world knows of a body: a BodyView.")
+      .def("bounds", bounds, py::arg("bodies") = py::none(),
+           R"(The spheres that certainly contain these bodies now, or all bodies: centres, shape (n, 3), and
+radii, shape (n,).)")
+      .def(
+          "shape_of",
+          [](WorldHandle& handle, const py::object& body) {
+            const auto turn = handle.take("shape_of");
+            return object_of(handle.world.shape_of(id_of(body, {"shape_of", "body"})).value());
+          },
+          py::arg("body"), "Of a fixed body; of any other a Ball at its last report.")
+      .def(
+          "user_data",
+          [](WorldHandle& handle, const py::object& body) {
+            const auto turn = handle.take("user_data");
+            return handle.world.user_data(id_of(body, {"user_data", "body"})).value();
+          },
+          py::arg("body"))
+      .def("touching", touching, py::arg("body"),
+           "Whom the body touches, in the order in which the contacts began.")
+      .def("sensed", sensed, py::arg("body"), "Pairs of partner and sensor distance that the body is within.")
+      .def("sensor", sensor, py::arg("sensor_class"), "The distances and the mask of a class.")
+      .def_property_readonly("counters", reading("counters", [](const World& now) { return now.counters(); }))
+      .def("memory",
+           reading("memory",
+                   [](const World& now) {
+                     const Memory memory = now.memory();
+                     py::dict parts;
+                     parts["bodies"] = memory.bodies;
+                     parts["windows"] = memory.windows;
+                     parts["pairs"] = memory.pairs;
+                     parts["contacts"] = memory.contacts;
+                     parts["recording"] = memory.recording;
+                     parts["other"] = memory.other;
+                     return parts;
+                   }),
+           "Bytes by part. Cost: O(n).")
+      .def("cells", cells, "Pairs of a Box and how many bodies lie in it.")
+      .def("certificates", certificates,
+           "Triples of two ids and until when it is certain that nothing changes between them.")
+      .def(
+          "set_timing",
+          [](WorldHandle& handle, bool on) {
+            const auto turn = handle.take("set_timing");
+            require(handle.world.set_timing(on));
+          },
+          py::arg("on"), "Switched on it begins from zero.")
+      .def("timings",
+           reading("timings",
+                   [](const World& now) {
+                     const Timings timings = now.timings();
+                     py::dict parts;
+                     parts["advances"] = timings.advances;
+                     parts["advance"] = timings.advance;
+                     parts["probes"] = timings.probes;
+                     return parts;
+                   }),
+           "Real time (seconds) in advances, and in probes, while timing was on.")
+      .def("audit", audit,
+           "Checks all facts anew: None, or where and what is wrong. For tests; cost: O(n^2).")
+      .def(
+          "start_recording",
+          [](WorldHandle& handle) {
+            const auto turn = handle.take("start_recording");
+            require(handle.world.start_recording());
+          },
+          "From now on all that goes into the world and comes out of it is recorded, in memory.")
+      .def("stop_recording", stop_recording,
+           "The recording as bytes, for Replay, read_recording() and `kinesphere replay`.")
+      .def_property_readonly("recording",
+                             reading("recording", [](const World& now) { return now.recording(); }));
+}
+
+}  // namespace kinesphere::python

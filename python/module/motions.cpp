@@ -1,0 +1,426 @@
+#include "motions.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+
+#include "errors.hpp"
+#include "exchange.hpp"
+#include "kinesphere/motion/ballistic.hpp"
+#include "kinesphere/motion/frames.hpp"
+#include "kinesphere/motion/random_forces.hpp"
+#include "kinesphere/motion/recorded_tracks.hpp"
+#include "kinesphere/motion/steered.hpp"
+#include "kinesphere/motion/velocity_field.hpp"
+
+namespace kinesphere::python {
+namespace {
+
+/// Motions are of any dimension: what comes with two columns lies in the plane z = 0.
+constexpr bool any_dimension = true;
+
+template <class Definition>
+Definition with_limits(std::string_view call, const py::object& positions, const py::object& velocities,
+                       const py::object& limits, double start_time) {
+  Definition definition;
+  definition.start = states_of(positions, velocities, call, any_dimension);
+  definition.acceleration_limits = each_of(limits, {call, "acceleration_limits"}, definition.start.size());
+  definition.start_time = start_time;
+  return definition;
+}
+
+std::uint32_t number_in_motion(long long number) {
+  // What no motion has a body of stays so.
+  const bool is_number = number >= 0 && number < std::numeric_limits<std::uint32_t>::max();
+  return is_number ? static_cast<std::uint32_t>(number) : std::numeric_limits<std::uint32_t>::max();
+}
+
+/// The numbers that were named, or those of all bodies that are there.
+std::vector<std::uint32_t> numbers_of(const Motion& motion, const py::object& named, std::string_view call) {
+  std::vector<std::uint32_t> numbers;
+  if (!named.is_none()) {
+    for (const BodyId id : ids_of(named, {call, "numbers"}).ids)
+      numbers.push_back(id.generation == 0 ? id.index : no_body.index);
+    return numbers;
+  }
+  for (std::uint32_t number = 0; number < motion.size(); ++number)
+    if (motion.contains(number)) numbers.push_back(number);
+  return numbers;
+}
+
+py::tuple states_at(MotionHandle& handle, const py::object& named, double time, std::string_view call) {
+  const auto turn = handle.in_use.take_alone(call, "motion");
+  const std::vector<std::uint32_t> numbers = numbers_of(*handle.motion, named, call);
+  std::vector<State> states(numbers.size());
+  for (std::size_t k = 0; k < numbers.size(); ++k) states[k] = handle.motion->state(numbers[k], time);
+  return arrays_of(states);
+}
+
+/// What World.add() takes.
+py::dict definitions_at(MotionHandle& handle, double time, const py::object& named) {
+  const auto turn = handle.in_use.take_alone("definitions", "motion");
+  const std::vector<std::uint32_t> numbers = numbers_of(*handle.motion, named, "definitions");
+  std::vector<State> states;
+  std::vector<double> limits, position_errors, velocity_errors;
+  NewArray plans = new_doubles({numbers.size(), 3});
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const BodyDefinition body = handle.motion->definition(numbers[k], time);
+    states.push_back({body.position, body.velocity});
+    limits.push_back(body.acceleration_limit);
+    position_errors.push_back(body.position_error);
+    velocity_errors.push_back(body.velocity_error);
+    std::memcpy(plans.data<double>() + 3 * k, &body.planned_acceleration, sizeof(Vec3));
+  }
+  const py::tuple arrays = arrays_of(states);
+  py::dict definitions;
+  definitions["positions"] = arrays[0];
+  definitions["velocities"] = arrays[1];
+  definitions["acceleration_limits"] = array_of(limits);
+  definitions["planned_accelerations"] = plans.take();
+  definitions["position_errors"] = array_of(position_errors);
+  definitions["velocity_errors"] = array_of(velocity_errors);
+  return definitions;
+}
+
+void bind_motion(py::module_& module) {
+  py::class_<MotionHandle, std::shared_ptr<MotionHandle>>(module, "Motion", R"(How bodies really move.
+
+Bodies are named by their numbers 0, 1, 2, ..., which are their ids in a world to which they were added in
+this order. A motion serves wherever a probe is asked for, and then no Python is called for states. It is
+itself the probe motion(ids, t) -> (positions, velocities), to be called by a probe of your own. copy.copy()
+makes one that goes its own way.)")
+      .def("__len__", [](const MotionHandle& handle) { return handle.motion->size(); })
+      .def("__contains__", [](const MotionHandle& handle,
+                              long long number) { return handle.motion->contains(number_in_motion(number)); })
+      .def(
+          "__call__",
+          [](MotionHandle& handle, const py::object& ids, double t) {
+            return states_at(handle, ids, t, "motion");
+          },
+          py::arg("ids"), py::arg("t"),
+          "Positions and velocities of these bodies at time t: two arrays of shape (n, 3).")
+      .def(
+          "states",
+          [](MotionHandle& handle, double t, const py::object& numbers) {
+            return states_at(handle, numbers, t, "states");
+          },
+          py::arg("t"), py::arg("numbers") = py::none(),
+          R"(Positions and velocities of these bodies, or of all, at time t: two arrays of shape (n, 3).
+
+t must not lie before the last change of a body (time_backwards).)")
+      .def("definitions", definitions_at, py::arg("t"), py::arg("numbers") = py::none(),
+           R"(What a world has to know of these bodies, or of all: their promises and their states at time t.
+
+The arguments of World.add(): world.add(**motion.definitions(0.0), radii=0.5).)")
+      .def(
+          "set_velocity",
+          [](MotionHandle& handle, long long number, double t, const py::object& velocity) {
+            const auto turn = handle.in_use.take_alone("set_velocity", "motion");
+            require(handle.motion->set_velocity(
+                number_in_motion(number), t,
+                vector_of(velocity, {"set_velocity", "velocity"}, any_dimension)));
+          },
+          py::arg("number"), py::arg("t"), py::arg("velocity"),
+          "Gives a body a new velocity at time t. The world that watches it has to be told too: "
+          "World.set_velocity().")
+      .def(
+          "teleport",
+          [](MotionHandle& handle, long long number, double t, const py::object& position,
+             const py::object& velocity) {
+            const auto turn = handle.in_use.take_alone("teleport", "motion");
+            require(handle.motion->teleport(number_in_motion(number), t,
+                                            {vector_of(position, {"teleport", "position"}, any_dimension),
+                                             vector_of(velocity, {"teleport", "velocity"}, any_dimension)}));
+          },
+          py::arg("number"), py::arg("t"), py::arg("position"), py::arg("velocity"),
+          "Puts a body into another state at time t. The world has to be told too: World.teleport().")
+      .def(
+          "remove",
+          [](MotionHandle& handle, long long number) {
+            const auto turn = handle.in_use.take_alone("remove", "motion");
+            require(handle.motion->remove(number_in_motion(number)));
+          },
+          py::arg("number"), "The next body that is added takes its number.")
+      .def(
+          "departure",
+          [](MotionHandle& handle, long long number) {
+            const auto turn = handle.in_use.take_alone("departure", "motion");
+            const Departure from = handle.motion->departure(number_in_motion(number));
+            return py::make_tuple(from.time, array_of(from.state.position), array_of(from.state.velocity));
+          },
+          py::arg("number"), "The last change of a body, or its start: time, position and velocity.")
+      .def(
+          "write_body",
+          [](MotionHandle& handle, long long number) {
+            const auto turn = handle.in_use.take_alone("write_body", "motion");
+            std::vector<std::byte> bytes;
+            require(handle.motion->write_body(number_in_motion(number), bytes));
+            return bytes_of(bytes);
+          },
+          py::arg("number"),
+          "What the motion knows of this body alone, for read_body() of a motion that was made with the same "
+          "arguments.")
+      .def(
+          "read_body",
+          [](MotionHandle& handle, const py::object& written) {
+            const auto turn = handle.in_use.take_alone("read_body", "motion");
+            const std::vector<std::byte> bytes = bytes_from(written, {"read_body", "bytes"});
+            std::span<const std::byte> rest = bytes;
+            return handle.motion->read_body(rest).value();
+          },
+          py::arg("bytes"), "Adds the body that write_body() wrote, and returns its number here.");
+}
+
+/// A kind of motion with what is the same in all of them.
+template <class Kind>
+py::class_<HandleOf<Kind>, MotionHandle, std::shared_ptr<HandleOf<Kind>>> bind_kind(
+    py::module_& module, const char* name, const char* documentation) {
+  using Handle = HandleOf<Kind>;
+  const auto copy = [](Handle& handle) {
+    const auto turn = handle.in_use.take_alone("copy", "motion");
+    return std::make_shared<Handle>(handle.motion->clone());
+  };
+  return py::class_<Handle, MotionHandle, std::shared_ptr<Handle>>(module, name, documentation)
+      .def("__copy__", copy)
+      .def("__deepcopy__", [copy](Handle& handle, const py::object&) { return copy(handle); });
+}
+
+template <class Class>
+void bind_add_with_limit(Class& kind) {
+  using Handle = typename Class::type;
+  kind.def(
+      "add",
+      [](Handle& handle, double t, const py::object& position, const py::object& velocity,
+         double acceleration_limit) {
+        const auto turn = handle.in_use.take_alone("add", "motion");
+        return handle.get()
+            .add(t,
+                 {vector_of(position, {"add", "position"}, any_dimension),
+                  vector_of(velocity, {"add", "velocity"}, any_dimension)},
+                 acceleration_limit)
+            .value();
+      },
+      py::arg("t"), py::arg("position"), py::arg("velocity"), py::arg("acceleration_limit"),
+      "Adds a body that moves on from there at time t, and returns its number.");
+}
+
+void bind_ready_made(py::module_& module) {
+  bind_kind<Ballistic>(module, "Ballistic",
+                       R"(Bodies that fly freely under a common gravity (length / time^2).
+
+positions and velocities have shape (n, 3) or (n, 2); without velocities all are at rest.)")
+      .def(py::init([](const py::object& positions, const py::object& velocities, const py::object& gravity,
+                       double start_time) {
+             const std::string_view call = "Ballistic";
+             return std::make_shared<HandleOf<Ballistic>>(
+                 Ballistic::create({.start = states_of(positions, velocities, call, any_dimension),
+                                    .gravity = vector_of(gravity, {call, "gravity"}, any_dimension),
+                                    .start_time = start_time}));
+           }),
+           py::arg("positions"), py::arg("velocities") = py::none(), py::kw_only(),
+           py::arg("gravity") = py::make_tuple(0.0, 0.0, 0.0), py::arg("start_time") = 0.0)
+      .def(
+          "add",
+          [](HandleOf<Ballistic>& handle, double t, const py::object& position, const py::object& velocity) {
+            const auto turn = handle.in_use.take_alone("add", "motion");
+            return handle.get()
+                .add(t, {vector_of(position, {"add", "position"}, any_dimension),
+                         vector_of(velocity, {"add", "velocity"}, any_dimension)})
+                .value();
+          },
+          py::arg("t"), py::arg("position"), py::arg("velocity"),
+          "Adds a body that flies on from there at time t, and returns its number.");
+
+  auto random_forces = bind_kind<RandomForces>(
+      module, "RandomForces",
+      R"(Bodies pushed around by random forces that change at the multiples of `interval` (time).
+
+Each acceleration is drawn uniformly from the ball of radius acceleration_limits (length / time^2): one
+number, or one of each body. The draw depends on seed, body and interval alone.)");
+  random_forces.def(
+      py::init([](const py::object& positions, const py::object& velocities, const py::object& limits,
+                  double interval, std::uint64_t seed, double start_time) {
+        auto definition =
+            with_limits<RandomForcesDefinition>("RandomForces", positions, velocities, limits, start_time);
+        definition.interval = interval;
+        definition.seed = seed;
+        return std::make_shared<HandleOf<RandomForces>>(RandomForces::create(std::move(definition)));
+      }),
+      py::arg("positions"), py::arg("velocities") = py::none(), py::arg("acceleration_limits") = 1.0,
+      py::kw_only(), py::arg("interval") = 0.2, py::arg("seed") = 1, py::arg("start_time") = 0.0);
+  bind_add_with_limit(random_forces);
+
+  auto steered = bind_kind<Steered>(
+      module, "Steered",
+      R"(Bodies steered by hand: each keeps its acceleration, at first zero, until it is steered again.)");
+  steered
+      .def(py::init([](const py::object& positions, const py::object& velocities, const py::object& limits,
+                       double start_time) {
+             return std::make_shared<HandleOf<Steered>>(Steered::create(
+                 with_limits<SteeredDefinition>("Steered", positions, velocities, limits, start_time)));
+           }),
+           py::arg("positions"), py::arg("velocities") = py::none(), py::arg("acceleration_limits") = 1.0,
+           py::kw_only(), py::arg("start_time") = 0.0)
+      .def(
+          "steer",
+          [](HandleOf<Steered>& handle, long long number, double t, const py::object& acceleration) {
+            const auto turn = handle.in_use.take_alone("steer", "motion");
+            require(handle.get().steer(number_in_motion(number), t,
+                                       vector_of(acceleration, {"steer", "acceleration"}, any_dimension)));
+          },
+          py::arg("number"), py::arg("t"), py::arg("acceleration"),
+          "Sets the acceleration of a body from t on, no longer than its limit. The world need not hear of "
+          "it.");
+  bind_add_with_limit(steered);
+
+  py::class_<Circulation>(
+      module, "Circulation",
+      R"(The velocity field of the paper: up along the centre line of a box, down its sides.)")
+      .def(py::init([](const Box& box, double speed) {
+             return Circulation{box, speed};
+           }),
+           py::arg("box"), py::arg("speed"))
+      .def_readonly("box", &Circulation::box)
+      .def_readonly("speed", &Circulation::speed)
+      .def(
+          "__call__",
+          [](const Circulation& field, const py::object& position) {
+            return array_of(field(vector_of(position, {"Circulation", "position"}, false)));
+          },
+          py::arg("position"));
+  auto velocity_field = bind_kind<VelocityField>(
+      module, "VelocityField",
+      R"(Bodies that follow a velocity field as well as their acceleration limits let them.
+
+At the multiples of `interval` (time) each looks at the field; it would reach its velocity in response_time
+(time).)");
+  velocity_field.def(
+      py::init([](const Circulation& field, const py::object& positions, const py::object& velocities,
+                  const py::object& limits, double interval, double response_time, double start_time) {
+        auto definition =
+            with_limits<VelocityFieldDefinition>("VelocityField", positions, velocities, limits, start_time);
+        definition.field = field;
+        definition.interval = interval;
+        definition.response_time = response_time;
+        return std::make_shared<HandleOf<VelocityField>>(VelocityField::create(std::move(definition)));
+      }),
+      py::arg("field"), py::arg("positions"), py::arg("velocities") = py::none(),
+      py::arg("acceleration_limits") = 1.0, py::kw_only(), py::arg("interval") = 0.1,
+      py::arg("response_time") = 0.5, py::arg("start_time") = 0.0);
+  bind_add_with_limit(velocity_field);
+}
+
+std::vector<Track> tracks_of(const py::object& given) {
+  std::vector<Track> tracks;
+  for (const py::handle item : py::reinterpret_borrow<py::iterable>(given)) {
+    const py::sequence pair = py::reinterpret_borrow<py::sequence>(item);
+    if (py::len(pair) != 2)
+      refuse({"RecordedTracks", "tracks"}, "must be pairs (times, positions)",
+             "one has " + std::to_string(py::len(pair)) + " things");
+    const std::vector<Vec3> positions = vectors_of(pair[1], {"RecordedTracks", "positions"}, any_dimension);
+    const std::vector<double> times = each_of(pair[0], {"RecordedTracks", "times"}, positions.size());
+    Track& track = tracks.emplace_back();
+    for (std::size_t k = 0; k < times.size(); ++k) track.push_back({times[k], positions[k]});
+  }
+  return tracks;
+}
+
+void bind_recorded(py::module_& module) {
+  bind_kind<RecordedTracks>(
+      module, "RecordedTracks",
+      R"(Bodies that go along the natural cubic splines through samples of their positions.
+
+tracks has a pair (times, positions) for each body: times of shape (k,), rising, k >= 2; positions of shape
+(k, 3) or (k, 2). The promise of each is the largest acceleration of its curve. Before the first and after
+the last sample it goes straight on. Bodies can be removed, but not be changed.)")
+      .def(py::init([](const py::iterable& tracks) {
+             return std::make_shared<HandleOf<RecordedTracks>>(RecordedTracks::create(tracks_of(tracks)));
+           }),
+           py::arg("tracks"));
+
+  auto frames = bind_kind<Frames>(
+      module, "Frames",
+      R"(Bodies of a program that moves them in fixed steps: straight lines between its last two frames.
+
+acceleration_limits (length / time^2, gravity included) is one number, or one of each body: positions of
+successive frames obey |p[k+1] - 2 p[k] + p[k-1]| <= limit * interval^2. position_error (length) is how far
+positions may be off. States can be asked for from previous_time to latest_time.)");
+  frames
+      .def(py::init([](const py::object& positions, const py::object& velocities, const py::object& limits,
+                       double interval, double position_error, double start_time, bool refuse_violations) {
+             const std::string_view call = "Frames";
+             FramesDefinition definition;
+             definition.start = vectors_of(positions, {call, "positions"}, any_dimension);
+             const std::size_t count = definition.start.size();
+             if (!velocities.is_none())
+               definition.velocities = vectors_of(velocities, {call, "velocities"}, any_dimension, count);
+             definition.acceleration_limits = each_of(limits, {call, "acceleration_limits"}, count);
+             definition.interval = interval;
+             definition.position_error = position_error;
+             definition.start_time = start_time;
+             definition.refuse_violations = refuse_violations;
+             return std::make_shared<HandleOf<Frames>>(Frames::create(std::move(definition)));
+           }),
+           py::arg("positions"), py::arg("velocities") = py::none(), py::arg("acceleration_limits") = 1.0,
+           py::kw_only(), py::arg("interval") = 1.0 / 60.0, py::arg("position_error") = 0.0,
+           py::arg("start_time") = 0.0, py::arg("refuse_violations") = false)
+      .def(
+          "push",
+          [](HandleOf<Frames>& handle, const py::object& positions) {
+            const auto turn = handle.in_use.take_alone("push", "frames");
+            require(handle.get().push(vectors_of(positions, {"push", "positions"}, any_dimension)));
+          },
+          py::arg("positions"), "The next frame: the position of every body, shape (n, 3) or (n, 2).")
+      .def(
+          "latest",
+          [](const HandleOf<Frames>& handle) {
+            const std::vector<Vec3>& latest = handle.get().latest();
+            NewArray array = new_doubles({latest.size(), 3});
+            if (!latest.empty())
+              std::memcpy(array.data<double>(), latest.data(), latest.size() * sizeof(Vec3));
+            return array.take();
+          },
+          "Where the bodies are at latest_time, changes included: shape (n, 3).")
+      .def_property_readonly("previous_time",
+                             [](const HandleOf<Frames>& handle) { return handle.get().previous_time(); })
+      .def_property_readonly("latest_time",
+                             [](const HandleOf<Frames>& handle) { return handle.get().latest_time(); })
+      .def_property_readonly("violation_count",
+                             [](const HandleOf<Frames>& handle) { return handle.get().violation_count(); })
+      .def(
+          "violations",
+          [](const HandleOf<Frames>& handle) {
+            py::list violations;
+            for (const FrameViolation& found : handle.get().violations())
+              violations.append(
+                  py::make_tuple(found.body, found.excess, found.acceleration, array_of(found.velocity)));
+            return violations;
+          },
+          R"(Who broke its promise in the frame that was pushed last: tuples of number, excess (length), the
+acceleration limit that would have allowed it, and velocity.)");
+  bind_add_with_limit(frames);
+}
+
+/// If it is one of these kinds.
+template <class Kind, class... Others>
+py::object object_of_kind(std::unique_ptr<Motion> motion) {
+  if (dynamic_cast<Kind*>(motion.get()) != nullptr)
+    return py::cast(std::make_shared<HandleOf<Kind>>(std::move(motion)));
+  if constexpr (sizeof...(Others) > 0) return object_of_kind<Others...>(std::move(motion));
+  return py::cast(std::make_shared<MotionHandle>(std::move(motion)));
+}
+
+}  // namespace
+
+py::object object_of(std::unique_ptr<Motion> motion) {
+  return object_of_kind<RandomForces, VelocityField, Ballistic>(std::move(motion));
+}
+
+void bind_motions(py::module_& module) {
+  bind_motion(module);
+  bind_ready_made(module);
+  bind_recorded(module);
+}
+
+}  // namespace kinesphere::python

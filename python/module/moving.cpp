@@ -1,0 +1,130 @@
+#include "moving.hpp"
+
+#include <cmath>
+
+#include "errors.hpp"
+#include "exchange.hpp"
+#include "mover.hpp"
+
+namespace kinesphere::python {
+namespace {
+
+/// A mover through which Ctrl-C comes.
+template <class Moving>
+class Interruptible final : public Mover {
+ public:
+  Interruptible(Moving moving, Interruptions& interruptions)
+      : moving_(std::move(moving)), interruptions_(interruptions) {}
+  void states(std::span<const BodyId> ids, double time, std::span<State> states) override {
+    interruptions_.look();
+    moving_.states(ids, time, states);
+  }
+  Departure departure(BodyId body) const override { return moving_.departure(body); }
+  void depart(BodyId body, const Departure& departure) override { moving_.depart(body, departure); }
+
+ private:
+  Moving moving_;
+  Interruptions& interruptions_;
+};
+
+template <class Moving>
+std::unique_ptr<Mover> interruptible(Moving moving, Interruptions& interruptions) {
+  return std::make_unique<Interruptible<Moving>>(std::move(moving), interruptions);
+}
+
+}  // namespace
+
+Asked::Asked(const py::object& given, std::string_view call, bool plane)
+    : call_(call), plane_(plane), given_(py::reinterpret_borrow<py::object>(given)) {
+  if (given.is_none()) {
+    refuse({call, "probe"}, "must be a motion or a function of (ids, t)", "is None", ErrorCode::null_probe);
+  } else if (py::isinstance<MotionHandle>(given)) {
+    auto& handle = given.cast<MotionHandle&>();
+    keep_to_itself(handle.in_use, "motion");
+    mover_ = interruptible(MotionMover(*handle.motion), interruptions_);
+  } else if (py::isinstance<BodyMapHandle>(given)) {
+    auto& handle = given.cast<BodyMapHandle&>();
+    keep_to_itself(handle.in_use, "body map");
+    for (const py::object& motion : handle.motions)
+      keep_to_itself(motion.cast<MotionHandle&>().in_use, "motion");
+    mover_ = interruptible(handle.map.mover(), interruptions_);
+  } else if (py::isinstance<MoverHandle>(given)) {
+    auto& handle = given.cast<MoverHandle&>();
+    keep_to_itself(handle.in_use, "mover");
+    mover_ = std::make_unique<FunctionMover>(handle, interruptions_, call_, plane_);
+  } else if (PyCallable_Check(given.ptr()) == 0) {
+    throw py::type_error(call_ + ": probe must be a motion or a function of (ids, t), but is " +
+                         py::repr(given).cast<std::string>());
+  }
+}
+
+Probe Asked::probe() {
+  return [this](std::span<const BodyId> ids, double time, std::span<State> states) {
+    if (mover_)
+      mover_->states(ids, time, states);
+    else
+      ask(ids, time, states);
+  };
+}
+
+void Asked::ask(std::span<const BodyId> ids, double time, std::span<State> states) {
+  interruptions_.call([&] { read_states(given_(array_of(ids), time), states, call_, plane_); });
+}
+
+Bouncing::Bouncing(const py::object& masses, double restitution, double resting_speed)
+    : restitution_(restitution), resting_speed_(resting_speed) {
+  const std::string_view call = "Bouncing";
+  const Numbers numbers(masses, {call, "masses"});
+  if (numbers.dimensions() == 0) {
+    common_mass_ = numbers.scalar();
+  } else {
+    if (numbers.dimensions() != 1)
+      refuse({call, "masses"}, "must have shape (n,)", "has shape " + numbers.shape());
+    masses_ = each_of(masses, {call, "masses"}, numbers.length(0));
+  }
+  const auto check = [call](bool good, std::string_view name, std::string_view expectation, double found) {
+    if (!good) refuse({call, name}, expectation, "is " + py::repr(py::float_(found)).cast<std::string>());
+  };
+  if (common_mass_) check(*common_mass_ > 0.0, "masses", "must be > 0", *common_mass_);
+  for (const double mass : masses_) check(mass > 0.0, "masses", "must be > 0", mass);
+  check(restitution >= 0.0 && restitution <= 1.0, "restitution", "must lie in [0, 1]", restitution);
+  check(resting_speed >= 0.0 && std::isfinite(resting_speed), "resting_speed", "must be finite and >= 0",
+        resting_speed);
+}
+
+double Bouncing::mass(BodyId body) const {
+  if (common_mass_) return *common_mass_;
+  if (body.index < masses_.size()) return masses_[body.index];
+  throw BadResult({ErrorCode::out_of_range, "masses", body,
+                   "run: respond: masses must have one number for each body, but has " +
+                       std::to_string(masses_.size()) + ", and none for body " + to_string(body)});
+}
+
+Answer answer_of(const py::object& returned, bool plane) {
+  if (returned.is_none()) return {};
+  const bool is_pair = (PyTuple_Check(returned.ptr()) != 0 || PyList_Check(returned.ptr()) != 0) &&
+                       PySequence_Fast_GET_SIZE(returned.ptr()) == 2;
+  if (!is_pair)
+    refuse({"run", "respond"}, "must return None or (first velocity, second velocity)",
+           "returned " + py::repr(returned).cast<std::string>());
+  const auto velocity = [&](Py_ssize_t k, const char* name) -> std::optional<Vec3> {
+    const py::handle given = PySequence_Fast_ITEMS(returned.ptr())[k];
+    if (given.is_none()) return std::nullopt;
+    return vector_of(given, {"run: respond", name}, plane);
+  };
+  return {velocity(0, "first_velocity"), velocity(1, "second_velocity")};
+}
+
+void bind_moving(py::module_& module) {
+  py::class_<Bouncing>(
+      module, "Bouncing",
+      R"(A ready-made response for World.run(): bodies bounce off each other, walls and fixed bodies.
+
+masses (> 0) is one number for all, or an array with one at the index of each body; fixed bodies count as
+infinitely heavy. restitution lies in [0, 1]. With a resting_speed (length / time) bodies come to rest as
+settle() has them.)")
+      .def(py::init<const py::object&, double, double>(), py::arg("masses") = 1.0,
+           py::arg("restitution") = 1.0, py::arg("resting_speed") = 0.0);
+}
+
+}  // namespace kinesphere::python

@@ -1,0 +1,108 @@
+#include "shapes.hpp"
+
+#include <string>
+
+namespace kinesphere::python {
+namespace {
+
+Vec3 corner_of(const py::object& given, const char* call, const char* name) {
+  return vector_of(given, {call, name}, false);
+}
+
+template <class Class>
+void bind_equality(Class& shape, const char* name) {
+  using Kind = typename Class::type;
+  shape.def("__eq__", [](const Kind& a, const py::object& b) {
+    return py::isinstance<Kind>(b) && a == b.cast<const Kind&>();
+  });
+  shape.def("__repr__", [name](const py::object& self) {
+    std::string text = std::string(name) + "(";
+    for (const py::handle part : self.attr("_parts")) {
+      const py::object of = self.attr(part);
+      if (text.back() != '(') text += ", ";
+      text += py::repr(py::hasattr(of, "tolist") ? py::tuple(of.attr("tolist")()) : of).cast<std::string>();
+    }
+    return text + ")";
+  });
+  shape.def("__reduce__", [](const py::object& self) {
+    py::list parts;
+    for (const py::handle part : self.attr("_parts")) parts.append(self.attr(part));
+    return py::make_tuple(self.attr("__class__"), py::tuple(parts));
+  });
+}
+
+}  // namespace
+
+std::optional<Box> box_of(const py::object& given, const Argument& argument) {
+  if (given.is_none()) return {};
+  if (py::isinstance<Box>(given)) return given.cast<Box>();
+  const std::vector<Vec3> corners = vectors_of(given, argument, false);
+  if (corners.size() != 2)
+    refuse(argument, "must be a Box, or its lower and upper corner",
+           "has " + std::to_string(corners.size()) + " corners");
+  return Box{corners[0], corners[1]};
+}
+
+Shape shape_of(const py::object& given, const Argument& argument) {
+  if (py::isinstance<Ball>(given)) return given.cast<Ball>();
+  if (py::isinstance<HalfSpace>(given)) return given.cast<HalfSpace>();
+  if (py::isinstance<Box>(given)) return given.cast<Box>();
+  if (py::isinstance<Triangle>(given)) return given.cast<Triangle>();
+  throw py::type_error(std::string(argument.call) + ": " + std::string(argument.name) +
+                       " must be a Ball, Box, HalfSpace or Triangle, but is " +
+                       py::repr(given).cast<std::string>());
+}
+
+py::object object_of(const Shape& shape) {
+  return std::visit([](const auto& of) { return py::cast(of); }, shape);
+}
+
+void bind_shapes(py::module_& module) {
+  py::class_<Box> box(module, "Box",
+                      "An axis-aligned box between two corners, lower <= upper on each axis; solid.");
+  box.def(py::init([](const py::object& lower, const py::object& upper) {
+            return Box{corner_of(lower, "Box", "lower"), corner_of(upper, "Box", "upper")};
+          }),
+          py::arg("lower"), py::arg("upper"))
+      .def_property_readonly("lower", [](const Box& of) { return array_of(of.lower); })
+      .def_property_readonly("upper", [](const Box& of) { return array_of(of.upper); });
+  box.attr("_parts") = py::make_tuple("lower", "upper");
+  bind_equality(box, "Box");
+
+  py::class_<Ball> ball(module, "Ball", "A ball that never moves; radius >= 0 (length).");
+  ball.def(py::init([](const py::object& centre, double radius) {
+             return Ball{corner_of(centre, "Ball", "centre"), radius};
+           }),
+           py::arg("centre"), py::arg("radius"))
+      .def_property_readonly("centre", [](const Ball& of) { return array_of(of.centre); })
+      .def_readonly("radius", &Ball::radius);
+  ball.attr("_parts") = py::make_tuple("centre", "radius");
+  bind_equality(ball, "Ball");
+
+  py::class_<HalfSpace> half_space(
+      module, "HalfSpace", "Bodies may be where dot(normal, p) >= offset; the rest of space is solid.");
+  half_space
+      .def(py::init([](const py::object& normal, double offset) {
+             return HalfSpace{corner_of(normal, "HalfSpace", "normal"), offset};
+           }),
+           py::arg("normal"), py::arg("offset"))
+      .def_property_readonly("normal", [](const HalfSpace& of) { return array_of(of.normal); })
+      .def_readonly("offset", &HalfSpace::offset);
+  half_space.attr("_parts") = py::make_tuple("normal", "offset");
+  bind_equality(half_space, "HalfSpace");
+
+  py::class_<Triangle> triangle(module, "Triangle", "Two-sided and without thickness.");
+  triangle
+      .def(py::init([](const py::object& a, const py::object& b, const py::object& c) {
+             return Triangle{corner_of(a, "Triangle", "a"), corner_of(b, "Triangle", "b"),
+                             corner_of(c, "Triangle", "c")};
+           }),
+           py::arg("a"), py::arg("b"), py::arg("c"))
+      .def_property_readonly("a", [](const Triangle& of) { return array_of(of.a); })
+      .def_property_readonly("b", [](const Triangle& of) { return array_of(of.b); })
+      .def_property_readonly("c", [](const Triangle& of) { return array_of(of.c); });
+  triangle.attr("_parts") = py::make_tuple("a", "b", "c");
+  bind_equality(triangle, "Triangle");
+}
+
+}  // namespace kinesphere::python

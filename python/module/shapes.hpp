@@ -1,0 +1,18 @@
+// Boxes and the other shapes of what never moves.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "exchange.hpp"
+#include "kinesphere/shape.hpp"
+
+namespace kinesphere::python {
+
+/// A kinesphere.Box, or a pair of its corners. None is no box.
+std::optional<Box> box_of(const py::object& given, const Argument& argument);
+Shape shape_of(const py::object& given, const Argument& argument);
+py::object object_of(const Shape& shape);
+
+void bind_shapes(py::module_& module);
+
+}  // namespace kinesphere::python

@@ -1,0 +1,107 @@
+// Approaches in recorded tracks: kinesphere.tracks(), which prepares the samples in Python.
+#include <string>
+
+#include "errors.hpp"
+#include "exchange.hpp"
+#include "lab/detector/detector.hpp"
+#include "lab/simulation/simulate.hpp"
+#include "lab/tracks/approaches.hpp"
+#include "lab/tracks/scene_of_tracks.hpp"
+#include "world.hpp"
+
+namespace kinesphere::python {
+namespace {
+
+/// A row; first and second are numbers of tracks.
+struct ApproachRecord {
+  std::int64_t first;
+  std::int64_t second;
+  double begin;
+  double end;
+  double closest_time;
+  double closest_distance;
+  double relative_speed;
+  Vec3 first_position;
+  Vec3 second_position;
+  bool begins_with_track;
+  bool ends_with_track;
+};
+
+constexpr Field approach_fields[] = {
+    {"first", "i8", offsetof(ApproachRecord, first)},
+    {"second", "i8", offsetof(ApproachRecord, second)},
+    {"begin", "f8", offsetof(ApproachRecord, begin)},
+    {"end", "f8", offsetof(ApproachRecord, end)},
+    {"closest_time", "f8", offsetof(ApproachRecord, closest_time)},
+    {"closest_distance", "f8", offsetof(ApproachRecord, closest_distance)},
+    {"relative_speed", "f8", offsetof(ApproachRecord, relative_speed)},
+    {"first_position", "3f8", offsetof(ApproachRecord, first_position)},
+    {"second_position", "3f8", offsetof(ApproachRecord, second_position)},
+    {"begins_with_track", "?", offsetof(ApproachRecord, begins_with_track)},
+    {"ends_with_track", "?", offsetof(ApproachRecord, ends_with_track)},
+};
+
+/// Track k has the samples from starts[k] to starts[k + 1].
+std::vector<Track> tracks_of(const std::vector<double>& times, const std::vector<Vec3>& positions,
+                             const std::vector<std::uint64_t>& starts) {
+  std::vector<Track> tracks;
+  for (std::size_t k = 0; k + 1 < starts.size(); ++k) {
+    Track& track = tracks.emplace_back();
+    for (std::size_t sample = starts[k]; sample < starts[k + 1]; ++sample)
+      track.push_back({times.at(sample), positions.at(sample)});
+  }
+  return tracks;
+}
+
+/// The approaches, and how many states were asked for.
+py::tuple approaches(const py::object& times, const py::object& positions, const py::object& starts,
+                     double distance, double tolerance, bool straight, bool plane) {
+  const char* const call = "tracks";
+  const std::vector<Vec3> places = vectors_of(positions, {call, "positions"}, plane);
+  const std::vector<double> moments = each_of(times, {call, "t"}, places.size());
+  const auto count = static_cast<std::size_t>(py::len(starts));
+  const std::vector<Track> tracks =
+      tracks_of(moments, places, each_whole_of(starts, {call, "starts"}, count));
+  std::vector<Approach> found;
+  std::uint64_t probes = 0;
+  if (!tracks.empty()) {
+    const py::gil_scoped_release released;
+    Scene scene =
+        scene_of_tracks(tracks, distance, straight ? Interpolation::linear : Interpolation::spline).value();
+    scene.world.contact_tolerance = tolerance;
+    scene.world.dimensions = plane ? 2 : 3;
+    std::vector<Event> events;
+    Interruptions interruptions;
+    SimulationObserver observer;
+    observer.on_event = [&](const Event& event) { events.push_back(event); };
+    observer.between_events = [&](const Detector&) { interruptions.look(); };
+    probes = simulate(scene, make_world_detector, observer).value().counters.probes;
+    found = approaches_in(scene, events);
+    find_closest(*scene.motion, found);
+  }
+  NewArray table({found.size()}, row_type(approach_fields, sizeof(ApproachRecord)), sizeof(ApproachRecord));
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const Approach& one = found[k];
+    table.data<ApproachRecord>()[k] = {one.first,
+                                       one.second,
+                                       one.begin,
+                                       one.end,
+                                       one.closest.time,
+                                       one.closest.distance,
+                                       one.closest.relative_speed,
+                                       one.closest.first,
+                                       one.closest.second,
+                                       one.begins_with_track,
+                                       one.ends_with_track};
+  }
+  return py::make_tuple(table.take(), probes);
+}
+
+}  // namespace
+
+void bind_tracks(py::module_& module) {
+  module.def("_approaches", approaches, py::arg("times"), py::arg("positions"), py::arg("starts"),
+             py::arg("distance"), py::arg("tolerance"), py::arg("straight"), py::arg("plane"));
+}
+
+}  // namespace kinesphere::python

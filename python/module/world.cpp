@@ -1,0 +1,205 @@
+#include "world.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "errors.hpp"
+#include "exchange.hpp"
+#include "shapes.hpp"
+
+namespace kinesphere::python {
+namespace {
+
+/// True for all axes, or some of the letters "xyz".
+Axes axes_of(const py::object& given) {
+  const Argument argument{"World", "periodic"};
+  if (py::isinstance<py::bool_>(given)) {
+    const bool all = given.cast<bool>();
+    return {all, all, all};
+  }
+  if (!py::isinstance<py::str>(given))
+    throw py::type_error("World: periodic must be a bool or a text such as \"xy\", but is " +
+                         py::repr(given).cast<std::string>());
+  const auto text = given.cast<std::string>();
+  if (text.find_first_not_of("xyz") != std::string::npos)
+    refuse(argument, "must be a text of the letters x, y and z", "is \"" + text + "\"");
+  const auto has = [&](char axis) { return text.find(axis) != std::string::npos; };
+  return {has('x'), has('y'), has('z')};
+}
+
+std::string text_of(const Axes& axes) {
+  return std::string(axes.x ? "x" : "") + (axes.y ? "y" : "") + (axes.z ? "z" : "");
+}
+
+ContactMode contact_mode_of(const std::string& name) {
+  if (name == "begin_and_end") return ContactMode::begin_and_end;
+  if (name == "impacts") return ContactMode::impacts;
+  refuse({"World", "contacts"}, "must be \"begin_and_end\" or \"impacts\"", "is \"" + name + "\"");
+}
+
+std::shared_ptr<WorldHandle> create_world(const py::object& box, const py::object& periodic, int dimensions,
+                                          double contact_tolerance, const py::object& separation_distance,
+                                          const std::string& contacts, bool allow_overlap,
+                                          double zeno_interval, double start_time) {
+  WorldDefinition definition;
+  definition.box = box_of(box, {"World", "box"});
+  definition.periodic = axes_of(periodic);
+  definition.dimensions = dimensions;
+  definition.contact_tolerance = contact_tolerance;
+  if (!separation_distance.is_none()) {
+    definition.separation_distance = separation_distance.cast<double>();
+    // In the library NaN says that there is none.
+    if (std::isnan(definition.separation_distance))
+      refuse({"World", "separation_distance"}, "must be a number", "is nan", ErrorCode::not_finite);
+  }
+  definition.contacts = contact_mode_of(contacts);
+  definition.allow_overlap = allow_overlap;
+  definition.zeno_interval = zeno_interval;
+  definition.start_time = start_time;
+  return std::make_shared<WorldHandle>(World::create(definition).value());
+}
+
+std::shared_ptr<WorldHandle> clone(WorldHandle& handle) {
+  const auto turn = handle.take("clone");
+  auto copy =
+      std::make_shared<WorldHandle>(without_gil(handle, [&] { return handle.world.clone(); }).value());
+  copy->fixed = handle.fixed;
+  copy->filter_trouble = handle.filter_trouble;
+  copy->told = handle.told;
+  return copy;
+}
+
+py::bytes save(WorldHandle& handle) {
+  const auto turn = handle.take("save");
+  return bytes_of(without_gil(handle, [&] { return handle.world.save(); }).value());
+}
+
+py::tuple pickled(const py::object& self) {
+  auto& handle = self.cast<WorldHandle&>();
+  if (handle.filter_trouble)
+    throw py::type_error(
+        "pickle: a world with a pair filter cannot be pickled, as the filter is code; use save() and "
+        "World.restore(snapshot, pair_filter)");
+  if (!handle.told.empty())
+    throw_state_error("run_in_progress", "world",
+                      "pickle: world must have told its events, but a run was interrupted; run it on first");
+  return py::make_tuple(package_attribute("kinesphere.recordings", "restored"), py::make_tuple(save(handle)));
+}
+
+}  // namespace
+
+py::dict arguments_of(const WorldDefinition& definition) {
+  py::dict arguments;
+  arguments["box"] = definition.box ? py::cast(*definition.box) : py::none();
+  arguments["periodic"] = text_of(definition.periodic);
+  arguments["dimensions"] = definition.dimensions;
+  arguments["contact_tolerance"] = definition.contact_tolerance;
+  arguments["separation_distance"] = std::isnan(definition.separation_distance)
+                                         ? py::none()
+                                         : py::object(py::float_(definition.separation_distance));
+  arguments["contacts"] = definition.contacts == ContactMode::impacts ? "impacts" : "begin_and_end";
+  arguments["allow_overlap"] = definition.allow_overlap;
+  arguments["zeno_interval"] = definition.zeno_interval;
+  arguments["start_time"] = definition.start_time;
+  return arguments;
+}
+
+PairFilter pair_filter_of(const py::object& function, const std::shared_ptr<FilterTrouble>& trouble) {
+  if (function.is_none()) return {};
+  // Copies of a world share it, and the last of them may go without the GIL.
+  const std::shared_ptr<py::object> shared(new py::object(py::reinterpret_borrow<py::object>(function)),
+                                           [](py::object* held) {
+                                             const py::gil_scoped_acquire gil;
+                                             delete held;
+                                           });
+  return [shared, trouble](BodyId first, BodyId second) {
+    const py::gil_scoped_acquire gil;
+    if (trouble->thrown) return true;
+    try {
+      return (*shared)(object_of(first), object_of(second)).cast<bool>();
+    } catch (...) {
+      trouble->thrown = std::current_exception();
+      return true;
+    }
+  };
+}
+
+std::shared_ptr<WorldHandle> restored(const py::object& snapshot, const py::object& pair_filter) {
+  const std::vector<std::byte> bytes = bytes_from(snapshot, {"restore", "snapshot"});
+  std::shared_ptr<FilterTrouble> trouble;
+  if (!pair_filter.is_none()) trouble = std::make_shared<FilterTrouble>();
+  auto handle =
+      std::make_shared<WorldHandle>(World::restore(bytes, pair_filter_of(pair_filter, trouble)).value());
+  handle->filter_trouble = trouble;
+  end_call(*handle);
+  for (const BodyId body : handle->world.bodies())
+    if (handle->world.body(body).value().fixed) handle->fixed.insert(body.pack());
+  return handle;
+}
+
+void bind_world(py::module_& module) {
+  WorldClass world(module, "World",
+                   R"(Moving spheres with unknown trajectories, and every contact among them, in time order.
+
+Somebody else moves the bodies. The world asks a probe where they are, only when that can matter, and stops
+at each event. As long as bodies keep within the limits that they have promised, no two of them overlap by
+more than the contact tolerance unreported.
+
+A probe is a ready-made Motion, a BodyMap, or a function f(ids, t) -> (positions, velocities): ids is an
+array of int64, shape (n,); both answers have shape (n, 3), or (n, 2) where dimensions is 2. It may raise,
+which comes out of the call that asked it, and that call can be repeated.
+
+Bodies are named by ids: whole numbers, which are 0, 1, 2, ... in the order in which bodies were added as
+long as none has been removed, so arrays can be indexed by them. Units are yours: lengths, times and so on
+must be consistent.
+
+Every call checks what it is handed, and one that raises has changed nothing unless it says so. One thread
+at a time may use a world; another one is refused with StateError.)");
+  world
+      .def(py::init(&create_world), py::kw_only(), py::arg("box") = py::none(), py::arg("periodic") = false,
+           py::arg("dimensions") = 3, py::arg("contact_tolerance") = 1e-6,
+           py::arg("separation_distance") = py::none(), py::arg("contacts") = "begin_and_end",
+           py::arg("allow_overlap") = true, py::arg("zeno_interval") = 0.0, py::arg("start_time") = 0.0,
+           R"(box: walls, a Box or a pair of corners; without one the world is unbounded.
+periodic: True, or axes such as "xy", on which the box repeats instead of having walls.
+dimensions: 3, or 2 for discs in the plane z = 0.
+contact_tolerance (length, > 0): a contact begins when the gap is at most this, and no gap falls below minus
+this unreported.
+separation_distance (length, > contact_tolerance; default 4 of it): a contact ends when the gap has grown to
+this.
+contacts: "begin_and_end", or "impacts" for what bounces: a begin for each approach, and no ends.
+allow_overlap: when False, add() refuses a body that certainly overlaps another or a wall.
+zeno_interval (time, >= 0): contacts of a body that follow each other sooner are marked as repeated. Raises
+ValueError (InvalidValue) that names the argument.)")
+      .def_property_readonly(
+          "definition",
+          reading("definition", [](const World& made) { return arguments_of(made.definition()); }),
+          "What the world was made from: World(**world.definition) makes another one.")
+      .def_property_readonly("time", reading("time", [](const World& now) { return now.time(); }))
+      .def("__len__", reading("len", [](const World& now) { return now.size(); }))
+      .def("__contains__",
+           [](WorldHandle& handle, const py::object& body) {
+             const auto turn = handle.take("contains");
+             return handle.world.contains(id_of(body, {"contains", "body"}));
+           })
+      .def("__repr__", reading("repr",
+                               [](const World& now) {
+                                 return py::str("<World of {} bodies at {}>").format(now.size(), now.time());
+                               }))
+      .def("clone", clone, "A world of its own that goes on as this one does, to the bit. Cost: O(n).")
+      .def("__copy__", clone)
+      .def("__deepcopy__", [](WorldHandle& handle, const py::object&) { return clone(handle); })
+      .def("save", save,
+           R"(The whole world as bytes: World.restore() makes one that goes on as this one does, to the bit.
+
+What moves the bodies, and a pair filter, are the caller's to save.)")
+      .def_static("restore", restored, py::arg("snapshot"), py::arg("pair_filter") = py::none(),
+                  "The world that save() wrote. Raises InvalidValue (bad_snapshot) for bytes that are none.")
+      .def("__reduce__", pickled);
+  bind_bodies(world);
+  bind_going_on(module, world);
+  bind_answers(module, world);
+  bind_inspection(module, world);
+}
+
+}  // namespace kinesphere::python

@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# Builds the Python package `kinesphere` as a wheel, from its source distribution, installs it into a clean virtual
+# environment, and tests it there: the ten lines of its README, types (mypy), tests (pytest), and every example.
+# Nothing is asked of any network. The interpreter is Debian's, for which its packages are; PYTHON names another.
+# Usage: run.sh <build folder with the library, its lab and the native program>
+set -euo pipefail
+
+build=$(realpath "$1")
+python=${PYTHON:-/usr/bin/python3}
+source=$(realpath "$(dirname "${BASH_SOURCE[0]}")/..")
+work=$build/python
+log=$work/log
+# ccache, if it is used, knows the folder in which things are compiled; pip's own are different each time.
+rm -rf "$work/unpacked" "$work/wheel" "$work/venv" && mkdir -p "$work/wheel" "$work/pictures"
+quietly() { "$@" >"$log" 2>&1 || { cat "$log"; exit 1; }; }
+
+# The source distribution has all that the package is built from.
+quietly env -C "$source" "$python" setup.py -q egg_info --egg-base "$work" sdist --dist-dir "$work"
+mkdir "$work/unpacked" && tar -xf "$work"/kinesphere-*.tar.gz -C "$work/unpacked" --strip-components=1
+# Of the library the objects of the build are taken.
+export SKBUILD_CONFIGURE_OPTIONS="-DKINESPHERE_BUILD=$build"
+quietly "$python" -m pip --isolated wheel --no-build-isolation --no-index --no-deps --wheel-dir "$work/wheel" "$work/unpacked"
+
+# Clean but for what Debian's Python brings: NumPy and what the tests take.
+"$python" -m venv --system-site-packages --without-pip "$work/venv"
+clean=$work/venv/bin/python
+quietly "$clean" -m pip --isolated install --no-index --no-warn-script-location "$work"/wheel/kinesphere-*.whl
+
+cd "$work"
+# mypy needs most of the time that it takes alone.
+"$python" -m mypy --config-file "$source/mypy.ini" --cache-dir "$work/mypy" --python-executable "$clean" \
+  "$source/kinesphere" "$source/test" "$source/examples" >"$work/mypy.log" 2>&1 &
+mypy=$!
+# The first block of Python in a page: the README of the project shows the same.
+python_of() { awk '/^```python/ {on = 1; next} on && /^```/ {exit} on' "$1"; }
+python_of "$source/README.md" >"$work/ten_lines.py"
+diff "$work/ten_lines.py" <(python_of "$source/../README.md")
+"$clean" "$work/ten_lines.py"
+export KINESPHERE_PROGRAM=$build/programs/kinesphere
+"$clean" -B -m pytest -q -p no:cacheprovider "$source/test"
+
+# The same build with another NumPy, where there is one.
+if [[ -n ${KINESPHERE_NUMPY2:-} ]]; then
+  PYTHONPATH=$KINESPHERE_NUMPY2 "$clean" -c 'import numpy; assert numpy.__version__.startswith("2."), numpy.__version__'
+  PYTHONPATH=$KINESPHERE_NUMPY2 "$clean" -B -m pytest -q -p no:cacheprovider "$source/test"
+else
+  echo "NumPy 2: skipped, as KINESPHERE_NUMPY2 does not name a folder with one"
+fi
+
+"$clean" -m kinesphere.bench --program "$KINESPHERE_PROGRAM" --bodies 2000 --repeats 1
+
+cd "$work/pictures"
+for example in gas drones certainty side_by_side; do
+  echo "example $example:"
+  "$clean" "$source/examples/$example.py"
+done
+recording=${KINESPHERE_DATA:-$source/../../shared/data}/ucy_students03/ucy_students03_obsmat.txt.gz
+if [[ -e $recording ]]; then
+  echo "example walkers:"
+  "$clean" "$source/examples/walkers.py" "$recording"
+else
+  echo "example walkers: skipped, as there is no $recording"
+fi
+wait $mypy || { cat "$work/mypy.log"; exit 1; }
+cat "$work/mypy.log"

@@ -1,0 +1,74 @@
+"""Tables of events."""
+
+import pickle
+
+import numpy as np
+import pytest
+from conftest import hash_of
+
+import kinesphere as ks
+from kinesphere import EventKind, _kinesphere
+
+
+@pytest.fixture(scope="module")
+def events() -> ks.Events:
+    scene = ks.Scene("paper1", bodies=100, seconds=2.0)
+    world, motion = ks.World(**scene.definition), scene.motion()
+    world.add_motion(motion, scene.radii)
+    return world.run(2.0, motion, scene)
+
+
+def test_names_are_the_librarys() -> None:
+    assert [str(kind) for kind in EventKind] == _kinesphere.event_kind_names()
+    assert [str(wall) for wall in ks.Wall] == _kinesphere.wall_names()
+
+
+def test_a_table_has_columns_rows_and_parts(events: ks.Events) -> None:
+    assert len(events) > 50 and events.array.dtype == ks.event_dtype
+    assert np.all(np.diff(events["time"]) >= 0) and events["normal"].shape == (len(events), 3)
+    begins = events.of_kind(EventKind.contact_begin)
+    walls = events.of_kind(EventKind.wall_begin, EventKind.wall_end)
+    assert len(begins) + len(walls) == len(events)
+    assert set(walls["second"].tolist()) == {ks.no_body}
+    assert isinstance(events[2:5], ks.Events) and len(events[2:5]) == 3 and len(events[[0, 3]]) == 2
+    assert events[-1].time == events["time"][-1]
+    with pytest.raises(IndexError):
+        events[len(events)]
+    assert "contact_begin" in repr(events) and repr(events[:0]) == "<Events: none>"
+
+
+def test_a_row_is_the_event(events: ks.Events) -> None:
+    for k, event in enumerate(events[:20]):
+        row = events.array[k]
+        for name in ks.event_dtype.names or ():
+            value = getattr(event, name)
+            if value is None:
+                value = ks.no_body if name == "second" else 0
+            assert np.array_equal(value, row[name]), name
+
+
+def test_hashes(events: ks.Events) -> None:
+    one, parts = ks.EventHash().add(events), ks.EventHash().add(events[10:])
+    parts += ks.EventHash().add(events[:10])
+    singly = ks.EventHash()
+    for event in events:
+        singly.add(event)
+    assert one == parts == singly == pickle.loads(pickle.dumps(one)) and one.count == len(events)
+    assert str(one) == f"{one.value:016x}"
+    assert ks.EventHash() != one and hash_of(events[::2]) != str(one)
+    assert hash_of(events[::-1]) == str(one)
+
+
+def test_pandas(events: ks.Events) -> None:
+    pandas = pytest.importorskip("pandas")
+    frame = events.to_pandas()
+    assert len(frame) == len(events) and frame["kind"].iloc[0] == str(events[0].kind)
+    assert frame["first_position_y"].to_numpy() == pytest.approx(events["first_position"][:, 1])
+    walls = frame[frame["kind"] == "wall_begin"]
+    assert walls["second"].isna().all() and not walls["wall"].isna().any()
+    assert frame[frame["kind"] == "contact_begin"]["wall"].isna().all()
+    assert isinstance(frame, pandas.DataFrame) and len(events[:0].to_pandas()) == 0
+
+
+def test_tables_are_pickled(events: ks.Events) -> None:
+    assert hash_of(pickle.loads(pickle.dumps(events))) == hash_of(events)

@@ -1,0 +1,222 @@
+"""Ready-made motions, maps of several, frames of a game."""
+
+import copy
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import hash_of, pair
+
+import kinesphere as ks
+from kinesphere import EventKind
+
+rng = np.random.default_rng(11)
+positions = rng.uniform(5, 45, (40, 3))
+velocities = rng.uniform(-3, 3, (40, 3))
+box = ((0, 0, 0), (50, 50, 50))
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: ks.Ballistic(positions, velocities, gravity=(0, 0, -1)),
+        lambda: ks.RandomForces(positions, velocities, 5.0, seed=3),
+        lambda: ks.Steered(positions, velocities, np.full(40, 2.0)),
+        lambda: ks.VelocityField(ks.Circulation(ks.Box(*box), 4.0), positions, velocities, 6.0),
+    ],
+    ids=["ballistic", "random forces", "steered", "velocity field"],
+)
+def test_motions_serve_runs_loops_and_probes_alike(make) -> None:  # type: ignore[no-untyped-def]
+    hashes = set()
+    for way in range(3):
+        motion = make()
+        assert len(motion) == 40 and 39 in motion and 40 not in motion and -1 not in motion
+        world = ks.World(box=box)
+        if way == 0:
+            world.add_motion(motion, radii=1.5)
+        else:
+            world.add(**motion.definitions(0.0), radii=1.5)
+        probe = motion if way < 2 else lambda ids, t: motion(ids, t)
+        hashes.add(hash_of(world.run(3.0, probe)))
+    assert len(hashes) == 1
+    assert len(motion.states(3.0)[0]) == 40 and motion.states(3.0, [4, 5])[1].shape == (2, 3)
+
+
+def test_copies_go_their_own_way() -> None:
+    motion = ks.RandomForces(positions, velocities, 5.0)
+    other = copy.copy(motion)
+    assert isinstance(other, ks.RandomForces)
+    motion.set_velocity(0, 1.0, (0, 0, 0))
+    assert motion.departure(0)[0] == 1.0 and other.departure(0)[0] == 0.0
+    assert not np.array_equal(motion.states(2.0)[0], other.states(2.0)[0])
+
+
+def test_bodies_come_go_and_move_to_another_motion() -> None:
+    motion = ks.Steered(positions, velocities, 2.0)
+    number = motion.add(1.0, (0, 0, 0), (1, 0, 0), 3.0)
+    motion.steer(number, 1.0, (0, 3, 0))
+    motion.teleport(0, 1.0, (9, 9, 9), (0, 0, 0))
+    assert motion.states(1.0, 0)[0].tolist() == [[9, 9, 9]]
+    other = ks.Steered([], start_time=0.0)
+    arrived = other.read_body(motion.write_body(number))
+    assert arrived == 0 and np.array_equal(other.states(5.0)[0][0], motion.states(5.0, number)[0][0])
+    motion.remove(number)
+    assert number not in motion
+    with pytest.raises(ks.BodyError, match="stale|removed"):
+        motion.states(5.0, number)
+
+
+def test_wrong_bodies_and_times_of_a_motion_are_named() -> None:
+    motion = ks.Ballistic(positions)
+    for wrong in (40, -1, 2**40):
+        with pytest.raises(ks.BodyError) as caught:
+            motion.states(0.0, [wrong])
+        assert caught.value.code == "unknown_body"
+    with pytest.raises(ks.InvalidValue, match="time|before"):
+        motion.states(-1.0)
+    with pytest.raises(ks.InvalidValue):
+        motion.states(float("nan"))
+    with pytest.raises(ks.InvalidValue, match="acceleration"):
+        ks.Steered(positions, acceleration_limits=1.0).steer(0, 0.0, (5, 0, 0))
+    with pytest.raises(ks.InvalidValue, match="acceleration_limit"):
+        ks.RandomForces(positions, acceleration_limits=-1.0)
+
+
+def test_a_map_has_several_motions() -> None:
+    targets = ks.Steered([(30, 0, 0), (60, 0, 0)])
+    bullets = ks.Ballistic([])
+    world, bodies = ks.World(contacts="impacts"), ks.BodyMap()
+    ids = bodies.add_all(world, targets, radii=[1.0, 2.0])
+    bullet = bodies.add(world, bullets, bullets.add(0.0, (0, 0, 0), (300, 0, 0)), radius=0.02)
+    assert bodies.find(bullet) == (bullets, 0) and bodies.find(77) is None and ids.tolist() == [0, 1]
+    for event in world.events(1.0, bodies):
+        assert event.kind == EventKind.contact_begin and event.first == 0 and event.second == bullet
+        bodies.remove(world, bullet)
+        bodies.set_velocity(world, 0, (0, 1, 0))
+        bodies.teleport(world, 1, (90, 0, 0), (0, 0, 0))
+    assert len(world) == 2 and targets.states(1.0)[1][0].tolist() == [0, 1, 0] and len(bullets) == 1
+    fresh = bodies.add(world, bullets, bullets.add(1.0, (0, 0, 0), (1, 0, 0)))
+    del targets, bullets
+    world.run(5.0, bodies, ks.Bouncing())
+    assert fresh in world
+    with pytest.raises(ks.BodyError):
+        bodies.set_velocity(world, bullet, (0, 0, 0))
+
+
+def test_frames_of_a_game() -> None:
+    places = np.array([[0.0, 0, 10], [0.0, 0, 30]])
+    speeds, gravity, dt = np.zeros((2, 3)), np.array([0, 0, -10.0]), 1 / 60
+    frames = ks.Frames(places, speeds, 10.2, interval=dt)
+    world = ks.World(contacts="impacts")
+    world.add(**frames.definitions(0.0), radii=0.5)
+    floor = world.add_fixed(ks.HalfSpace((0, 0, 1), 0))
+    hits = []
+    for _ in range(120):
+        speeds = speeds + gravity * dt
+        frames.push(places + speeds * dt)
+        for event in world.events(frames.latest_time, frames):
+            assert event.second == floor
+            hits.append(event.time)
+            speeds[event.first] = -event.first_velocity
+            frames.set_velocity(event.first, event.time, speeds[event.first])
+            world.set_velocity(event.first, speeds[event.first])
+        places = frames.latest()
+    assert len(hits) == 1 and hits[0] == pytest.approx(np.sqrt(2 * 9.5 / 10), abs=0.02)
+    assert frames.violation_count == 0 and frames.violations() == []
+    frames.push(places + 5)
+    assert [violation[0] for violation in frames.violations()] == [0, 1]
+    with pytest.raises(ks.InvalidValue, match="positions"):
+        frames.push(places[:1])
+
+
+def test_recorded_tracks() -> None:
+    times = np.linspace(0, 4, 9)
+    motion = ks.RecordedTracks(
+        [(times, np.stack([times, 0 * times], axis=1)), ([0, 4], [[4, 0.5, 0], [0, 0.5, 0]])]
+    )
+    world = ks.World()
+    world.add_motion(motion, radii=0.3)
+    begin = world.advance(4.0, motion)
+    assert begin is not None and begin.time == pytest.approx(2 - np.sqrt(0.36 - 0.25) / 2, abs=1e-5)
+    with pytest.raises(ks.StateError) as caught:
+        motion.set_velocity(0, 1.0, (0, 0, 0))
+    assert caught.value.code == "unsupported"
+    with pytest.raises(ks.InvalidValue):
+        ks.RecordedTracks([([0.0], [[0, 0, 0]])])
+    with pytest.raises(ks.InvalidValue, match="pairs"):
+        ks.RecordedTracks([([0.0, 1.0],)])  # type: ignore[list-item]
+
+
+def test_a_motion_is_added_where_its_numbers_are_ids() -> None:
+    world, motion = pair()
+    with pytest.raises(ks.InvalidValue, match="without bodies"):
+        world.add_motion(motion)
+    world.remove(world.bodies())
+    with pytest.raises(ks.InvalidValue, match="never had bodies"):
+        world.add_motion(motion)
+    assert len(world) == 0
+
+
+def straight_on(ids: Any, t: float, since: Any, places: Any, speeds: Any) -> tuple[Any, Any]:
+    assert (
+        ids.shape == (len(since),)
+        and since.shape == (len(ids), 1)
+        and places.shape == speeds.shape == (len(ids), 3)
+    )
+    return places + speeds * (t - since), speeds
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_a_mover_of_numpy_is_answered_as_a_motion_is(threads: int) -> None:
+    scene = ks.Scene("gas", bodies=200, seconds=2.0)
+    world, motion = ks.World(**scene.definition), scene.motion()
+    world.add_motion(motion, scene.radii)
+    expected = hash_of(world.run(2.0, motion, scene))
+    start = scene.motion().definitions(0.0)
+    world = ks.World(**scene.definition)
+    world.add(**start, radii=scene.radii)
+    mover = ks.Mover(straight_on, start["positions"], start["velocities"])
+    probed = copy.copy(mover)
+    assert hash_of(world.run(2.0, mover, scene, threads=threads)) == expected
+    assert np.array_equal(mover(np.arange(200), 2.0)[0], motion.states(2.0)[0])
+    # As the probe of a loop that tells it of changes.
+    world = ks.World(**scene.definition)
+    world.add(**start, radii=scene.radii)
+    hash = ks.EventHash()
+    for event in world.events(0.5, probed):
+        hash.add(event)
+        one, other = event.first, event.second
+        first, second = ks.bounce(event, scene.masses[one], scene.masses[other] if other is not None else 1.0)
+        probed.depart(one, event.time, event.first_position, first)
+        world.set_velocity(one, first)
+        if other is not None and second is not None:
+            probed.depart([other], event.time, [event.second_position], [second])
+            world.set_velocity(other, second)
+    again, motion = ks.World(**scene.definition), scene.motion()
+    again.add_motion(motion, scene.radii)
+    assert str(hash) == hash_of(again.run(0.5, motion, scene))
+
+
+def test_wrong_movers_are_named() -> None:
+    with pytest.raises(TypeError, match="function must be a function"):
+        ks.Mover(5, positions)  # type: ignore[arg-type]
+    with pytest.raises(ks.InvalidValue, match="velocities must have shape"):
+        ks.Mover(straight_on, positions, velocities[1:])
+    mover = ks.Mover(straight_on, positions, velocities)
+    world = ks.World()
+    world.add(positions, velocities)
+    newcomer = world.add((60, 0, 0), (-1, 0, 0), acceleration_limits=50.0)
+    with pytest.raises(ks.BodyError, match="does not of body 40"):
+        world.run(1.0, mover, ks.Bouncing())
+    mover.depart(newcomer, 0.0, (60, 0, 0), (-1, 0, 0))
+    world.run(1.0, mover, ks.Bouncing())
+    assert len(mover) == 41
+    with pytest.raises(ks.InvalidValue, match="bodies"):
+        mover.depart(2**31, 0.0, (0, 0, 0), (0, 0, 0))
+    with pytest.raises(ks.InvalidValue):
+        mover.depart([1, 2], 0.0, [(0, 0, 0)], [(0, 0, 0)])
+    broken = ks.Mover(lambda ids, t, since, places, speeds: (places, speeds[:, :1]), positions, velocities)
+    world = ks.World()
+    world.add(positions, velocities, acceleration_limits=1.0)
+    with pytest.raises(ks.InvalidValue, match="velocities of the probe must have shape"):
+        world.run(5.0, broken, ks.Bouncing())

@@ -1,0 +1,303 @@
+"""What a world tells, and what can be asked of it and changed."""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+from conftest import Doubles, Ids, hash_of, pair
+
+import kinesphere as ks
+from kinesphere import EventKind
+
+
+def test_ten_lines() -> None:
+    world, motion = pair()
+    told = [(event.kind, event.first, event.second) for event in world.events(10.0, motion)]
+    assert told == [(EventKind.contact_begin, 0, 1), (EventKind.contact_end, 0, 1)]
+    assert world.time == 10.0
+
+
+def test_a_probe_of_numpy_tells_the_same() -> None:
+    world, motion = pair()
+    expected = hash_of(world.run(10.0, motion))
+    asked: list[Ids] = []
+
+    def probe(ids: Ids, t: float) -> tuple[Doubles, Doubles]:
+        assert ids.dtype == np.int64 and ids.ndim == 1 and isinstance(t, float)
+        asked.append(ids)
+        places = np.array([[2 * t, 0, 0], [10, 0, 0]])
+        return places[ids], np.array([[2.0, 0, 0], [0, 0, 0]])[ids]
+
+    other, _ = pair()
+    assert hash_of(other.run(10.0, probe)) == expected
+    assert other.counters.probes == sum(len(ids) for ids in asked)
+    # Those of earlier calls are still what they were.
+    assert all(set(ids.tolist()) <= {0, 1} for ids in asked)
+
+
+def test_a_loop_and_advance_and_run_tell_the_same() -> None:
+    scene = ks.Scene("paper1", bodies=60, seconds=1.0)
+    hashes = set()
+    for way in ("run", "events", "advance"):
+        world, motion = ks.World(**scene.definition), scene.motion()
+        world.add_motion(motion, scene.radii)
+        hash = ks.EventHash()
+        if way == "run":
+            hash.add(world.run(1.0, motion))
+        elif way == "events":
+            for event in world.events(1.0, motion):
+                hash.add(event)
+        else:
+            while (next_event := world.advance(1.0, motion)) is not None:
+                hash.add(next_event)
+        assert world.time == 1.0
+        hashes.add(str(hash))
+    assert len(hashes) == 1
+
+
+def test_an_event_says_what_happened() -> None:
+    world, motion = pair()
+    event = world.advance(10.0, motion)
+    assert event is not None
+    assert (
+        event.kind == EventKind.contact_begin
+        and str(event.kind) == "contact_begin"
+        and f"{event.kind:>14}" == " contact_begin"
+    )
+    assert event.time == pytest.approx(4.0, abs=1e-5)
+    assert event.normal.tolist() == [1, 0, 0]
+    assert event.point == pytest.approx([9, 0, 0], abs=1e-5)
+    assert event.first_velocity.tolist() == [2, 0, 0] and event.second_position.tolist() == [10, 0, 0]
+    assert event.approach_speed == 2.0 and 0 <= event.gap <= 1e-6
+    assert event.wall is None and event.sensor is None and not event.repeated
+    assert repr(event).startswith("<Event contact_begin at 3.99")
+    first, second = ks.bounce(event, 1.0, 1.0)
+    assert second is not None
+    assert first.tolist() == [0, 0, 0] and second.tolist() == [2, 0, 0]
+
+
+def test_walls_bounces_and_a_ready_made_response() -> None:
+    world, motion = pair(box=((-5, -5, -5), (15, 5, 5)))
+    events = world.run(20.0, motion, ks.Bouncing())
+    kinds = [EventKind(kind) for kind in events["kind"]]
+    assert kinds[:2] == [EventKind.contact_begin, EventKind.contact_end]
+    wall = events.of_kind(EventKind.wall_begin)[0]
+    assert wall.wall == ks.Wall.x_upper and wall.first == 1 and wall.second is None
+    own, moved = pair(box=((-5, -5, -5), (15, 5, 5)))
+    answers = own.run(20.0, moved, lambda event: ks.bounce(event) if event.approach_speed > 0 else None)
+    assert hash_of(answers) == hash_of(events)
+
+
+def test_a_response_turns_fixed_bodies_into_walls() -> None:
+    motion = ks.Ballistic([[0.0, 0, 0]], [[1.0, 0, 0]])
+    world = ks.World(contacts="impacts")
+    world.add_motion(motion, radii=1.0)
+    post = world.add_fixed(ks.Ball((5, 0, 0), 1))
+    floor = world.add_fixed(ks.HalfSpace((1, 0, 0), -4))
+    events = world.run(30.0, motion, ks.Bouncing(masses=[2.0]))
+    assert events["second"].tolist()[:3] == [post, floor, post]
+
+
+def test_bodies_change_in_the_loop() -> None:
+    world, motion = pair(contacts="impacts")
+    for event in world.events(20.0, motion):
+        assert event.second is not None
+        first, second = ks.bounce(event, 1.0, 1.0)
+        assert second is not None
+        for body, velocity in ((event.first, first), (event.second, second)):
+            motion.set_velocity(body, event.time, velocity)
+            world.set_velocity(body, velocity)
+    assert motion.states(20.0)[0][1, 0] == pytest.approx(42.0)
+
+
+def test_removed_bodies_are_stale_and_foreign_ones_are_noticed() -> None:
+    world, motion = pair()
+    extra = world.add((50, 0, 0))
+    assert isinstance(extra, ks.BodyId)
+    world.remove(extra)
+    assert extra not in world and len(world) == 2
+    again = world.add((60, 0, 0))
+    assert again != extra and again.index == extra.index and again.generation == 1
+    assert str(again) == "2 (generation 1)"
+    assert ks.index_of([again]).tolist() == [2] and ks.index_of(again) == 2
+    with pytest.raises(ks.BodyError) as caught:
+        world.set_radius(extra, 1.0)
+    assert caught.value.code == "stale_body" and caught.value.body == extra
+    other, _ = pair()
+    foreign = other.add((90, 0, 0))
+    with pytest.raises(LookupError, match="foreign|another world"):
+        world.teleport(foreign, (0, 0, 0))
+    with pytest.raises(IndexError):
+        np.zeros(3)[again]
+
+
+def test_many_bodies_are_changed_at_once() -> None:
+    world = ks.World()
+    ids = world.add(np.arange(30.0).reshape(10, 3) * 10)
+    world.set_velocity(ids, np.ones((10, 3)))
+    world.set_radius(ids[2:4], [0.5, 0.25])
+    world.teleport(ids[:2], [[1, 1, 1], [5, 5, 5]])
+    world.set_user_data(ids, np.arange(10, dtype=np.uint64) + 2**63)
+    world.set_motion_limits(ids, 3.0, planned_acceleration=(0, 0, -1))
+    assert world.user_data(3) == 2**63 + 3
+    assert world.body(3).radius == 0.25 and world.body(3).acceleration_limit == 3.0
+    world.disable(ids[:5])
+    assert not world.body(0).enabled
+    world.enable(ids[:5], np.zeros((5, 3)) + [[0], [20], [40], [60], [80]], np.zeros((5, 3)))
+    world.rest(ids[5])
+    assert world.body(5).resting
+    world.wake(ids[5])
+    world.remove(ids[[1, 2]])
+    assert len(world) == 8 and world.bodies().tolist() == [0, 3, 4, 5, 6, 7, 8, 9]
+
+
+def test_sensors_and_zones() -> None:
+    world, motion = pair()
+    world.set_sensor(1, [3.0, 1.0])
+    world.set_sensor_class(1, 1)
+    zone = world.add_zone(ks.Box((3, -1, -1), (5, 1, 1)), user_data=7)
+    events = world.run(10.0, motion)
+    entered = events.of_kind(EventKind.sensor_enter)
+    assert [(event.sensor, event.visitor, event.distance) for event in entered] == [
+        (zone, 0, 0.0), (1, 0, 3.0), (1, 0, 1.0)]  # fmt: skip
+    assert entered[0].second_user_data == 7 and entered[0].senses == ks.Senses.second
+    assert len(events.of_kind(EventKind.sensor_leave)) == 3
+    assert world.sensed(1) == [] and world.sensor(1)[0].tolist() == [3.0, 1.0]
+    assert world.shape_of(zone) == ks.Box((3, -1, -1), (5, 1, 1))
+
+
+def test_filters() -> None:
+    world, motion = pair()
+    world.set_filter(0, category=2)
+    world.set_filter(1, mask=1)
+    assert len(world.run(10.0, motion)) == 0
+    world, motion = pair()
+    asked: list[tuple[int, int]] = []
+
+    def no_pair(first: int, second: int) -> bool:
+        asked.append((first, second))
+        return False
+
+    world.set_pair_filter(no_pair)
+    assert len(world.run(10.0, motion)) == 0 and (0, 1) in [(min(both), max(both)) for both in asked]
+    with pytest.raises(TypeError, match="set_pair_filter"):
+        world.set_pair_filter(5)  # type: ignore[arg-type]
+
+
+def test_what_a_pair_filter_raises_comes_out() -> None:
+    def broken(first: ks.BodyId, second: ks.BodyId) -> bool:
+        raise KeyError("filter")
+
+    world, motion = pair()
+    world.set_pair_filter(broken)
+    with pytest.raises(KeyError, match="filter"):
+        world.run(10.0, motion)
+    world.set_pair_filter(None)
+    assert len(world.run(10.0, motion)) <= 2 and world.time == 10.0
+
+
+def test_certificates_and_queries() -> None:
+    world, motion = pair()
+    assert world.safe_until(0, 1).time == pytest.approx(4.0, abs=1e-4)
+    assert world.safe_until().time <= 4.0 and world.safe_until(0).time <= 4.0
+    assert world.safe_until(0, 1, 3.0).time == pytest.approx(2.5, abs=1e-4)
+    contact = world.earliest_contact(0, probe=motion)
+    assert contact.partner == 1 and contact.wall is None and not contact.touching
+    approach = world.earliest_approach(0, 3.0)
+    assert approach.partner == 1 and not approach.within and approach.time == pytest.approx(2.5, abs=1e-4)
+    limits = world.distance_limits(0, 1, 2.0)
+    assert limits.lower <= 4.0 <= limits.upper
+    found = world.nearest((11.5, 0, 0), 1, probe=motion)
+    assert (
+        found["body"].tolist() == [1] and found["certain"].all() and found["lower"][0] == pytest.approx(0.5)
+    )
+    assert world.overlapping((0, 0, 0), 0.5)["body"].tolist() == [0]
+    assert world.overlapping_box(((9, -1, -1), (11, 1, 1)))["body"].tolist() == [1]
+    assert world.ray_cast((-5, 0, 0), (1, 0, 0), 50.0)["body"].tolist() == [0]
+    assert world.sphere_cast((10, 20, 0), 1.0, (0, -1, 0), 50.0)["body"].tolist() == [1]
+
+
+def test_inspection() -> None:
+    world, motion = pair()
+    world.set_timing(True)
+    world.run(4.2, motion)
+    assert world.touching(0).tolist() == [1]
+    centres, radii = world.bounds()
+    assert centres.shape == (2, 3) and radii.tolist() == [1, 1]
+    assert world.audit() is None
+    assert world.counters.count(EventKind.contact_begin) == 1
+    assert world.memory()["bodies"] > 0 and world.timings()["advances"] > 0
+    assert all(isinstance(box, ks.Box) for box, _ in world.cells())
+    assert isinstance(world.certificates(), list)
+    assert world.body(0).image == (0, 0, 0)
+
+
+def test_snapshots_clones_copies_and_pickles_go_the_same_way() -> None:
+    scene = ks.Scene("paper1", bodies=60, seconds=1.0)
+    world, motion = ks.World(**scene.definition), scene.motion()
+    world.add_motion(motion, scene.radii)
+    world.run(0.5, motion, scene)
+    ways = [
+        world.clone(),
+        copy.copy(world),
+        copy.deepcopy(world),
+        ks.World.restore(world.save()),
+        pickle.loads(pickle.dumps(world)),
+    ]
+    motions = [copy.copy(motion) for _ in ways]
+    expected = hash_of(world.run(1.0, motion, scene))
+    assert {hash_of(way.run(1.0, moved, scene)) for way, moved in zip(ways, motions)} == {expected}
+    world.set_pair_filter(lambda a, b: True)
+    with pytest.raises(TypeError, match="pair filter"):
+        pickle.dumps(world)
+
+
+def test_recordings_are_repeated_without_the_motion() -> None:
+    world, motion = pair()
+    world.start_recording()
+    assert world.recording
+    events = world.run(10.0, motion)
+    recording = world.stop_recording()
+    replay = ks.Replay(recording)
+    again = ks.EventHash()
+    while not replay.finished:
+        event = replay.advance()
+        if event is not None:
+            again.add(event)
+    assert str(again) == hash_of(events) and replay.world().time == 10.0
+    run = ks.read_recording(recording)
+    assert hash_of(run.events) == hash_of(events) and run.end_time == 10.0
+    assert run.positions.shape == (len(run.times), 3) == run.velocities.shape and len(run.bodies) == len(
+        run.times
+    )
+
+
+def test_space_that_repeats() -> None:
+    motion = ks.Ballistic([(0.5, 0.5, 0.5), (9.5, 0.5, 0.5)], [(-1, 0, 0), (0, 0, 0)])
+    world = ks.World(box=((0, 0, 0), (10, 10, 10)), periodic=True)
+    world.add_motion(motion, radii=0.2)
+    event = world.advance(5.0, motion)
+    assert event is not None and event.normal.tolist() == [-1, 0, 0]
+    assert world.definition["periodic"] == "xyz"
+    assert ks.World(box=((0, 0, 0), (10, 10, 10)), periodic="xy").definition["periodic"] == "xy"
+
+
+def test_a_definition_makes_the_same_world_again() -> None:
+    settings = dict(box=ks.Box((0, 0, 0), (1, 2, 3)), contact_tolerance=1e-4, zeno_interval=0.1, start_time=5.0,
+                    allow_overlap=False, contacts="impacts", separation_distance=0.01, dimensions=3)  # fmt: skip
+    world = ks.World(**settings)  # type: ignore[arg-type]
+    again = ks.World(**world.definition).definition
+    assert {name: again[name] for name in settings} == settings and world.time == 5.0  # type: ignore[literal-required]
+
+
+def test_a_mesh() -> None:
+    vertices = np.array([[0, 0, 0], [10, 0, 0], [10, 10, 0], [0, 10, 0]], dtype=float)
+    motion = ks.Ballistic([[3.0, 4, 5]], gravity=(0, 0, -10))
+    world = ks.World(contacts="impacts")
+    world.add_motion(motion, radii=0.5)
+    ids = world.add_mesh(vertices, np.array([[0, 1, 2], [0, 2, 3]]))
+    assert ids.tolist() == [1, 2]
+    event = world.advance(5.0, motion)
+    assert event is not None and event.second in ids
+    assert event.time == pytest.approx(np.sqrt(2 * 4.5 / 10), abs=1e-4)
