@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Checks the format of all C++ files, all sources but the tests with clang-tidy, and that neither the library nor the
+# Checks the format of all C++ and Python files, all sources but the tests with clang-tidy, and that neither the library nor the
 # examples include the lab. The sources of a folder are checked together, as their headers take most of the time.
 # Usage: lint.sh
 set -euo pipefail
@@ -8,6 +8,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build=build/lint
 
 find include src programs browser/module python/module examples tests -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run -Werror
+/usr/bin/black --config python/pyproject.toml --quiet --diff --check python
+
 if grep -rn '#include ["<]lab/' include examples src --exclude-dir=lab; then
   echo "lint: only the lab itself, the program and the tests may include the lab" >&2
   exit 1

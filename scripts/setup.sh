@@ -9,7 +9,7 @@ browser=(emscripten nodejs)
 # That of Node.js itself brings npm along.
 if ! command -v npm >/dev/null; then browser+=(npm); fi
 python=(python3-dev python3-pip python3-venv python3-setuptools python3-wheel python3-skbuild pybind11-dev python3-numpy)
-python_testing=(python3-pytest python3-pandas python3-matplotlib python3-scipy mypy)
+python_testing=(python3-pytest python3-pandas python3-matplotlib python3-scipy mypy black)
 testing=("${mpi[@]}" "${browser[@]}" "${python[@]}" "${python_testing[@]}" chromium libgtest-dev libtbb-dev librapidcheck-dev clang clang-format clang-tidy pkg-config valgrind)
 case ${1:-} in
   run) ;;
