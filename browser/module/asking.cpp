@@ -80,12 +80,15 @@ Answer ask_javascript(const Event& event) {
   return {velocity_at(velocities), velocity_at(velocities + 4)};
 }
 
-/// As all scenes of the program have it: with a mass by index.
-Answer bounce_off(const Event& event, std::span<const double> masses, double restitution,
-                  double resting_speed) {
+/// With a mass by index; what the motion does not move stands still, such as fixed shapes.
+Answer bounce_off(const Event& event, const Motion& motion, std::span<const double> masses,
+                  double restitution, double resting_speed) {
   const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
   if (!begins || event.approach_speed <= 0.0) return {};
-  const auto mass = [&](BodyId body) { return body.index < masses.size() ? masses[body.index] : 1.0; };
+  const auto mass = [&](BodyId body) {
+    if (!motion.contains(body.index)) return std::numeric_limits<double>::infinity();
+    return body.index < masses.size() ? masses[body.index] : 1.0;
+  };
   const bool is_pair = event.second != no_body;
   const double first = mass(event.first);
   const double second = is_pair ? mass(event.second) : first;
@@ -128,7 +131,7 @@ bool world_run(World* world, double until, MotionHandle* handle, Responding resp
       case Responding::nothing:
         return {};
       case Responding::bounces:
-        return bounce_off(event, {masses, mass_count}, restitution, resting_speed);
+        return bounce_off(event, *handle->motion, {masses, mass_count}, restitution, resting_speed);
       case Responding::asks_javascript:
         return ask_javascript(event);
       case Responding::as_in_scene:

@@ -209,6 +209,17 @@ test("zones, fixed shapes and sensors tell", () => {
   assert.ok(seen.some(([, other]) => other === zone) && ball === 0);
 });
 
+test("bodies bounce off what is fixed", () => {
+  const world = new World();
+  const motion = new Ballistic({ positions: [0, 0, 5], velocities: [0, 0, -1] });
+  const [ball] = world.addMotion(motion, 1);
+  const floor = world.addFixed({ halfSpace: { normal: [0, 0, 1], offset: 0 } });
+  const table = world.addFixed({ box: { lower: [-5, -5, 8], upper: [5, 5, 9] } });
+  const events = [...world.run(20, { motion, respond: { restitution: 1 } })].filter(({ kind }) => kind === "contact_begin");
+  assert.deepEqual(events.map(({ second }) => second), [floor, table, floor]);
+  assert.ok(Math.abs(motion.state(ball, 20).velocity[2] - 1) < 1e-12);
+});
+
 test("certificates say until when nothing happens", () => {
   const { world, motion, first, second } = pair(10);
   world.run(1, { motion });

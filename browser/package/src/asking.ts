@@ -19,7 +19,7 @@ export interface Answer {
 }
 /** Has to give the same event the same answer. */
 export type RespondFunction = (event: Event) => Answer | undefined;
-/** Bodies bounce off each other and the walls; masses by index, infinite for what stands still. */
+/** Bodies bounce off each other and the walls; masses by index, by default 1, infinite for what stands still; what the motion does not move does. */
 export interface Bounces {
   masses?: ArrayLike<number>;
   /** From 0 to 1, which is the default. */
