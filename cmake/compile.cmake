@@ -25,11 +25,10 @@ function(kinesphere_relocatable target)
   target_compile_options(${target} PRIVATE -fno-semantic-interposition)
 endfunction()
 
-# Where UNITY_BUILD is on (all targets of the presets release and bench, of same_hash and lint; the program everywhere),
-# the sources of a folder are compiled together, as if they were one, which reads headers once: no name may stand for two
+# The sources of a folder are compiled together, as if they were one, which reads headers once: no name may stand for two
 # things in a folder.
 function(kinesphere_batches target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   get_target_property(sources ${target} SOURCES)
   foreach(source ${sources})
     cmake_path(ABSOLUTE_PATH source)

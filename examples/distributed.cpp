@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
   const std::uint32_t first = begin_of(mpi.rank()), last = begin_of(mpi.rank() + 1);
   std::vector<State> states;
   for (std::uint32_t k = first; k < last; ++k) {
-    const double x = k % side, y = k / side % side, z = k / side / side;
+    const auto x = k % side, y = k / side % side, z = k / side / side;
     const double speed = 1.0 + 0.1 * (k % 7);
     states.push_back({{x + 0.5, y + 0.5, z + 0.5}, {k % 2 == 0 ? speed : -speed, k % 3 - 1.0, k % 5 - 2.0}});
   }

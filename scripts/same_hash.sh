@@ -12,7 +12,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 # Name, compiler and flags of each build; the one given is one more. Both compilers, without optimisation and with all that
 # this processor has (-march=native brings in fused multiply-add and wider vectors); once with sanitizers, once as a shared
-# library. The sources of a folder are compiled together, which is much faster.
+# library.
 configurations=(
   "gcc-O0-sanitized g++ -O0 -fsanitize=address,undefined -fno-sanitize-recover=all"
   "gcc-O3-native-shared g++ -O3 -DNDEBUG -march=native"
@@ -38,8 +38,7 @@ for configuration in "${configurations[@]}"; do
   shared=OFF
   if [[ $name == *shared ]]; then shared=ON; fi
   if ! { cmake -S . -B "$build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags" \
-           -DCMAKE_BUILD_TYPE=None -DKINESPHERE_BUILD_TESTS=ON -DBUILD_SHARED_LIBS="$shared" \
-           -DCMAKE_UNITY_BUILD=ON &&
+           -DCMAKE_BUILD_TYPE=None -DKINESPHERE_BUILD_TESTS=ON -DBUILD_SHARED_LIBS="$shared" &&
          cmake --build "$build" --target scene_hash; } >"$build/build.log" 2>&1; then
     cat "$build/build.log"
     exit 1

@@ -13,9 +13,16 @@ trap 'rm -f "$log"' EXIT
 export KINESPHERE_PROGRAM=$program KINESPHERE_PACKAGE=$PWD/build/browser/browser/package
 export KINESPHERE_VIEWER=$PWD/build/browser/browser/viewer
 export PLAYWRIGHT=$PWD/build/browser/browser/viewer-sources/node_modules/playwright-core
-cd browser/test
-node --test package.test.mjs consumer.test.mjs
-KINESPHERE_SIMD=1 node --test scenes.test.mjs
-KINESPHERE_SIMD=0 node --test scenes.test.mjs
-cd ../viewer/test
+# Those in Node.js beside those in chromium, which wait for pictures.
+node_tests() {
+  cd browser/test
+  node --test package.test.mjs consumer.test.mjs &&
+    KINESPHERE_SIMD=1 node --test scenes.test.mjs &&
+    KINESPHERE_SIMD=0 node --test scenes.test.mjs
+}
+(node_tests) >"$log" 2>&1 &
+in_node=$!
+cd browser/viewer/test
 node --test viewer.test.mjs served.test.mjs hashes.test.mjs dragging.test.mjs pictures.test.mjs
+wait $in_node || { cat "$log"; exit 1; }
+cat "$log"

@@ -23,8 +23,8 @@ std::optional<Error> wrong_time(std::string_view call, BodyId body, std::string_
       .finite(subject, time)
       .require(time >= known.from, ErrorCode::time_backwards, subject,
                "must not lie before its last change or frame at", known.from, time)
-      .require(time <= known.to, ErrorCode::out_of_range, subject, "must not lie after the latest frame at",
-               known.to, time)
+      .require(time <= known.to, ErrorCode::out_of_range, subject,
+               "must not lie after the latest time that is known,", known.to, time)
       .error();
 }
 

@@ -28,6 +28,8 @@ PiecewiseAcceleration::PiecewiseAcceleration(const std::vector<State>& start, do
   for (const State& state : start) courses_.push_back({start_time, state, no_piece});
 }
 
+double PiecewiseAcceleration::latest_time() const { return farthest * interval_; }
+
 bool PiecewiseAcceleration::contains(std::uint32_t body) const {
   return body < size() && courses_[body].since < infinity;
 }
@@ -39,7 +41,8 @@ State PiecewiseAcceleration::state(std::uint32_t body, double t) const {
 Trajectory PiecewiseAcceleration::trajectory(std::uint32_t body, double begin, double end) const {
   constexpr std::string_view call = "trajectory";
   Trajectory result{known_piece_at(body, begin, call, "begin")};
-  if (!std::isfinite(end)) refuse_question(call, *this, body, "end", end, {begin, infinity});
+  if (!(std::isfinite(end) && end <= latest_time()))
+    refuse_question(call, *this, body, "end", end, {begin, latest_time()});
   if (end < begin) refuse_order(call, body, begin, end);
   while (result.back().end < end) result.push_back(piece_after(body, result.back()));
   result.back().end = end;
@@ -48,7 +51,8 @@ Trajectory PiecewiseAcceleration::trajectory(std::uint32_t body, double begin, d
 
 Result<void> PiecewiseAcceleration::check_change(std::string_view call, std::uint32_t body, double t) const {
   if (const auto error = wrong_body(call, *this, body)) return *error;
-  if (const auto error = wrong_time(call, {body, 0}, "t", t, {last_change(body), infinity})) return *error;
+  if (const auto error = wrong_time(call, {body, 0}, "t", t, {last_change(body), latest_time()}))
+    return *error;
   return {};
 }
 
@@ -91,7 +95,7 @@ Result<void> PiecewiseAcceleration::remove(std::uint32_t body) {
 
 Result<std::uint32_t> PiecewiseAcceleration::add_body(std::string_view call, double t, const State& state) {
   InputCheck check(call);
-  const double latest = farthest * interval_;
+  const double latest = latest_time();
   check.finite({"t"}, t).require(std::abs(t) <= latest, ErrorCode::out_of_range, {"t"},
                                  "must lie within 2^50 intervals of 0, that is within +-", latest, t);
   if (check.error()) return *check.error();
@@ -129,8 +133,9 @@ BodyDefinition PiecewiseAcceleration::definition_with(std::uint32_t body, double
 
 const Segment& PiecewiseAcceleration::known_piece_at(std::uint32_t body, double t, std::string_view call,
                                                      std::string_view argument) const {
-  if (body >= size() || !(t >= courses_[body].since && t < infinity)) [[unlikely]]
-    refuse_question(call, *this, body, argument, t, {body < size() ? courses_[body].since : t, infinity});
+  const double latest = latest_time();
+  if (body >= size() || !(t >= courses_[body].since && t < infinity && t <= latest)) [[unlikely]]
+    refuse_question(call, *this, body, argument, t, {body < size() ? courses_[body].since : t, latest});
   return piece_at(body, t);
 }
 

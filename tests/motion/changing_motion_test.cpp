@@ -1,6 +1,7 @@
 // Bodies that come and go while a motion runs.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -37,6 +38,21 @@ TEST(AddedBodies, TakeTheNumbersOfRemovedOnes) {
   EXPECT_EQ(motion.add(4.0, muzzle, 7.0).value(), 3u);
   motion.steer(3, 5.0, {7, 0, 0}).value();
   EXPECT_EQ(motion.add(4.0, muzzle, -7.0).error().argument, "acceleration_limit");
+}
+
+TEST(FarTimes, AreRefusedWhereIntervalsCanNoLongerBeCounted) {
+  RandomForces forces =
+      RandomForces::create({.start = {{}}, .acceleration_limits = {1.0}, .interval = 0.5}).value();
+  const double latest = 0.5 * 0x1p50;
+  for (const double time : {std::nextafter(latest, 1e308), 0x1p70, 1e300}) {
+    EXPECT_THROW((void)forces.state(0, time), BadResult) << time;
+    EXPECT_THROW((void)forces.trajectory(0, 0.0, time), BadResult) << time;
+    EXPECT_THROW((void)forces.definition(0, time), BadResult) << time;
+    EXPECT_EQ(forces.set_velocity(0, time, {}).error().code, ErrorCode::out_of_range) << time;
+  }
+  // Free flight has no intervals to count.
+  Ballistic flight = Ballistic::create({.start = {{{}, {1, 0, 0}}}}).value();
+  EXPECT_EQ(flight.state(0, 0x1p70).position.x, 0x1p70);
 }
 
 TEST(AddedBodies, AreForcedAndDrawnAlong) {

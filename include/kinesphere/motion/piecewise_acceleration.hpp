@@ -28,6 +28,7 @@ class PiecewiseAcceleration : public Motion {
   bool contains(std::uint32_t body) const final;
   /// Cost: O(1) when t has not gone back since the last call, else, and after read_body(), one step for every
   /// interval since the body's last change.
+  /// Throws BadResult too for times beyond 2^50 intervals.
   State state(std::uint32_t body, double t) const final;
   Trajectory trajectory(std::uint32_t body, double begin, double end) const final;
   Result<void> set_velocity(std::uint32_t body, double t, const Vec3& velocity) final;
@@ -85,6 +86,8 @@ class PiecewiseAcceleration : public Motion {
   std::int64_t interval_number(double t) const;
   const Segment& known_piece_at(std::uint32_t body, double t, std::string_view call,
                                 std::string_view argument) const;
+  /// 2^50 intervals.
+  double latest_time() const;
   /// Whether the body can be changed at time t.
   Result<void> check_change(std::string_view call, std::uint32_t body, double t) const;
 
