@@ -1,0 +1,116 @@
+// What a monitor is told of a track: reports, each with its own time and errors, and what the class of the
+// track promises in between.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "kinesphere/body.hpp"
+
+namespace kinesphere {
+
+/// How far off something is at most: in the horizontal plane (x, y), upright (z) and altogether. All units:
+/// lengths for positions, and so on. A number alone means a ball of that radius:
+///   report.position_error = 3.0;
+///   report.position_error = Spread::cylinder(30.0, 8.0);
+class Spread {
+ public:
+  constexpr Spread() = default;
+  constexpr Spread(double radius) : horizontal_(radius), vertical_(radius), total_(radius) {}
+  /// Both limits hold at once.
+  static Spread cylinder(double horizontal, double vertical) {
+    Spread spread;
+    spread.horizontal_ = horizontal;
+    spread.vertical_ = vertical;
+    spread.total_ = around(horizontal, vertical);
+    return spread;
+  }
+
+  constexpr double horizontal() const { return horizontal_; }
+  constexpr double vertical() const { return vertical_; }
+  /// Where lengths along z count `stretch` >= 0 times.
+  double total(double stretch = 1.0) const {
+    return std::min(around(horizontal_, stretch * vertical_), std::max(1.0, stretch) * total_);
+  }
+  /// In the plane: as if there were no z.
+  constexpr Spread flat() const { return Spread(horizontal_); }
+
+  friend constexpr bool operator==(const Spread&, const Spread&) = default;
+  friend Spread operator+(const Spread& a, const Spread& b) {
+    return of(a.horizontal_ + b.horizontal_, a.vertical_ + b.vertical_, a.total_ + b.total_);
+  }
+  friend Spread operator*(const Spread& a, double factor) {
+    return of(a.horizontal_ * factor, a.vertical_ * factor, a.total_ * factor);
+  }
+  /// The lesser of each.
+  friend Spread least(const Spread& a, const Spread& b) {
+    return of(std::min(a.horizontal_, b.horizontal_), std::min(a.vertical_, b.vertical_),
+              std::min(a.total_, b.total_));
+  }
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [horizontal, vertical, total] = self;
+    archive(horizontal, vertical, total);
+  }
+
+ private:
+  static Spread of(double horizontal, double vertical, double total) {
+    Spread spread;
+    spread.horizontal_ = horizontal;
+    spread.vertical_ = vertical;
+    spread.total_ = total;
+    return spread;
+  }
+  /// The diagonal, rounded up.
+  static double around(double horizontal, double vertical) {
+    if (vertical == 0.0) return horizontal;
+    if (horizontal == 0.0) return vertical;
+    return std::sqrt(horizontal * horizontal + vertical * vertical) * (1.0 + 0x1p-50);
+  }
+
+  double horizontal_ = 0.0;
+  double vertical_ = 0.0;
+  double total_ = 0.0;
+};
+
+/// What all tracks of a class promise about their motion. One of the two limits has to be finite.
+struct TrackClass {
+  /// The acceleration differs from the planned one by at most this (length / time^2).
+  Spread acceleration_limit = std::numeric_limits<double>::infinity();
+  Vec3 planned_acceleration{};
+  /// No speed is larger (length / time).
+  Spread largest_speed = std::numeric_limits<double>::infinity();
+};
+
+/// Where a track was, as somebody reported it. The errors are bounds: where a source tells of an accuracy that
+/// holds with some probability, it is the caller who declares which multiple of it contains all errors.
+struct TrackReport {
+  /// When it was so, by the clock of the monitor. Reports may be late, come out of order and be repeated.
+  double stamp = 0.0;
+  State state{};
+  /// The true position is within this of the reported one (length).
+  Spread position_error{};
+  /// The true velocity is within this of the reported one (length / time); infinite if none was reported,
+  /// which needs a class with a largest speed.
+  Spread velocity_error{};
+  /// The stamp is within this of the true time.
+  double stamp_error = 0.0;
+
+  /// What is known of the motion after this report alone, in place of the promise of its class: until
+  /// `valid_until` the acceleration differs from the planned one by at most the limit. A satellite's gravity,
+  /// a filed manoeuvre.
+  struct Plan {
+    Vec3 acceleration{};
+    Spread acceleration_limit{};
+    double valid_until = std::numeric_limits<double>::infinity();
+  };
+  std::optional<Plan> plan{};
+
+  /// Of a track that is new: its class, a number of MonitorDefinition::classes. Later it may not change.
+  std::size_t track_class = 0;
+};
+
+}  // namespace kinesphere

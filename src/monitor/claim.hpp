@@ -1,0 +1,81 @@
+// What one report says of where a track is from then on.
+#pragma once
+
+#include "kinesphere/bound.hpp"
+#include "kinesphere/monitor/report.hpp"
+#include "kinesphere/monitor/separation.hpp"
+#include "number/infinity.hpp"
+
+namespace kinesphere {
+
+/// With s = t - time >= 0, and until `end`, the track is within `radius + speed s + 1/2 growth s^2` of
+/// position + velocity s + 1/2 acceleration s^2.
+struct Claim {
+  double time = 0.0;
+  double end = infinity;
+  Vec3 position{};
+  Vec3 velocity{};
+  Vec3 acceleration{};
+  Spread radius{};
+  Spread speed{};
+  Spread growth{};
+
+  Vec3 centre_at(double t) const {
+    const double s = t - time;
+    return position + (velocity + acceleration * (0.5 * s)) * s;
+  }
+  Vec3 velocity_at(double t) const { return velocity + acceleration * (t - time); }
+  Spread radius_at(double t) const {
+    const double s = t - time;
+    return radius + (speed + growth * (0.5 * s)) * s;
+  }
+  /// As a ball.
+  Bound bound() const {
+    return {time, position, velocity, acceleration, radius.total(), speed.total(), growth.total()};
+  }
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [time, end, position, velocity, acceleration, radius, speed, growth] = self;
+    archive(time, end, position, velocity, acceleration, radius, speed, growth);
+  }
+};
+
+/// One of the distances that a separation is about: in space, where lengths along z count `stretch` times, in
+/// the plane, or upright.
+struct Component {
+  enum class Axes { space, plane, upright };
+  Axes axes = Axes::space;
+  double stretch = 1.0;
+  double limit = 0.0;
+
+  double length(const Spread& spread) const {
+    if (axes == Axes::plane) return spread.horizontal();
+    return axes == Axes::upright ? spread.vertical() : spread.total(stretch);
+  }
+  Vec3 part(const Vec3& v) const {
+    if (axes == Axes::plane) return {v.x, v.y, 0.0};
+    return axes == Axes::upright ? Vec3{0.0, 0.0, v.z} : Vec3{v.x, v.y, stretch * v.z};
+  }
+};
+
+/// A pair is apart if it is beyond the limit of one of these, and within if it is so of all.
+struct Components {
+  Component parts[2];
+  int count = 1;
+
+  explicit Components(const Separation& separation, int dimensions) {
+    const auto& [shape, horizontal, vertical] = separation;
+    if (shape == Separation::Shape::cylinder) {
+      parts[0] = {Component::Axes::plane, 1.0, horizontal};
+      parts[1] = {Component::Axes::upright, 1.0, vertical};
+      count = dimensions == 2 ? 1 : 2;
+    } else {
+      parts[0] = {Component::Axes::space, dimensions == 2 ? 1.0 : horizontal / vertical, horizontal};
+    }
+  }
+  const Component* begin() const { return parts; }
+  const Component* end() const { return parts + count; }
+};
+
+}  // namespace kinesphere

@@ -1,0 +1,511 @@
+#include "monitor/engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include "bound/rounding.hpp"
+#include "input/input_check.hpp"
+#include "kinesphere/limits.hpp"
+#include "number/powers.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// In place of the second stamp of a hot pair: it is about an open record.
+constexpr std::uint32_t of_open_record = 0xffffffff;
+
+Space space_of(const MonitorDefinition& definition) {
+  return Space(WorldDefinition{.dimensions = definition.dimensions});
+}
+
+auto order_of(const MonitorEvent& event) {
+  return std::tuple(event.kind, event.first, event.second, event.level);
+}
+
+}  // namespace
+
+Monitor::Engine::Engine(const MonitorDefinition& definition)
+    : definition_(definition),
+      levels_(definition),
+      tier_(exponent_of(definition.window)),
+      time_(definition.start_time),
+      windows_(space_of(definition)) {}
+
+// Reports.
+
+Result<void> Monitor::Engine::report(TrackId id, const TrackReport& report) {
+  if (const Result<void> checked = check(id, report, "report"); !checked) return checked;
+  take(id, report, Placing::now);
+  return {};
+}
+
+Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const char* call) const {
+  const std::string part = "report of track " + std::to_string(id);
+  const auto subject = [&part](std::string_view field) {
+    return Subject{.argument = part, .part = field};
+  };
+  InputCheck check(call);
+  check.finite(subject("stamp"), report.stamp)
+      .require(std::abs(report.stamp) <= limits::largest_time, ErrorCode::out_of_range, subject("stamp"),
+               "must lie within +-", limits::largest_time, report.stamp)
+      .within(subject("position"), report.state.position, definition_.tolerance * limits::largest_length)
+      .within(subject("velocity"), report.state.velocity, limits::largest_speed)
+      .not_negative(subject("stamp_error"), report.stamp_error)
+      .require(report.track_class < definition_.classes.size(), ErrorCode::out_of_range, subject("track_class"),
+               "must be less than the number of classes", definition_.classes.size(), report.track_class);
+  const auto spread = [&](std::string_view field, const Spread& value, bool may_be_infinite) {
+    for (const double length : {value.horizontal(), value.vertical(), value.total()}) {
+      if (may_be_infinite && length == infinity) continue;
+      check.not_negative(subject(field), length);
+    }
+  };
+  spread("position_error", report.position_error, false);
+  spread("velocity_error", report.velocity_error, true);
+  if (report.plan) {
+    check.within(subject("plan acceleration"), report.plan->acceleration, limits::largest_acceleration);
+    spread("plan acceleration_limit", report.plan->acceleration_limit, false);
+    check.require(report.plan->valid_until > report.stamp, ErrorCode::out_of_range, subject("plan valid_until"),
+                  "must be later than the stamp", report.plan->valid_until);
+  }
+  if (check.error()) return *check.error();
+  const TrackClass& promise = definition_.classes[report.track_class];
+  check.require(std::isfinite(promise.largest_speed.total()) ||
+                    (std::isfinite(report.velocity_error.total())),
+                ErrorCode::out_of_range, subject("velocity_error"),
+                "must be finite where the class has no largest speed", report.velocity_error.total());
+  if (const auto number = tracks_.find(id))
+    check.require(tracks_[*number].track_class == report.track_class, ErrorCode::out_of_range,
+                  subject("track_class"), "must be that of its first report,", tracks_[*number].track_class,
+                  report.track_class);
+  return check.result();
+}
+
+void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placing) {
+  const TrackClass& promise = definition_.classes[report.track_class];
+  const auto known = tracks_.find(id);
+  const std::uint32_t number = known ? *known : tracks_.add(id, report.track_class);
+  Track& track = tracks_[number];
+  TrackReport flat = report;
+  if (definition_.dimensions == 2) {
+    flat.state.position.z = 0.0;
+    flat.state.velocity.z = 0.0;
+    flat.position_error = flat.position_error.flat();
+    flat.velocity_error = flat.velocity_error.flat();
+    if (flat.plan) {
+      flat.plan->acceleration.z = 0.0;
+      flat.plan->acceleration_limit = flat.plan->acceleration_limit.flat();
+    }
+  }
+  const Knowledge::Learned learned = track.knowledge.learn(flat, promise, time_, power_of_two(tier_));
+  if (learned.outcome == Knowledge::Outcome::repeated) {
+    ++counters_.repeated;
+    return;
+  }
+  ++counters_.reports;
+  if (learned.late) ++counters_.late;
+  if (!known) {
+    settle(number);
+    expect_to_hear(number);
+    return;
+  }
+  if (track.silent && time_ - track.knowledge.stamp() < definition_.silence_after) {
+    track.silent = false;
+    tell({.time = time_, .kind = MonitorEventKind::heard, .first = id});
+    expect_to_hear(number);
+  }
+  if (learned.outcome == Knowledge::Outcome::contradicts) {
+    ++counters_.contradictions;
+    tell({.time = time_,
+          .kind = MonitorEventKind::contradiction,
+          .first = id,
+          .position_excess = learned.excess.position,
+          .velocity_excess = learned.excess.velocity});
+    if (placing == Placing::later) {
+      track.stamp = tracks_.fresh_stamp();
+      judge_open_pairs(number);
+    } else {
+      settle(number);
+    }
+    return;
+  }
+  if (learned.outcome == Knowledge::Outcome::resolves)
+    tell({.time = time_, .kind = MonitorEventKind::resolved, .first = id});
+  judge_open_pairs(number);
+}
+
+/// Whatever was known of the track may be wrong: it gets a capsule from now on, and all facts anew.
+void Monitor::Engine::settle(std::uint32_t number) {
+  Track& track = tracks_[number];
+  track.stamp = tracks_.fresh_stamp();
+  const Window now = window();
+  const RoomyBound bound = roomy_bound(number, now.end);
+  windows_.enter(number, bound, time_, now);
+  ++counters_.searches;
+  const std::span<const std::uint32_t> near = windows_.near(number, bound, time_, now.end, scratch_);
+  // Judging does not search.
+  for (const std::uint32_t other : near)
+    if (open_.find(number, other) == nullptr) find_pair(number, other);
+  judge_open_pairs(number);
+}
+
+Result<void> Monitor::Engine::remove(TrackId id) {
+  const auto number = tracks_.find(id);
+  if (!number)
+    return Error{ErrorCode::unknown_body, "id", no_body,
+                 "remove: there is no track " + std::to_string(id)};
+  leave(*number);
+  return {};
+}
+
+void Monitor::Engine::leave(std::uint32_t number) {
+  Track& track = tracks_[number];
+  for (const std::uint32_t other : track.open) {
+    open_.remove(number, other);
+    std::erase(tracks_[other].open, number);
+  }
+  tell({.time = time_, .kind = MonitorEventKind::left, .first = track.id});
+  windows_.leave(number);
+  tracks_.remove(number);
+}
+
+/// Puts on the agenda when too long nothing will have been heard of a track.
+void Monitor::Engine::expect_to_hear(std::uint32_t number) {
+  const Track& track = tracks_[number];
+  const double after = track.silent ? definition_.forget_after
+                                    : std::min(definition_.silence_after, definition_.forget_after);
+  const double time = std::max(time_, track.knowledge.stamp() + after);
+  if (time < infinity)
+    agenda_.add({.time = time, .first = number, .second = HotPair::walls, .first_stamp = track.life});
+}
+
+void Monitor::Engine::is_due(std::uint32_t number) {
+  Track& track = tracks_[number];
+  const double age = track.knowledge.stamp();
+  if (age + definition_.forget_after <= time_) return leave(number);
+  if (!track.silent && age + definition_.silence_after <= time_) {
+    track.silent = true;
+    tell({.time = time_, .kind = MonitorEventKind::silent, .first = track.id});
+  }
+  expect_to_hear(number);
+}
+
+// The clock.
+
+bool Monitor::Engine::is_void(const HotPair& pair) const {
+  const Track& first = tracks_[pair.first];
+  if (!pair.has_second()) return first.life != pair.first_stamp;
+  if (pair.second_stamp == of_open_record) {
+    const OpenRecord* record = open_.find(pair.first, pair.second);
+    return record == nullptr || record->version != pair.first_stamp;
+  }
+  return first.stamp != pair.first_stamp || tracks_[pair.second].stamp != pair.second_stamp ||
+         open_.find(pair.first, pair.second) != nullptr;
+}
+
+Result<std::optional<MonitorEvent>> Monitor::Engine::advance(double until, const Poll* poll) {
+  for (;;) {
+    agenda_.open([this](const HotPair& pair) { return is_void(pair); });
+    const double next = std::min(windows_.next_end(), agenda_.next_time());
+    if (events_.empty() ? next > until : next > time_) break;
+    time_ = std::max(time_, next);
+    const Result<void> done = windows_.next_end() <= time_ ? start_windows(poll) : look(poll);
+    if (!done) return done.error();
+  }
+  if (events_.empty()) {
+    time_ = std::max(time_, until);
+    return std::optional<MonitorEvent>{};
+  }
+  const MonitorEvent event = events_.front();
+  events_.pop_front();
+  return std::optional(event);
+}
+
+void Monitor::Engine::tell(MonitorEvent event) {
+  const auto at = std::upper_bound(
+      events_.begin(), events_.end(), event,
+      [](const MonitorEvent& a, const MonitorEvent& b) { return order_of(a) < order_of(b); });
+  events_.insert(at, event);
+}
+
+RoomyBound Monitor::Engine::roomy_bound(std::uint32_t number, double end) const {
+  const Track& track = tracks_[number];
+  return {MovedBound(track.knowledge.bound(time_, end), time_), levels_.room(track.track_class)};
+}
+
+Result<void> Monitor::Engine::start_windows(const Poll* poll) {
+  const std::vector<std::uint32_t> ended = windows_.ended(time_, false);
+  const Window next = window();
+  if (poll != nullptr) {
+    std::vector<std::uint32_t> asked;
+    for (const std::uint32_t number : ended)
+      if (const Knowledge& knowledge = tracks_[number].knowledge;
+          knowledge.stamp() < time_ && knowledge.first_end() < next.end)
+        asked.push_back(number);
+    if (!asked.empty()) {
+      if (const Result<void> done = ask(asked, *poll, Placing::later); !done) return done;
+    }
+  }
+  ++counters_.windows;
+  windows_.end_windows(time_, false);
+  std::vector<Windows::Starter> starters;
+  for (const std::uint32_t number : ended)
+    if (tracks_[number].present)
+      starters.push_back({number, Windows::level_of(roomy_bound(number, next.end), next), next});
+  Shift alone;
+  const auto bound_of = [&](std::uint32_t number) { return roomy_bound(number, next.end); };
+  windows_.start(starters, time_, bound_of, alone);
+  counters_.searches += starters.size();
+  std::vector<Windows::Pair> pairs;
+  const std::size_t started = windows_.started();
+  constexpr std::size_t at_once = 256;
+  for (std::size_t from = 0; from < started; from += at_once)
+    for (const auto& [a, b] :
+         windows_.near_started(from, std::min(started, from + at_once), time_, bound_of, scratch_))
+      if (open_.find(a, b) == nullptr) find_pair(a, b);
+  return {};
+}
+
+// Pairs.
+
+/// All that is certain of a pair that has no record. `a` and `b` may come near each other before the window
+/// ends.
+void Monitor::Engine::find_pair(std::uint32_t a, std::uint32_t b) {
+  if (levels_of(a, b).empty()) return;
+  ++counters_.near_pairs;
+  const double horizon = std::min(windows_.end_of(a), windows_.end_of(b));
+  if (const auto until = apart_until(a, b, horizon)) {
+    if (*until < horizon) add_hot_pair(a, b, *until);
+  } else {
+    judge(a, b);
+  }
+}
+
+/// If they are apart at all levels.
+std::optional<double> Monitor::Engine::apart_until(std::uint32_t a, std::uint32_t b, double horizon) {
+  double until = infinity;
+  for (const Components& level : levels_of(a, b)) {
+    ++counters_.looks;
+    const Course now = course(a, b, level, horizon);
+    if (now.verdict != Verdict::apart) return std::nullopt;
+    until = std::min(until, now.until);
+  }
+  return until;
+}
+
+void Monitor::Engine::add_hot_pair(std::uint32_t a, std::uint32_t b, double time) {
+  const auto [first, second] = std::minmax(a, b);
+  agenda_.add({time, first, second, tracks_[first].stamp, tracks_[second].stamp});
+}
+
+void Monitor::Engine::judge_open_pairs(std::uint32_t number) {
+  const std::vector<std::uint32_t> partners = tracks_[number].open;
+  for (const std::uint32_t other : partners) judge(number, other);
+}
+
+/// Says what is certain of two tracks now, tells what has changed, and keeps a record if they are not apart.
+void Monitor::Engine::judge(std::uint32_t a, std::uint32_t b) {
+  const std::span<const Components> levels = levels_of(a, b);
+  OpenRecord* record = open_.find(a, b);
+  if (record == nullptr) {
+    record = &open_.add(a, b, levels.size());
+    tracks_[a].open.push_back(b);
+    tracks_[b].open.push_back(a);
+  }
+  double until = infinity;
+  bool apart = true;
+  const auto [first, second] = std::minmax(tracks_[a].id, tracks_[b].id);
+  for (std::uint32_t level = 0; level < levels.size(); ++level) {
+    ++counters_.looks;
+    const Course now = course(a, b, levels[level], infinity);
+    until = std::min(until, now.until);
+    apart = apart && now.verdict == Verdict::apart;
+    LevelState& state = record->levels[level];
+    if (state.verdict == now.verdict) continue;
+    tell({.time = time_,
+          .kind = MonitorEventKind::verdict,
+          .first = first,
+          .second = second,
+          .level = level,
+          .verdict = now.verdict,
+          .before = state.verdict,
+          .since = state.since});
+    state = {now.verdict, time_};
+  }
+  if (apart) {
+    open_.remove(a, b);
+    std::erase(tracks_[a].open, b);
+    std::erase(tracks_[b].open, a);
+    if (until < std::min(windows_.end_of(a), windows_.end_of(b))) add_hot_pair(a, b, until);
+    return;
+  }
+  record->version = open_.fresh_version();
+  const auto [one, other] = std::minmax(a, b);
+  if (until < infinity) agenda_.add({until, one, other, record->version, of_open_record});
+}
+
+/// More can be learned from a report of `a` than from one of `b`.
+bool Monitor::Engine::is_less_certain(std::uint32_t a, std::uint32_t b) const {
+  const double of_a = tracks_[a].knowledge.radius_at(time_);
+  const double of_b = tracks_[b].knowledge.radius_at(time_);
+  return of_a != of_b ? of_a > of_b : tracks_[a].id < tracks_[b].id;
+}
+
+/// At what is due first.
+Result<void> Monitor::Engine::look(const Poll* poll) {
+  const HotPair pair = agenda_.first();
+  agenda_.drop_first();
+  if (is_void(pair)) return {};
+  if (!pair.has_second()) {
+    is_due(pair.first);
+    return {};
+  }
+  if (poll != nullptr) {
+    if (const Result<void> asked = ask_about(pair, *poll); !asked) return asked;
+    // What was answered may have made it another pair.
+    if (is_void(pair)) return {};
+  }
+  if (pair.second_stamp == of_open_record)
+    judge(pair.first, pair.second);
+  else
+    find_pair(pair.first, pair.second);
+  return {};
+}
+
+/// Asks one of two tracks and, where its answer leaves open whether they are apart, the other.
+Result<void> Monitor::Engine::ask_about(const HotPair& pair, const Poll& poll) {
+  const auto [a, b] = std::pair(pair.first, pair.second);
+  // The pair stays due if there is no answer.
+  struct Unanswered {
+    Agenda& agenda;
+    const HotPair& pair;
+    bool answered = false;
+    ~Unanswered() {
+      if (!answered) agenda.add(pair);
+    }
+  } unanswered{agenda_, pair};
+  for (const std::uint32_t number : is_less_certain(a, b) ? std::array{a, b} : std::array{b, a}) {
+    if (is_void(pair) || apart_until(a, b, std::min(windows_.end_of(a), windows_.end_of(b)))) break;
+    if (!(tracks_[number].knowledge.stamp() < time_)) continue;
+    if (const Result<void> asked = ask(std::span(&number, 1), poll, Placing::now); !asked) return asked;
+  }
+  unanswered.answered = true;
+  return {};
+}
+
+/// Takes the reports that come back.
+Result<void> Monitor::Engine::ask(std::span<const std::uint32_t> numbers, const Poll& poll, Placing placing) {
+  std::vector<TrackId> ids;
+  for (const std::uint32_t number : numbers) ids.push_back(tracks_[number].id);
+  std::vector<std::optional<TrackReport>> reports(ids.size());
+  poll(ids, time_, reports);
+  counters_.polls += ids.size();
+  for (std::size_t k = 0; k < ids.size(); ++k)
+    if (reports[k])
+      if (const Result<void> checked = check(ids[k], *reports[k], "advance"); !checked) return checked;
+  for (std::size_t k = 0; k < ids.size(); ++k)
+    if (reports[k]) take(ids[k], *reports[k], placing);
+  return {};
+}
+
+// Answers.
+
+Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::uint32_t level) const {
+  for (const TrackId id : {first, second})
+    if (!tracks_.find(id))
+      return Error{ErrorCode::unknown_body, id == first ? "first" : "second", no_body,
+                   "answer: there is no track " + std::to_string(id)};
+  if (first == second)
+    return Error{ErrorCode::out_of_range, "second", no_body, "answer: second must be another track than first"};
+  const std::uint32_t a = *tracks_.find(first), b = *tracks_.find(second);
+  const std::span<const Components> levels = levels_of(a, b);
+  if (level >= levels.size())
+    return Error{ErrorCode::out_of_range, "level", no_body,
+                 "answer: level must be less than " + std::to_string(levels.size()) + ", but is " +
+                     std::to_string(level)};
+  const Track& one = tracks_[a];
+  const Track& other = tracks_[b];
+  PairAnswer answer;
+  const Course now = course(a, b, levels[level], infinity);
+  const OpenRecord* record = open_.find(a, b);
+  const LevelState state = record != nullptr ? record->levels[level] : LevelState{};
+  answer.verdict = state.verdict;
+  answer.since = state.since;
+  answer.until = now.verdict == state.verdict ? now.until : time_;
+  const Component& nearest = *levels[level].begin();
+  const DistanceBetween between = distance_between(one.knowledge, other.knowledge, nearest, time_);
+  answer.lower = std::max(0.0, between.lower);
+  answer.upper = between.upper;
+
+  // As if both went straight on from where they are now.
+  const auto ahead = [this](const Track& track) {
+    const Claim& claim = Knowledge::tightest(track.knowledge.hypotheses().front(), time_);
+    return State{claim.centre_at(time_), claim.velocity_at(time_)};
+  };
+  const State x = ahead(one), y = ahead(other);
+  answer.likely_time = time_;
+  double leaves = infinity;
+  for (const Component& component : levels[level]) {
+    const Vec3 offset = component.part(x.position - y.position);
+    const Vec3 velocity = component.part(x.velocity - y.velocity);
+    const double v2 = norm_squared(velocity), xv = dot(offset, velocity);
+    const double nearest_after = v2 > 0.0 ? std::max(0.0, -xv / v2) : 0.0;
+    if (&component == &nearest) {
+      answer.closest_time = time_ + nearest_after;
+      answer.closest_distance = norm(offset + velocity * nearest_after);
+    }
+    const double c = norm_squared(offset) - component.limit * component.limit;
+    const double discriminant = xv * xv - v2 * c;
+    if (c > 0.0 && !(xv < 0.0 && discriminant >= 0.0)) {
+      answer.likely_time = infinity;
+      continue;
+    }
+    const double root = std::sqrt(std::max(0.0, discriminant));
+    if (c > 0.0) answer.likely_time = std::max(answer.likely_time, time_ + c / (root - xv));
+    if (v2 > 0.0) leaves = std::min(leaves, time_ + (root - xv) / v2);
+  }
+  if (answer.likely_time > leaves) answer.likely_time = infinity;
+  answer.ask = is_less_certain(a, b) ? first : second;
+  answer.ask_by = answer.verdict == Verdict::undecided ? time_ : answer.until;
+  return answer;
+}
+
+std::vector<OpenPair> Monitor::Engine::open_pairs() const {
+  std::vector<OpenPair> pairs;
+  open_.for_each([&](std::uint32_t a, std::uint32_t b, const OpenRecord& record) {
+    const auto [first, second] = std::minmax(tracks_[a].id, tracks_[b].id);
+    for (std::uint32_t level = 0; level < record.levels.size(); ++level)
+      if (const LevelState& state = record.levels[level]; state.verdict != Verdict::apart)
+        pairs.push_back({first, second, level, state.verdict, state.since});
+  });
+  std::sort(pairs.begin(), pairs.end(), [](const OpenPair& p, const OpenPair& q) {
+    return std::tie(p.first, p.second, p.level) < std::tie(q.first, q.second, q.level);
+  });
+  return pairs;
+}
+
+std::vector<ReportNeed> Monitor::Engine::needed(double until) const {
+  std::vector<ReportNeed> needs;
+  agenda_.for_each([&](const HotPair& pair) {
+    if (!pair.has_second() || pair.time > until || is_void(pair)) return;
+    const auto [asked, other] =
+        is_less_certain(pair.first, pair.second) ? std::pair(pair.first, pair.second) : std::pair(pair.second, pair.first);
+    needs.push_back({tracks_[asked].id, std::max(time_, pair.time), tracks_[other].id});
+  });
+  open_.for_each([&](std::uint32_t a, std::uint32_t b, const OpenRecord& record) {
+    if (std::none_of(record.levels.begin(), record.levels.end(),
+                     [](const LevelState& state) { return state.verdict == Verdict::undecided; }))
+      return;
+    const auto [asked, other] = is_less_certain(a, b) ? std::pair(a, b) : std::pair(b, a);
+    needs.push_back({tracks_[asked].id, time_, tracks_[other].id});
+  });
+  std::sort(needs.begin(), needs.end(), [](const ReportNeed& p, const ReportNeed& q) {
+    return std::tie(p.by, p.track, p.other) < std::tie(q.by, q.track, q.other);
+  });
+  std::set<TrackId> seen;
+  std::erase_if(needs, [&](const ReportNeed& need) { return !seen.insert(need.track).second; });
+  return needs;
+}
+
+}  // namespace kinesphere

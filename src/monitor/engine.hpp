@@ -1,0 +1,90 @@
+// The engine of a monitor. The facts that it keeps, and why they suffice: docs/monitoring.md.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "kinesphere/monitor/monitor.hpp"
+#include "monitor/course.hpp"
+#include "monitor/levels.hpp"
+#include "monitor/open_pairs.hpp"
+#include "monitor/track_table.hpp"
+#include "parallel/crew.hpp"
+#include "window/agenda.hpp"
+#include "window/windows.hpp"
+
+namespace kinesphere {
+
+/// For each pair of tracks with separations one of these holds:
+///   - their capsules do not touch before the window ends, so they are apart;
+///   - they certainly are apart until the window ends;
+///   - they certainly are apart until the time of a hot pair;
+///   - they have an open record, whose verdicts hold until the time of its hot pair, if it has one, or until
+///     one of the two reports.
+/// All are about the true tracks, which obey all reports: they outlive every report that contradicts none.
+class Monitor::Engine {
+ public:
+  explicit Engine(const MonitorDefinition& definition);
+
+  const MonitorDefinition& definition() const { return definition_; }
+  const MonitorCounters& counters() const { return counters_; }
+  double time() const { return time_; }
+  const TrackTable& tracks() const { return tracks_; }
+
+  Result<void> report(TrackId id, const TrackReport& report);
+  Result<void> remove(TrackId id);
+  Result<std::optional<MonitorEvent>> advance(double until, const Poll* poll);
+
+  Result<PairAnswer> answer(TrackId first, TrackId second, std::uint32_t level) const;
+  std::vector<OpenPair> open_pairs() const;
+  std::vector<ReportNeed> needed(double until) const;
+
+ private:
+  Result<void> check(TrackId id, const TrackReport& report, const char* call) const;
+  /// When a track gets another capsule that needs one: as the windows start, perhaps.
+  enum class Placing { now, later };
+  void take(TrackId id, const TrackReport& report, Placing placing);
+  void settle(std::uint32_t number);
+  void leave(std::uint32_t number);
+  void expect_to_hear(std::uint32_t number);
+  void is_due(std::uint32_t number);
+
+  bool is_void(const HotPair& pair) const;
+  Result<void> start_windows(const Poll* poll);
+  Result<void> look(const Poll* poll);
+  Result<void> ask_about(const HotPair& pair, const Poll& poll);
+  Result<void> ask(std::span<const std::uint32_t> numbers, const Poll& poll, Placing placing);
+  std::span<const Components> levels_of(std::uint32_t a, std::uint32_t b) const {
+    return levels_.between(tracks_[a].track_class, tracks_[b].track_class);
+  }
+  Course course(std::uint32_t a, std::uint32_t b, const Components& level, double horizon) const {
+    return course_of(tracks_[a].knowledge, tracks_[b].knowledge, level, definition_.tolerance, time_, horizon,
+                     definition_.time_resolution);
+  }
+  std::optional<double> apart_until(std::uint32_t a, std::uint32_t b, double horizon);
+  bool is_less_certain(std::uint32_t a, std::uint32_t b) const;
+  void find_pair(std::uint32_t a, std::uint32_t b);
+  void judge(std::uint32_t a, std::uint32_t b);
+  void judge_open_pairs(std::uint32_t number);
+  void add_hot_pair(std::uint32_t a, std::uint32_t b, double time);
+  void tell(MonitorEvent event);
+  RoomyBound roomy_bound(std::uint32_t number, double end) const;
+  Window window() const { return Windows::window_at(time_, tier_); }
+
+  MonitorDefinition definition_;
+  Levels levels_;
+  int tier_;
+  double time_;
+  MonitorCounters counters_;
+  TrackTable tracks_;
+  OpenRecords open_;
+  Windows windows_;
+  Agenda agenda_;
+  std::deque<MonitorEvent> events_;  ///< of the present time, that have not been told yet
+  Windows::Scratch scratch_;
+};
+
+}  // namespace kinesphere

@@ -1,0 +1,253 @@
+#include "monitor/knowledge.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bound/rounding.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// More contradictions at a time are not kept: the oldest hypothesis goes.
+constexpr std::size_t most_hypotheses = 4;
+
+/// Relative rounding of the few operations behind a claim.
+constexpr double margin = 0x1p-47;
+
+/// The error of a stamp, told as errors of the state.
+TrackReport with_exact_stamp(TrackReport report, const TrackClass& promise) {
+  const double error = report.stamp_error;
+  if (error == 0.0) return report;
+  const Vec3& velocity = report.state.velocity;
+  const Spread speed =
+      least(Spread::cylinder(std::hypot(velocity.x, velocity.y), std::abs(velocity.z)) + report.velocity_error,
+            promise.largest_speed);
+  const Vec3& plan = promise.planned_acceleration;
+  const Spread turn =
+      promise.acceleration_limit + Spread::cylinder(std::hypot(plan.x, plan.y), std::abs(plan.z));
+  // A path that turns goes no farther than this, and no farther than the largest speed takes it.
+  const Spread way =
+      least((speed + turn * (0.5 * error)) * error, promise.largest_speed * error);
+  report.position_error = report.position_error + way * (1.0 + margin);
+  report.velocity_error = report.velocity_error + turn * (error * (1.0 + margin));
+  report.stamp_error = 0.0;
+  return report;
+}
+
+bool is_finite(const Spread& spread) { return std::isfinite(spread.total()); }
+
+/// By the class's limit of accelerations.
+Claim motion_of(const TrackReport& report, const TrackClass& promise) {
+  return {.time = report.stamp,
+          .position = report.state.position,
+          .velocity = report.state.velocity,
+          .acceleration = promise.planned_acceleration,
+          .radius = report.position_error,
+          .speed = report.velocity_error,
+          .growth = promise.acceleration_limit};
+}
+
+/// By the class's largest speed alone.
+Claim range_of(const TrackReport& report, const TrackClass& promise) {
+  return {.time = report.stamp,
+          .position = report.state.position,
+          .radius = report.position_error,
+          .speed = promise.largest_speed};
+}
+
+/// The same claim for a report from after `now`, told as one of now: motion can be followed backwards.
+Claim brought_back(Claim claim, double now) {
+  const double ahead = claim.time - now;
+  if (!(ahead > 0.0)) return claim;
+  claim.position = claim.position - (claim.velocity - claim.acceleration * (0.5 * ahead)) * ahead;
+  claim.velocity = claim.velocity - claim.acceleration * ahead;
+  claim.radius = claim.radius + (claim.speed + claim.growth * (0.5 * ahead)) * ahead;
+  claim.speed = claim.speed + claim.growth * ahead;
+  claim.time = now;
+  return claim;
+}
+
+/// With room for the roundings of what is computed from it.
+void widen(Claim& claim) {
+  const double size = norm_one(claim.position) * margin;
+  claim.radius = claim.radius + Spread(size);
+}
+
+std::vector<Claim> claims_of(const TrackReport& report, const TrackClass& promise, double now) {
+  std::vector<Claim> claims;
+  if (report.plan && report.stamp <= now && now < report.plan->valid_until && is_finite(report.velocity_error)) {
+    Claim claim = motion_of(report, promise);
+    claim.acceleration = report.plan->acceleration;
+    claim.growth = report.plan->acceleration_limit;
+    claim.end = report.plan->valid_until;
+    claims.push_back(claim);
+  }
+  if (is_finite(promise.acceleration_limit) && is_finite(report.velocity_error))
+    claims.push_back(brought_back(motion_of(report, promise), now));
+  if (is_finite(promise.largest_speed)) claims.push_back(brought_back(range_of(report, promise), now));
+  for (Claim& claim : claims) widen(claim);
+  return claims;
+}
+
+double beyond(const Vec3& way, const Spread& limit, double size) {
+  const double room = margin * size;
+  const double flat = std::hypot(way.x, way.y) - limit.horizontal();
+  const double upright = std::abs(way.z) - limit.vertical();
+  const double all = norm(way) - limit.total();
+  return std::max({0.0, flat - room, upright - room, all - room});
+}
+
+/// What `report` has beyond what an earlier or later state leaves possible.
+Excess excess_of(const TrackReport& report, const Hypothesis& believed, const TrackClass& promise) {
+  const double way = report.stamp - believed.stamp;
+  const double s = std::abs(way);
+  const Claim& from = believed.motion;
+  Excess excess;
+  const double size = norm_one(report.state.position) + norm_one(from.position) +
+                      (norm_one(from.velocity) + norm_one(from.acceleration) * s) * s;
+  const Spread both = report.position_error + from.radius;
+  if (is_finite(from.speed) && is_finite(promise.acceleration_limit)) {
+    const Vec3 centre = from.position + (from.velocity + promise.planned_acceleration * (0.5 * way)) * way;
+    const Spread reach = both + (from.speed + promise.acceleration_limit * (0.5 * s)) * s;
+    excess.position = beyond(report.state.position - centre, reach, size);
+    if (is_finite(report.velocity_error)) {
+      const Vec3 velocity = from.velocity + promise.planned_acceleration * way;
+      const Spread turn = report.velocity_error + from.speed + promise.acceleration_limit * s;
+      excess.velocity = beyond(report.state.velocity - velocity, turn,
+                               norm_one(report.state.velocity) + norm_one(from.velocity) +
+                                   norm_one(from.acceleration) * s);
+    }
+  }
+  if (is_finite(promise.largest_speed))
+    excess.position = std::max(
+        excess.position,
+        beyond(report.state.position - from.position, both + promise.largest_speed * s, size));
+  return excess;
+}
+
+Hypothesis hypothesis_of(const TrackReport& report, const TrackClass& promise, double now) {
+  Hypothesis hypothesis{.stamp = report.stamp,
+                        .motion = motion_of(report, promise),
+                        .state = report.state,
+                        .claims = claims_of(report, promise, now)};
+  hypothesis.latest_claims = hypothesis.claims.size();
+  return hypothesis;
+}
+
+/// Both hold. What the latest report says stays, and of all else the claim that is tightest at a time, if it
+/// tells more then.
+Hypothesis joined(Hypothesis latest, Hypothesis other, double time) {
+  other.claims.insert(other.claims.end(),
+                      latest.claims.begin() + static_cast<std::ptrdiff_t>(latest.latest_claims),
+                      latest.claims.end());
+  latest.claims.resize(latest.latest_claims);
+  const Claim& best = Knowledge::tightest(other, time);
+  if (best.radius_at(time).total() < Knowledge::tightest(latest, time).radius_at(time).total())
+    latest.claims.push_back(best);
+  return latest;
+}
+
+}  // namespace
+
+Knowledge::Learned Knowledge::learn(const TrackReport& given, const TrackClass& promise, double now, double ahead) {
+  Learned learned;
+  const TrackReport report = with_exact_stamp(given, promise);
+  Hypothesis next = hypothesis_of(report, promise, now);
+  if (hypotheses_.empty()) {
+    hypotheses_.push_back(std::move(next));
+    return learned;
+  }
+  learned.late = report.stamp < stamp();
+  std::vector<std::size_t> agreeing;
+  learned.excess = {infinity, infinity};
+  for (std::size_t k = 0; k < hypotheses_.size(); ++k) {
+    const Hypothesis& believed = hypotheses_[k];
+    if (believed.stamp == report.stamp && believed.state == report.state) {
+      learned = {.outcome = Outcome::repeated};
+      return learned;
+    }
+    const Excess excess = excess_of(report, believed, promise);
+    if (!excess.any()) agreeing.push_back(k);
+    if (excess.position + excess.velocity < learned.excess.position + learned.excess.velocity)
+      learned.excess = excess;
+  }
+  if (agreeing.empty()) {
+    learned.outcome = Outcome::contradicts;
+    if (hypotheses_.size() == most_hypotheses) hypotheses_.erase(hypotheses_.begin());
+    hypotheses_.push_back(std::move(next));
+    return learned;
+  }
+  if (hypotheses_.size() > 1) learned.outcome = Outcome::resolves;
+  if (agreeing.size() > 1) {
+    // They contradict each other, so one of them rests upon a wrong report, and this one is right.
+    hypotheses_ = {std::move(next)};
+    return learned;
+  }
+  Hypothesis believed = std::move(hypotheses_[agreeing.front()]);
+  hypotheses_.clear();
+  const bool newer = report.stamp >= believed.stamp;
+  hypotheses_.push_back(newer ? joined(std::move(next), std::move(believed), now + ahead)
+                              : joined(std::move(believed), std::move(next), now + ahead));
+  return learned;
+}
+
+const Claim& Knowledge::tightest(const Hypothesis& hypothesis, double time) {
+  const Claim* best = nullptr;
+  double least = infinity;
+  for (const Claim& claim : hypothesis.claims) {
+    if (claim.end < time) continue;
+    const double radius = claim.radius_at(time).total();
+    if (best == nullptr || radius < least) {
+      best = &claim;
+      least = radius;
+    }
+  }
+  return best != nullptr ? *best : hypothesis.claims.back();
+}
+
+Bound Knowledge::bound(double now, double end) const {
+  const auto moved = [now](const Claim& claim) {
+    Bound bound = claim.bound();
+    bound.position = claim.centre_at(now);
+    bound.velocity = claim.velocity_at(now);
+    const double s = now - claim.time;
+    bound.radius = bound.radius_at(now);
+    bound.growth_speed += bound.growth_acceleration * s;
+    bound.time = now;
+    return bound;
+  };
+  Bound all = moved(tightest(hypotheses_.front(), end));
+  for (const Hypothesis& hypothesis : hypotheses_) {
+    const Bound one = moved(tightest(hypothesis, end));
+    all.radius = std::max(all.radius, norm(one.position - all.position) * (1.0 + margin) + one.radius);
+    all.growth_speed =
+        std::max(all.growth_speed, norm(one.velocity - all.velocity) * (1.0 + margin) + one.growth_speed);
+    all.growth_acceleration =
+        std::max(all.growth_acceleration,
+                 norm(one.planned_acceleration - all.planned_acceleration) * (1.0 + margin) +
+                     one.growth_acceleration);
+  }
+  return all;
+}
+
+double Knowledge::radius_at(double time) const {
+  double largest = 0.0;
+  for (const Hypothesis& hypothesis : hypotheses_)
+    largest = std::max(largest, tightest(hypothesis, time).radius_at(time).total());
+  return largest;
+}
+
+double Knowledge::stamp() const {
+  double latest = -infinity;
+  for (const Hypothesis& hypothesis : hypotheses_) latest = std::max(latest, hypothesis.stamp);
+  return latest;
+}
+
+double Knowledge::first_end() const {
+  double first = infinity;
+  for (const Hypothesis& hypothesis : hypotheses_)
+    for (const Claim& claim : hypothesis.claims) first = std::min(first, claim.end);
+  return first;
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,79 @@
+// What the reports of one track add up to.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "kinesphere/bound.hpp"
+#include "kinesphere/monitor/report.hpp"
+#include "monitor/claim.hpp"
+
+namespace kinesphere {
+
+/// A way in which the reports can be explained: all of its claims hold.
+struct Hypothesis {
+  double stamp = 0.0;  ///< of its latest report
+  /// What the latest report says by itself, for comparing with others; both before and after it.
+  Claim motion{};
+  State state{};
+  /// Those of the latest report, and behind them perhaps one of another.
+  std::vector<Claim> claims;
+  std::size_t latest_claims = 0;
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [stamp, motion, state, claims, latest_claims] = self;
+    archive(stamp, motion, state, claims, latest_claims);
+  }
+};
+
+/// How far one report lies outside of what another leaves possible.
+struct Excess {
+  double position = 0.0;
+  double velocity = 0.0;
+  bool any() const { return position > 0.0 || velocity > 0.0; }
+};
+
+/// One of the hypotheses is true, as long as of any three successive reports at most one is wrong and that one
+/// contradicts those before. There are several only while reports contradict each other.
+class Knowledge {
+ public:
+  enum class Outcome {
+    repeated,     ///< it is the same report as before
+    agrees,       ///< with all that was believed
+    contradicts,  ///< all that was believed: now there is one hypothesis more
+    resolves,     ///< it agrees with some, and the others are dropped
+  };
+  struct Learned {
+    Outcome outcome = Outcome::agrees;
+    Excess excess{};
+    bool late = false;
+  };
+
+  /// A report that has come in at `now`, of a track of this class. `ahead`: for how long claims are to be good.
+  Learned learn(const TrackReport& report, const TrackClass& promise, double now, double ahead);
+
+  std::span<const Hypothesis> hypotheses() const { return hypotheses_; }
+  /// Of the latest report.
+  double stamp() const;
+  /// Of the hypothesis, the claim that is tightest at a time.
+  static const Claim& tightest(const Hypothesis& hypothesis, double time);
+  /// Contains the track from `now` until `end`, in all hypotheses.
+  Bound bound(double now, double end) const;
+  /// How much is uncertain at a time: the radius of the largest place.
+  double radius_at(double time) const;
+  /// When the first claim that `bound` may rest upon ends.
+  double first_end() const;
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [hypotheses] = self;
+    archive(hypotheses);
+  }
+
+ private:
+  std::vector<Hypothesis> hypotheses_;
+};
+
+}  // namespace kinesphere

@@ -1,0 +1,88 @@
+// The tracks of a monitor, by number and by id.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "kinesphere/monitor/monitor_event.hpp"
+#include "monitor/knowledge.hpp"
+
+namespace kinesphere {
+
+struct Track {
+  TrackId id = 0;
+  std::size_t track_class = 0;
+  bool present = false;
+  bool silent = false;
+  std::uint32_t life = 0;   ///< no two tracks ever have the same
+  std::uint32_t stamp = 0;  ///< another one as soon as facts about the track may be wrong
+  Knowledge knowledge{};
+  std::vector<std::uint32_t> open;  ///< partners in pairs that are not certainly apart
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [id, track_class, present, silent, life, stamp, knowledge, open] = self;
+    archive(id, track_class, present, silent, life, stamp, knowledge, open);
+  }
+};
+
+class TrackTable {
+ public:
+  std::size_t size() const { return numbers_.size(); }
+  /// Numbers are less than this.
+  std::uint32_t numbers() const { return static_cast<std::uint32_t>(tracks_.size()); }
+  Track& operator[](std::uint32_t number) { return tracks_[number]; }
+  const Track& operator[](std::uint32_t number) const { return tracks_[number]; }
+  std::optional<std::uint32_t> find(TrackId id) const {
+    const auto at = numbers_.find(id);
+    return at == numbers_.end() ? std::nullopt : std::optional(at->second);
+  }
+  std::uint32_t fresh_stamp() { return ++last_stamp_; }
+
+  std::uint32_t add(TrackId id, std::size_t track_class) {
+    std::uint32_t number = numbers();
+    if (free_.empty()) {
+      tracks_.emplace_back();
+    } else {
+      number = free_.back();
+      free_.pop_back();
+    }
+    numbers_.emplace(id, number);
+    Track& track = tracks_[number];
+    track.id = id;
+    track.track_class = track_class;
+    track.present = true;
+    track.life = fresh_stamp();
+    track.stamp = track.life;
+    return number;
+  }
+  void remove(std::uint32_t number) {
+    numbers_.erase(tracks_[number].id);
+    tracks_[number] = {};
+    free_.push_back(number);
+  }
+  std::vector<TrackId> ids() const {
+    std::vector<TrackId> ids;
+    ids.reserve(numbers_.size());
+    for (const auto& [id, number] : numbers_) ids.push_back(id);
+    std::sort(ids.begin(), ids.end());
+    return ids;
+  }
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [tracks, free, last_stamp, numbers] = self;
+    archive(tracks, free, last_stamp);
+  }
+
+ private:
+  std::vector<Track> tracks_;
+  std::vector<std::uint32_t> free_;
+  std::uint32_t last_stamp_ = 0;
+  std::unordered_map<TrackId, std::uint32_t> numbers_;
+};
+
+}  // namespace kinesphere
