@@ -55,7 +55,8 @@ class Meeting {
   bool is_within() const { return upper() <= outer_limit_; }
 
   double apart_until(double horizon) const {
-    return std::min(end_, earliest_meeting(a_.path, b_.path, now_, horizon, rounding::sum_up(limit_, errors_)));
+    return std::min(end_,
+                    earliest_meeting(a_.path, b_.path, now_, horizon, rounding::sum_up(limit_, errors_)));
   }
   double within_until(double horizon) const {
     const double room = rounding::sum_down(outer_limit_, -errors_);
@@ -142,14 +143,15 @@ Course course_of(const Knowledge& a, const Knowledge& b, const Components& separ
   double until = enough;
   // One that is open says when the earliest is; several are looked at again soon.
   if (a.hypotheses().size() == 1 && b.hypotheses().size() == 1)
-    until = std::max(until, decided_from(a.hypotheses().front(), b.hypotheses().front(), separation, tolerance,
-                                         now, infinity));
+    until = std::max(until, decided_from(a.hypotheses().front(), b.hypotheses().front(), separation,
+                                         tolerance, now, infinity));
   else
     until = infinity;
   return {Verdict::undecided, until};
 }
 
-DistanceBetween distance_between(const Knowledge& a, const Knowledge& b, const Component& component, double now) {
+DistanceBetween distance_between(const Knowledge& a, const Knowledge& b, const Component& component,
+                                 double now) {
   DistanceBetween all{infinity, 0.0};
   for (const Hypothesis& one : a.hypotheses())
     for (const Hypothesis& other : b.hypotheses()) {

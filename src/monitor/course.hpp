@@ -25,6 +25,7 @@ struct DistanceBetween {
   double lower = 0.0;
   double upper = infinity;
 };
-DistanceBetween distance_between(const Knowledge& a, const Knowledge& b, const Component& component, double now);
+DistanceBetween distance_between(const Knowledge& a, const Knowledge& b, const Component& component,
+                                 double now);
 
 }  // namespace kinesphere

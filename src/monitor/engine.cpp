@@ -43,9 +43,7 @@ Result<void> Monitor::Engine::report(TrackId id, const TrackReport& report) {
 
 Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const char* call) const {
   const std::string part = "report of track " + std::to_string(id);
-  const auto subject = [&part](std::string_view field) {
-    return Subject{.argument = part, .part = field};
-  };
+  const auto subject = [&part](std::string_view field) { return Subject{.argument = part, .part = field}; };
   InputCheck check(call);
   check.finite(subject("stamp"), report.stamp)
       .require(std::abs(report.stamp) <= limits::largest_time, ErrorCode::out_of_range, subject("stamp"),
@@ -53,8 +51,9 @@ Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const
       .within(subject("position"), report.state.position, definition_.tolerance * limits::largest_length)
       .within(subject("velocity"), report.state.velocity, limits::largest_speed)
       .not_negative(subject("stamp_error"), report.stamp_error)
-      .require(report.track_class < definition_.classes.size(), ErrorCode::out_of_range, subject("track_class"),
-               "must be less than the number of classes", definition_.classes.size(), report.track_class);
+      .require(report.track_class < definition_.classes.size(), ErrorCode::out_of_range,
+               subject("track_class"), "must be less than the number of classes", definition_.classes.size(),
+               report.track_class);
   const auto spread = [&](std::string_view field, const Spread& value, bool may_be_infinite) {
     for (const double length : {value.horizontal(), value.vertical(), value.total()}) {
       if (may_be_infinite && length == infinity) continue;
@@ -66,15 +65,15 @@ Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const
   if (report.plan) {
     check.within(subject("plan acceleration"), report.plan->acceleration, limits::largest_acceleration);
     spread("plan acceleration_limit", report.plan->acceleration_limit, false);
-    check.require(report.plan->valid_until > report.stamp, ErrorCode::out_of_range, subject("plan valid_until"),
-                  "must be later than the stamp", report.plan->valid_until);
+    check.require(report.plan->valid_until > report.stamp, ErrorCode::out_of_range,
+                  subject("plan valid_until"), "must be later than the stamp", report.plan->valid_until);
   }
   if (check.error()) return *check.error();
   const TrackClass& promise = definition_.classes[report.track_class];
-  check.require(std::isfinite(promise.largest_speed.total()) ||
-                    (std::isfinite(report.velocity_error.total())),
-                ErrorCode::out_of_range, subject("velocity_error"),
-                "must be finite where the class has no largest speed", report.velocity_error.total());
+  check.require(
+      std::isfinite(promise.largest_speed.total()) || (std::isfinite(report.velocity_error.total())),
+      ErrorCode::out_of_range, subject("velocity_error"),
+      "must be finite where the class has no largest speed", report.velocity_error.total());
   if (const auto number = tracks_.find(id))
     check.require(tracks_[*number].track_class == report.track_class, ErrorCode::out_of_range,
                   subject("track_class"), "must be that of its first report,", tracks_[*number].track_class,
@@ -153,8 +152,7 @@ void Monitor::Engine::settle(std::uint32_t number) {
 Result<void> Monitor::Engine::remove(TrackId id) {
   const auto number = tracks_.find(id);
   if (!number)
-    return Error{ErrorCode::unknown_body, "id", no_body,
-                 "remove: there is no track " + std::to_string(id)};
+    return Error{ErrorCode::unknown_body, "id", no_body, "remove: there is no track " + std::to_string(id)};
   leave(*number);
   return {};
 }
@@ -173,8 +171,8 @@ void Monitor::Engine::leave(std::uint32_t number) {
 /// Puts on the agenda when too long nothing will have been heard of a track.
 void Monitor::Engine::expect_to_hear(std::uint32_t number) {
   const Track& track = tracks_[number];
-  const double after = track.silent ? definition_.forget_after
-                                    : std::min(definition_.silence_after, definition_.forget_after);
+  const double after =
+      track.silent ? definition_.forget_after : std::min(definition_.silence_after, definition_.forget_after);
   const double time = std::max(time_, track.knowledge.stamp() + after);
   if (time < infinity)
     agenda_.add({.time = time, .first = number, .second = HotPair::walls, .first_stamp = track.life});
@@ -417,7 +415,8 @@ Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::u
       return Error{ErrorCode::unknown_body, id == first ? "first" : "second", no_body,
                    "answer: there is no track " + std::to_string(id)};
   if (first == second)
-    return Error{ErrorCode::out_of_range, "second", no_body, "answer: second must be another track than first"};
+    return Error{ErrorCode::out_of_range, "second", no_body,
+                 "answer: second must be another track than first"};
   const std::uint32_t a = *tracks_.find(first), b = *tracks_.find(second);
   const std::span<const Components> levels = levels_of(a, b);
   if (level >= levels.size())
@@ -489,8 +488,8 @@ std::vector<ReportNeed> Monitor::Engine::needed(double until) const {
   std::vector<ReportNeed> needs;
   agenda_.for_each([&](const HotPair& pair) {
     if (!pair.has_second() || pair.time > until || is_void(pair)) return;
-    const auto [asked, other] =
-        is_less_certain(pair.first, pair.second) ? std::pair(pair.first, pair.second) : std::pair(pair.second, pair.first);
+    const auto [asked, other] = is_less_certain(pair.first, pair.second) ? std::pair(pair.first, pair.second)
+                                                                         : std::pair(pair.second, pair.first);
     needs.push_back({tracks_[asked].id, std::max(time_, pair.time), tracks_[other].id});
   });
   open_.for_each([&](std::uint32_t a, std::uint32_t b, const OpenRecord& record) {

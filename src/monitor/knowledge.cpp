@@ -19,15 +19,14 @@ TrackReport with_exact_stamp(TrackReport report, const TrackClass& promise) {
   const double error = report.stamp_error;
   if (error == 0.0) return report;
   const Vec3& velocity = report.state.velocity;
-  const Spread speed =
-      least(Spread::cylinder(std::hypot(velocity.x, velocity.y), std::abs(velocity.z)) + report.velocity_error,
-            promise.largest_speed);
+  const Spread speed = least(
+      Spread::cylinder(std::hypot(velocity.x, velocity.y), std::abs(velocity.z)) + report.velocity_error,
+      promise.largest_speed);
   const Vec3& plan = promise.planned_acceleration;
   const Spread turn =
       promise.acceleration_limit + Spread::cylinder(std::hypot(plan.x, plan.y), std::abs(plan.z));
   // A path that turns goes no farther than this, and no farther than the largest speed takes it.
-  const Spread way =
-      least((speed + turn * (0.5 * error)) * error, promise.largest_speed * error);
+  const Spread way = least((speed + turn * (0.5 * error)) * error, promise.largest_speed * error);
   report.position_error = report.position_error + way * (1.0 + margin);
   report.velocity_error = report.velocity_error + turn * (error * (1.0 + margin));
   report.stamp_error = 0.0;
@@ -75,7 +74,8 @@ void widen(Claim& claim) {
 
 std::vector<Claim> claims_of(const TrackReport& report, const TrackClass& promise, double now) {
   std::vector<Claim> claims;
-  if (report.plan && report.stamp <= now && now < report.plan->valid_until && is_finite(report.velocity_error)) {
+  if (report.plan && report.stamp <= now && now < report.plan->valid_until &&
+      is_finite(report.velocity_error)) {
     Claim claim = motion_of(report, promise);
     claim.acceleration = report.plan->acceleration;
     claim.growth = report.plan->acceleration_limit;
@@ -113,15 +113,14 @@ Excess excess_of(const TrackReport& report, const Hypothesis& believed, const Tr
     if (is_finite(report.velocity_error)) {
       const Vec3 velocity = from.velocity + promise.planned_acceleration * way;
       const Spread turn = report.velocity_error + from.speed + promise.acceleration_limit * s;
-      excess.velocity = beyond(report.state.velocity - velocity, turn,
-                               norm_one(report.state.velocity) + norm_one(from.velocity) +
-                                   norm_one(from.acceleration) * s);
+      excess.velocity =
+          beyond(report.state.velocity - velocity, turn,
+                 norm_one(report.state.velocity) + norm_one(from.velocity) + norm_one(from.acceleration) * s);
     }
   }
   if (is_finite(promise.largest_speed))
-    excess.position = std::max(
-        excess.position,
-        beyond(report.state.position - from.position, both + promise.largest_speed * s, size));
+    excess.position = std::max(excess.position, beyond(report.state.position - from.position,
+                                                       both + promise.largest_speed * s, size));
   return excess;
 }
 
@@ -149,7 +148,8 @@ Hypothesis joined(Hypothesis latest, Hypothesis other, double time) {
 
 }  // namespace
 
-Knowledge::Learned Knowledge::learn(const TrackReport& given, const TrackClass& promise, double now, double ahead) {
+Knowledge::Learned Knowledge::learn(const TrackReport& given, const TrackClass& promise, double now,
+                                    double ahead) {
   Learned learned;
   const TrackReport report = with_exact_stamp(given, promise);
   Hypothesis next = hypothesis_of(report, promise, now);
@@ -222,10 +222,9 @@ Bound Knowledge::bound(double now, double end) const {
     all.radius = std::max(all.radius, norm(one.position - all.position) * (1.0 + margin) + one.radius);
     all.growth_speed =
         std::max(all.growth_speed, norm(one.velocity - all.velocity) * (1.0 + margin) + one.growth_speed);
-    all.growth_acceleration =
-        std::max(all.growth_acceleration,
-                 norm(one.planned_acceleration - all.planned_acceleration) * (1.0 + margin) +
-                     one.growth_acceleration);
+    all.growth_acceleration = std::max(
+        all.growth_acceleration,
+        norm(one.planned_acceleration - all.planned_acceleration) * (1.0 + margin) + one.growth_acceleration);
   }
   return all;
 }

@@ -35,8 +35,8 @@ struct Excess {
   bool any() const { return position > 0.0 || velocity > 0.0; }
 };
 
-/// One of the hypotheses is true, as long as of any three successive reports at most one is wrong and that one
-/// contradicts those before. There are several only while reports contradict each other.
+/// One of the hypotheses is true, as long as of any three successive reports at most one is wrong and that
+/// one contradicts those before. There are several only while reports contradict each other.
 class Knowledge {
  public:
   enum class Outcome {
@@ -51,7 +51,8 @@ class Knowledge {
     bool late = false;
   };
 
-  /// A report that has come in at `now`, of a track of this class. `ahead`: for how long claims are to be good.
+  /// A report that has come in at `now`, of a track of this class. `ahead`: for how long claims are to be
+  /// good.
   Learned learn(const TrackReport& report, const TrackClass& promise, double now, double ahead);
 
   std::span<const Hypothesis> hypotheses() const { return hypotheses_; }

@@ -12,11 +12,11 @@ namespace {
 
 Result<void> check_definition(const MonitorDefinition& definition) {
   InputCheck check("Monitor::create");
-  check.require(definition.dimensions == 2 || definition.dimensions == 3, ErrorCode::out_of_range, {"dimensions"},
-                "must be 2 or 3", static_cast<double>(definition.dimensions));
+  check.require(definition.dimensions == 2 || definition.dimensions == 3, ErrorCode::out_of_range,
+                {"dimensions"}, "must be 2 or 3", static_cast<double>(definition.dimensions));
   check.finite({"start_time"}, definition.start_time)
-      .require(std::abs(definition.start_time) <= limits::largest_time, ErrorCode::out_of_range, {"start_time"},
-               "must lie within +-", limits::largest_time, definition.start_time)
+      .require(std::abs(definition.start_time) <= limits::largest_time, ErrorCode::out_of_range,
+               {"start_time"}, "must lie within +-", limits::largest_time, definition.start_time)
       .positive({"tolerance"}, definition.tolerance)
       .require(definition.tolerance >= limits::least_contact_tolerance &&
                    definition.tolerance <= limits::largest_contact_tolerance,
@@ -57,12 +57,12 @@ Result<void> check_definition(const MonitorDefinition& definition) {
     for (const Separation& level : rule.levels) {
       check.positive(subject("horizontal"), level.horizontal);
       if (definition.dimensions == 3) check.positive(subject("vertical"), level.vertical);
-      check.require(definition.tolerance < level.horizontal &&
-                        (definition.dimensions == 2 || definition.tolerance < level.vertical) &&
-                        std::max(level.horizontal, level.vertical) <=
-                            definition.tolerance * limits::largest_length,
-                    ErrorCode::out_of_range, subject("horizontal"), "must be between 1 and 2^41 tolerances",
-                    level.horizontal);
+      check.require(
+          definition.tolerance < level.horizontal &&
+              (definition.dimensions == 2 || definition.tolerance < level.vertical) &&
+              std::max(level.horizontal, level.vertical) <= definition.tolerance * limits::largest_length,
+          ErrorCode::out_of_range, subject("horizontal"), "must be between 1 and 2^41 tolerances",
+          level.horizontal);
     }
     for (std::size_t other = 0; other < k; ++other) {
       const SeparationRule& before = definition.separations[other];
@@ -79,21 +79,30 @@ Result<void> check_definition(const MonitorDefinition& definition) {
 
 std::string_view name_of(MonitorEventKind kind) {
   switch (kind) {
-    case MonitorEventKind::verdict: return "verdict";
-    case MonitorEventKind::contradiction: return "contradiction";
-    case MonitorEventKind::resolved: return "resolved";
-    case MonitorEventKind::silent: return "silent";
-    case MonitorEventKind::heard: return "heard";
-    case MonitorEventKind::left: return "left";
+    case MonitorEventKind::verdict:
+      return "verdict";
+    case MonitorEventKind::contradiction:
+      return "contradiction";
+    case MonitorEventKind::resolved:
+      return "resolved";
+    case MonitorEventKind::silent:
+      return "silent";
+    case MonitorEventKind::heard:
+      return "heard";
+    case MonitorEventKind::left:
+      return "left";
   }
   return "unknown";
 }
 
 std::string_view name_of(Verdict verdict) {
   switch (verdict) {
-    case Verdict::apart: return "apart";
-    case Verdict::undecided: return "undecided";
-    case Verdict::within: return "within";
+    case Verdict::apart:
+      return "apart";
+    case Verdict::undecided:
+      return "undecided";
+    case Verdict::within:
+      return "within";
   }
   return "unknown";
 }
@@ -114,8 +123,8 @@ Result<void> Monitor::remove(TrackId id) { return engine_->remove(id); }
 Result<std::optional<MonitorEvent>> Monitor::advance(double until) {
   InputCheck check("advance");
   check.finite({"until"}, until)
-      .require(until >= time(), ErrorCode::time_backwards, {"until"}, "must not lie before the time of the monitor,",
-               time(), until);
+      .require(until >= time(), ErrorCode::time_backwards, {"until"},
+               "must not lie before the time of the monitor,", time(), until);
   if (check.error()) return *check.error();
   return engine_->advance(until, nullptr);
 }
@@ -123,8 +132,8 @@ Result<std::optional<MonitorEvent>> Monitor::advance(double until) {
 Result<std::optional<MonitorEvent>> Monitor::advance(double until, const Poll& poll) {
   InputCheck check("advance");
   check.finite({"until"}, until)
-      .require(until >= time(), ErrorCode::time_backwards, {"until"}, "must not lie before the time of the monitor,",
-               time(), until)
+      .require(until >= time(), ErrorCode::time_backwards, {"until"},
+               "must not lie before the time of the monitor,", time(), until)
       .require(static_cast<bool>(poll), ErrorCode::null_probe, {"poll"}, "must be a function", "empty");
   if (check.error()) return *check.error();
   return engine_->advance(until, &poll);

@@ -10,9 +10,9 @@
 // A world asks; a monitor is told. Reports come with their own times and errors, late, out of order or not at
 // all. Between them a track is somewhere in a time-varying bound, as its class promises, and at each time
 // three answers are possible for two tracks and a separation: they certainly are apart, they certainly are
-// within it, or the reports leave it open. The monitor tells of each change of the answer, at the time when it
-// changes, and says who would have to report, by when, to keep it decided. Where reports can be asked for, it
-// asks: for as few as it can (the calls with a Poll).
+// within it, or the reports leave it open. The monitor tells of each change of the answer, at the time when
+// it changes, and says who would have to report, by when, to keep it decided. Where reports can be asked for,
+// it asks: for as few as it can (the calls with a Poll).
 //
 // The guarantee: as long as tracks keep the promises of their classes, and of any three successive reports of
 // a track at most one is farther off than it says and that one contradicts those before, no answer called
@@ -47,7 +47,8 @@ struct MonitorDefinition {
   /// both tracks: only then can a report always decide.
   double tolerance = 1e-3;
   /// An answer that can become certain by the passing of time alone does so at most this late (time, > 0),
-  /// and one that could stay certain for less than this does not become so. Answers never are certain too long.
+  /// and one that could stay certain for less than this does not become so. Answers never are certain too
+  /// long.
   double time_resolution = 1e-3;
   /// How far ahead pairs are looked for (time, > 0): about the time between two reports of a track. It
   /// matters for speed, and for needed(), alone; it is rounded down to a power of two.
@@ -124,10 +125,11 @@ struct TrackView {
   std::vector<Place> places;
 };
 
-/// Any callable `void(std::span<const TrackId> ids, double time, std::span<std::optional<TrackReport>> reports)`:
-/// asks tracks for their latest reports, stamped no later than `time`. Where it leaves a report empty there
-/// is nothing newer.
-using Poll = Callback<void(std::span<const TrackId> ids, double time, std::span<std::optional<TrackReport>> reports)>;
+/// Any callable `void(std::span<const TrackId> ids, double time, std::span<std::optional<TrackReport>>
+/// reports)`: asks tracks for their latest reports, stamped no later than `time`. Where it leaves a report
+/// empty there is nothing newer.
+using Poll =
+    Callback<void(std::span<const TrackId> ids, double time, std::span<std::optional<TrackReport>> reports)>;
 
 class MonitorEventRange;
 
@@ -145,17 +147,18 @@ class Monitor {
   /// Takes a report that has come in at the current time. The first one of an id makes a track. What changes
   /// by it is told by the next advance(), at the current time. Errors: not_finite, out_of_range (a negative
   /// error, an unknown class or another than before, a coordinate too large, no velocity where the class has
-  /// no largest speed). Cost: about that of a hash table's look-up, and a look at each open pair of the track.
+  /// no largest speed). Cost: about that of a hash table's look-up, and a look at each open pair of the
+  /// track.
   Result<void> report(TrackId id, const TrackReport& report);
   /// The track leaves. Errors: unknown_body.
   Result<void> remove(TrackId id);
 
-  /// Goes on to the next event, at most to time `until`. Returns it, with time() at its time, or nothing, with
-  /// time() == until. Events of one time come in the order of their fields. Errors: time_backwards or
+  /// Goes on to the next event, at most to time `until`. Returns it, with time() at its time, or nothing,
+  /// with time() == until. Events of one time come in the order of their fields. Errors: time_backwards or
   /// not_finite for `until`.
   Result<std::optional<MonitorEvent>> advance(double until);
-  /// The same, and asks for reports: of a pair that is about to turn undecided for that of one of the two and,
-  /// if that is not enough, of the other. So with a tolerance as MonitorDefinition has it nothing stays
+  /// The same, and asks for reports: of a pair that is about to turn undecided for that of one of the two
+  /// and, if that is not enough, of the other. So with a tolerance as MonitorDefinition has it nothing stays
   /// undecided that can be asked for. Errors: null_probe; those of report() for what comes back, whose track
   /// is then taken as not having answered.
   Result<std::optional<MonitorEvent>> advance(double until, const Poll& poll);

@@ -85,8 +85,8 @@ struct TrackClass {
   Spread largest_speed = std::numeric_limits<double>::infinity();
 };
 
-/// Where a track was, as somebody reported it. The errors are bounds: where a source tells of an accuracy that
-/// holds with some probability, it is the caller who declares which multiple of it contains all errors.
+/// Where a track was, as somebody reported it. The errors are bounds: where a source tells of an accuracy
+/// that holds with some probability, it is the caller who declares which multiple of it contains all errors.
 struct TrackReport {
   /// When it was so, by the clock of the monitor. Reports may be late, come out of order and be repeated.
   double stamp = 0.0;
