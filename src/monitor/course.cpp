@@ -42,13 +42,14 @@ class Meeting {
       : a_(a, component),
         b_(b, component),
         now_(now),
+        begin_(std::max(a.time, b.time)),
         end_(std::min(a.end, b.end)),
         errors_(rounding::sum_up(a_.error, b_.error)),
         limit_(component.limit),
         outer_limit_(rounding::sum_down(component.limit, tolerance)),
         gap_(gap_limits(a_.path, b_.path, now)) {}
 
-  bool holds() const { return now_ < end_; }
+  bool holds() const { return begin_ <= now_ && now_ < end_; }
   double lower() const { return rounding::sum_down(gap_.lower, -errors_); }
   double upper() const { return rounding::sum_up(gap_.upper, errors_); }
   bool is_apart() const { return lower() > limit_; }
@@ -76,7 +77,7 @@ class Meeting {
   double growth() const { return a_.growth_at(now_) + b_.growth_at(now_); }
 
   View a_, b_;
-  double now_, end_;
+  double now_, begin_, end_;
   double errors_, limit_, outer_limit_;
   GapLimits gap_;
 };

@@ -121,6 +121,8 @@ void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placin
           .first = id,
           .position_excess = learned.excess.position,
           .velocity_excess = learned.excess.velocity});
+    for (const std::uint32_t other : track.open)
+      for (LevelState& state : open_.find(number, other)->levels) state.until = -infinity;
     if (placing == Placing::later) {
       track.stamp = tracks_.fresh_stamp();
       judge_open_pairs(number);
@@ -267,17 +269,22 @@ Result<void> Monitor::Engine::start_windows(const Poll* poll) {
 
 // Pairs.
 
-/// All that is certain of a pair that has no record. `a` and `b` may come near each other before the window
-/// ends.
+/// Puts a pair that has no record on the agenda, for when it may not be apart any more: `a` and `b` may come
+/// near each other before the window ends.
 void Monitor::Engine::find_pair(std::uint32_t a, std::uint32_t b) {
   if (levels_of(a, b).empty()) return;
   ++counters_.near_pairs;
   const double horizon = std::min(windows_.end_of(a), windows_.end_of(b));
-  if (const auto until = apart_until(a, b, horizon)) {
-    if (*until < horizon) add_hot_pair(a, b, *until);
-  } else {
-    judge(a, b);
-  }
+  const double until = apart_until(a, b, horizon).value_or(time_);
+  if (until < horizon) add_hot_pair(a, b, until);
+}
+
+bool Monitor::Engine::is_decided(std::uint32_t a, std::uint32_t b) {
+  const std::span<const Components> levels = levels_of(a, b);
+  counters_.looks += levels.size();
+  return std::all_of(levels.begin(), levels.end(), [&](const Components& level) {
+    return course(a, b, level, infinity).verdict != Verdict::undecided;
+  });
 }
 
 /// If they are apart at all levels.
@@ -304,32 +311,24 @@ void Monitor::Engine::judge_open_pairs(std::uint32_t number) {
 
 /// Says what is certain of two tracks now, tells what has changed, and keeps a record if they are not apart.
 void Monitor::Engine::judge(std::uint32_t a, std::uint32_t b) {
-  const std::span<const Components> levels = levels_of(a, b);
   OpenRecord* record = open_.find(a, b);
   if (record == nullptr) {
-    record = &open_.add(a, b, levels.size());
+    const double horizon = std::min(windows_.end_of(a), windows_.end_of(b));
+    if (const auto until = apart_until(a, b, horizon)) {
+      if (*until < horizon) add_hot_pair(a, b, *until);
+      return;
+    }
+    record = &open_.add(a, b, levels_of(a, b).size());
     tracks_[a].open.push_back(b);
     tracks_[b].open.push_back(a);
   }
   double until = infinity;
   bool apart = true;
-  const auto [first, second] = std::minmax(tracks_[a].id, tracks_[b].id);
-  for (std::uint32_t level = 0; level < levels.size(); ++level) {
-    ++counters_.looks;
-    const Course now = course(a, b, levels[level], infinity);
-    until = std::min(until, now.until);
-    apart = apart && now.verdict == Verdict::apart;
-    LevelState& state = record->levels[level];
-    if (state.verdict == now.verdict) continue;
-    tell({.time = time_,
-          .kind = MonitorEventKind::verdict,
-          .first = first,
-          .second = second,
-          .level = level,
-          .verdict = now.verdict,
-          .before = state.verdict,
-          .since = state.since});
-    state = {now.verdict, time_};
+  for (std::uint32_t level = 0; level < record->levels.size(); ++level) {
+    judge_level(a, b, level, record->levels[level]);
+    const LevelState& state = record->levels[level];
+    until = std::min(until, state.until);
+    apart = apart && state.verdict == Verdict::apart;
   }
   if (apart) {
     open_.remove(a, b);
@@ -343,10 +342,32 @@ void Monitor::Engine::judge(std::uint32_t a, std::uint32_t b) {
   if (until < infinity) agenda_.add({until, one, other, record->version, of_open_record});
 }
 
+void Monitor::Engine::judge_level(std::uint32_t a, std::uint32_t b, std::uint32_t level, LevelState& state) {
+  ++counters_.looks;
+  const Course now = course(a, b, levels_of(a, b)[level], infinity);
+  // What was certain stays so, also if later reports alone would leave it open.
+  const bool still = state.verdict != Verdict::undecided && state.until > time_;
+  if (now.verdict == state.verdict || still) {
+    const bool known_longer = still && now.verdict != state.verdict;
+    state.until = known_longer ? state.until : still ? std::max(state.until, now.until) : now.until;
+    return;
+  }
+  const auto [first, second] = std::minmax(tracks_[a].id, tracks_[b].id);
+  tell({.time = time_,
+        .kind = MonitorEventKind::verdict,
+        .first = first,
+        .second = second,
+        .level = level,
+        .verdict = now.verdict,
+        .before = state.verdict,
+        .since = state.since});
+  state = {now.verdict, time_, now.until};
+}
+
 /// More can be learned from a report of `a` than from one of `b`.
 bool Monitor::Engine::is_less_certain(std::uint32_t a, std::uint32_t b) const {
-  const double of_a = tracks_[a].knowledge.radius_at(time_);
-  const double of_b = tracks_[b].knowledge.radius_at(time_);
+  const double of_a = tracks_[a].knowledge.worth_asking(time_);
+  const double of_b = tracks_[b].knowledge.worth_asking(time_);
   return of_a != of_b ? of_a > of_b : tracks_[a].id < tracks_[b].id;
 }
 
@@ -364,10 +385,7 @@ Result<void> Monitor::Engine::look(const Poll* poll) {
     // What was answered may have made it another pair.
     if (is_void(pair)) return {};
   }
-  if (pair.second_stamp == of_open_record)
-    judge(pair.first, pair.second);
-  else
-    find_pair(pair.first, pair.second);
+  judge(pair.first, pair.second);
   return {};
 }
 
@@ -384,7 +402,7 @@ Result<void> Monitor::Engine::ask_about(const HotPair& pair, const Poll& poll) {
     }
   } unanswered{agenda_, pair};
   for (const std::uint32_t number : is_less_certain(a, b) ? std::array{a, b} : std::array{b, a}) {
-    if (is_void(pair) || apart_until(a, b, std::min(windows_.end_of(a), windows_.end_of(b)))) break;
+    if (is_void(pair) || is_decided(a, b)) break;
     if (!(tracks_[number].knowledge.stamp() < time_)) continue;
     if (const Result<void> asked = ask(std::span(&number, 1), poll, Placing::now); !asked) return asked;
   }
@@ -429,9 +447,9 @@ Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::u
   const Course now = course(a, b, levels[level], infinity);
   const OpenRecord* record = open_.find(a, b);
   const LevelState state = record != nullptr ? record->levels[level] : LevelState{};
-  answer.verdict = state.verdict;
+  answer.verdict = record != nullptr ? state.verdict : now.verdict;
   answer.since = state.since;
-  answer.until = now.verdict == state.verdict ? now.until : time_;
+  answer.until = record == nullptr || now.verdict == state.verdict ? std::max(now.until, state.until) : state.until;
   const Component& nearest = *levels[level].begin();
   const DistanceBetween between = distance_between(one.knowledge, other.knowledge, nearest, time_);
   answer.lower = std::max(0.0, between.lower);

@@ -65,9 +65,11 @@ class Monitor::Engine {
                      definition_.time_resolution);
   }
   std::optional<double> apart_until(std::uint32_t a, std::uint32_t b, double horizon);
+  bool is_decided(std::uint32_t a, std::uint32_t b);
   bool is_less_certain(std::uint32_t a, std::uint32_t b) const;
   void find_pair(std::uint32_t a, std::uint32_t b);
   void judge(std::uint32_t a, std::uint32_t b);
+  void judge_level(std::uint32_t a, std::uint32_t b, std::uint32_t level, LevelState& state);
   void judge_open_pairs(std::uint32_t number);
   void add_hot_pair(std::uint32_t a, std::uint32_t b, double time);
   void tell(MonitorEvent event);

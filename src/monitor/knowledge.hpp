@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -58,12 +59,17 @@ class Knowledge {
   std::span<const Hypothesis> hypotheses() const { return hypotheses_; }
   /// Of the latest report.
   double stamp() const;
-  /// Of the hypothesis, the claim that is tightest at a time.
-  static const Claim& tightest(const Hypothesis& hypothesis, double time);
+  /// Of the hypothesis, of the claims that hold all the time, the one that is tightest in the end.
+  static const Claim& tightest(const Hypothesis& hypothesis, double from, double until);
+  static const Claim& tightest(const Hypothesis& hypothesis, double time) {
+    return tightest(hypothesis, time, time);
+  }
   /// Contains the track from `now` until `end`, in all hypotheses.
   Bound bound(double now, double end) const;
-  /// How much is uncertain at a time: the radius of the largest place.
-  double radius_at(double time) const;
+  /// A track is asked rather than another if this is larger. If two tracks with the acceleration limits A and B
+  /// are to be certain to the same sum of radii, the fewest reports are needed where their ages are as
+  /// A^(-1/3) : B^(-1/3). Then this, radius by age, is the same for both.
+  double worth_asking(double time) const;
   /// When the first claim that `bound` may rest upon ends.
   double first_end() const;
 

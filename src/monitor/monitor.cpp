@@ -58,7 +58,7 @@ Result<void> check_definition(const MonitorDefinition& definition) {
       check.positive(subject("horizontal"), level.horizontal);
       if (definition.dimensions == 3) check.positive(subject("vertical"), level.vertical);
       check.require(
-          definition.tolerance < level.horizontal &&
+          definition.tolerance <= level.horizontal &&
               (definition.dimensions == 2 || definition.tolerance < level.vertical) &&
               std::max(level.horizontal, level.vertical) <= definition.tolerance * limits::largest_length,
           ErrorCode::out_of_range, subject("horizontal"), "must be between 1 and 2^41 tolerances",

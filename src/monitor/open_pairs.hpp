@@ -15,11 +15,12 @@ namespace kinesphere {
 struct LevelState {
   Verdict verdict = Verdict::apart;
   double since = -infinity;
+  double until = -infinity;  ///< a certain verdict holds until then, whatever is reported
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [verdict, since] = self;
-    archive(verdict, since);
+    auto& [verdict, since, until] = self;
+    archive(verdict, since, until);
   }
 };
 
