@@ -238,11 +238,16 @@ Result<void> Monitor::Engine::start_windows(const Poll* poll) {
   const std::vector<std::uint32_t> ended = windows_.ended(time_, false);
   const Window next = window();
   if (poll != nullptr) {
+    // Whose plan ends, and who is in a pair that is undecided.
     std::vector<std::uint32_t> asked;
-    for (const std::uint32_t number : ended)
-      if (const Knowledge& knowledge = tracks_[number].knowledge;
-          knowledge.stamp() < time_ && knowledge.first_end() < next.end)
+    for (const std::uint32_t number : ended) {
+      const Track& track = tracks_[number];
+      if (track.knowledge.stamp() < time_ &&
+          (track.knowledge.first_end() < next.end ||
+           std::any_of(track.open.begin(), track.open.end(),
+                       [&](std::uint32_t other) { return open_.find(number, other)->is_undecided(); })))
         asked.push_back(number);
+    }
     if (!asked.empty()) {
       if (const Result<void> done = ask(asked, *poll, Placing::later); !done) return done;
     }
@@ -380,7 +385,8 @@ Result<void> Monitor::Engine::look(const Poll* poll) {
     is_due(pair.first);
     return {};
   }
-  if (poll != nullptr) {
+  const OpenRecord* record = open_.find(pair.first, pair.second);
+  if (poll != nullptr && (record == nullptr || record->is_expiring(time_))) {
     if (const Result<void> asked = ask_about(pair, *poll); !asked) return asked;
     // What was answered may have made it another pair.
     if (is_void(pair)) return {};
@@ -449,7 +455,8 @@ Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::u
   const LevelState state = record != nullptr ? record->levels[level] : LevelState{};
   answer.verdict = record != nullptr ? state.verdict : now.verdict;
   answer.since = state.since;
-  answer.until = record == nullptr || now.verdict == state.verdict ? std::max(now.until, state.until) : state.until;
+  answer.until =
+      record == nullptr || now.verdict == state.verdict ? std::max(now.until, state.until) : state.until;
   const Component& nearest = *levels[level].begin();
   const DistanceBetween between = distance_between(one.knowledge, other.knowledge, nearest, time_);
   answer.lower = std::max(0.0, between.lower);
@@ -511,9 +518,7 @@ std::vector<ReportNeed> Monitor::Engine::needed(double until) const {
     needs.push_back({tracks_[asked].id, std::max(time_, pair.time), tracks_[other].id});
   });
   open_.for_each([&](std::uint32_t a, std::uint32_t b, const OpenRecord& record) {
-    if (std::none_of(record.levels.begin(), record.levels.end(),
-                     [](const LevelState& state) { return state.verdict == Verdict::undecided; }))
-      return;
+    if (!record.is_undecided()) return;
     const auto [asked, other] = is_less_certain(a, b) ? std::pair(a, b) : std::pair(b, a);
     needs.push_back({tracks_[asked].id, time_, tracks_[other].id});
   });

@@ -155,8 +155,8 @@ Hypothesis hypothesis_of(const TrackReport& report, const TrackClass& promise, d
   return hypothesis;
 }
 
-/// Both hold. What the latest report says stays, and of all else the claim that is tightest at a time soon, if
-/// it tells more then.
+/// Both hold. What the latest report says stays, and of all else the claim that is tightest at a time soon,
+/// if it tells more then.
 Hypothesis joined(Hypothesis latest, Hypothesis other, double now, double soon) {
   other.claims.insert(other.claims.end(),
                       latest.claims.begin() + static_cast<std::ptrdiff_t>(latest.latest_claims),

@@ -66,8 +66,8 @@ class Knowledge {
   }
   /// Contains the track from `now` until `end`, in all hypotheses.
   Bound bound(double now, double end) const;
-  /// A track is asked rather than another if this is larger. If two tracks with the acceleration limits A and B
-  /// are to be certain to the same sum of radii, the fewest reports are needed where their ages are as
+  /// A track is asked rather than another if this is larger. If two tracks with the acceleration limits A and
+  /// B are to be certain to the same sum of radii, the fewest reports are needed where their ages are as
   /// A^(-1/3) : B^(-1/3). Then this, radius by age, is the same for both.
   double worth_asking(double time) const;
   /// When the first claim that `bound` may rest upon ends.

@@ -28,6 +28,17 @@ struct OpenRecord {
   std::uint32_t version = 0;  ///< what is in the agenda for another one is void
   std::vector<LevelState> levels;
 
+  bool is_undecided() const {
+    return std::any_of(levels.begin(), levels.end(),
+                       [](const LevelState& state) { return state.verdict == Verdict::undecided; });
+  }
+  /// Something that was certain is not so from now on.
+  bool is_expiring(double now) const {
+    return std::any_of(levels.begin(), levels.end(), [now](const LevelState& state) {
+      return state.verdict != Verdict::undecided && state.until <= now;
+    });
+  }
+
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
     auto& [version, levels] = self;
