@@ -3,6 +3,7 @@
 
 #include <CLI/App.hpp>
 
+#include "bench/monitoring.hpp"
 #include "bench/options.hpp"
 #include "bench/speed/speed.hpp"
 #include "bench/vessels.hpp"
@@ -14,6 +15,7 @@ struct BenchCommands {
   SpeedOptions speed{{.output = "bench-speed", .only = {}}, {}};
   BenchOptions gas{.output = "bench-gas", .only = {}};
   VesselOptions vessels;
+  MonitoringOptions monitoring;
 };
 
 /// `commands` must live until the command line has been parsed.
