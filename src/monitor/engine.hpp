@@ -1,9 +1,12 @@
 // The engine of a monitor. The facts that it keeps, and why they suffice: docs/monitoring.md.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -42,7 +45,15 @@ class Monitor::Engine {
   std::vector<OpenPair> open_pairs() const;
   std::vector<ReportNeed> needed(double until) const;
 
+  std::vector<std::byte> save() const;
+  static Result<std::unique_ptr<Engine>> restore(std::span<const std::byte> snapshot);
+
  private:
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive);
+  /// What cannot have come about of a state that was read, if anything.
+  const char* contradiction() const;
+
   Result<void> check(TrackId id, const TrackReport& report, const char* call) const;
   /// When a track gets another capsule that needs one: as the windows start, perhaps.
   enum class Placing { now, later };
@@ -86,6 +97,7 @@ class Monitor::Engine {
   Windows windows_;
   Agenda agenda_;
   std::deque<MonitorEvent> events_;  ///< of the present time, that have not been told yet
+  std::vector<HotPair> read_pairs_;  ///< of a snapshot, on their way into the agenda
   Windows::Scratch scratch_;
 };
 

@@ -265,6 +265,28 @@ double Knowledge::stamp() const {
   return latest;
 }
 
+bool Knowledge::is_sound(double now) const {
+  const auto is_length = [](double value) { return value >= 0.0; };
+  const auto is_spread = [&](const Spread& spread) {
+    return is_length(spread.horizontal()) && is_length(spread.vertical()) && is_length(spread.total());
+  };
+  const auto is_claim = [&](const Claim& claim) {
+    return std::isfinite(claim.time) && !std::isnan(claim.end) && kinesphere::is_finite(claim.position) &&
+           kinesphere::is_finite(claim.velocity) && kinesphere::is_finite(claim.acceleration) &&
+           is_spread(claim.radius) && is_spread(claim.speed) && is_spread(claim.growth);
+  };
+  return !hypotheses_.empty() && hypotheses_.size() <= most_hypotheses &&
+         std::all_of(hypotheses_.begin(), hypotheses_.end(), [&](const Hypothesis& hypothesis) {
+           const std::vector<Claim>& claims = hypothesis.claims;
+           return std::isfinite(hypothesis.stamp) && is_claim(hypothesis.motion) &&
+                  hypothesis.latest_claims <= claims.size() &&
+                  std::all_of(claims.begin(), claims.end(), is_claim) &&
+                  std::any_of(claims.begin(), claims.end(), [now](const Claim& claim) {
+                    return claim.time <= now && claim.end == infinity;
+                  });
+         });
+}
+
 double Knowledge::first_end() const {
   double first = infinity;
   for (const Hypothesis& hypothesis : hypotheses_)

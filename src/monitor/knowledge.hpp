@@ -70,6 +70,8 @@ class Knowledge {
   /// B are to be certain to the same sum of radii, the fewest reports are needed where their ages are as
   /// A^(-1/3) : B^(-1/3). Then this, radius by age, is the same for both.
   double worth_asking(double time) const;
+  /// For what was read: there is always a claim to go by.
+  bool is_sound(double now) const;
   /// When the first claim that `bound` may rest upon ends.
   double first_end() const;
 

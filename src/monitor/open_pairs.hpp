@@ -65,6 +65,8 @@ class OpenRecords {
   void remove(std::uint32_t a, std::uint32_t b) { records_.erase(key(a, b)); }
   std::uint32_t fresh_version() { return ++last_version_; }
   std::size_t size() const { return records_.size(); }
+  std::uint32_t last_version() const { return last_version_; }
+  void start_versions_at(std::uint32_t version) { last_version_ = version; }
   /// Calls visit(a, b, record), in no particular order.
   template <class Visit>
   void for_each(Visit visit) const {

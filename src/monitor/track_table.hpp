@@ -77,6 +77,21 @@ class TrackTable {
     auto& [tracks, free, last_stamp, numbers] = self;
     archive(tracks, free, last_stamp);
   }
+  /// For one that was read: finds tracks by their ids again, and says whether the table can be.
+  bool index() {
+    numbers_.clear();
+    for (std::uint32_t number = 0; number < tracks_.size(); ++number) {
+      const Track& track = tracks_[number];
+      if (track.present && !numbers_.emplace(track.id, number).second) return false;
+      if (std::max(track.life, track.stamp) > last_stamp_) return false;
+    }
+    std::vector<bool> seen(tracks_.size(), false);
+    for (const std::uint32_t number : free_) {
+      if (number >= tracks_.size() || tracks_[number].present || seen[number]) return false;
+      seen[number] = true;
+    }
+    return numbers_.size() + free_.size() == tracks_.size();
+  }
 
  private:
   std::vector<Track> tracks_;
