@@ -71,6 +71,7 @@ class Monitor::Engine {
   void judge(std::uint32_t a, std::uint32_t b);
   void judge_level(std::uint32_t a, std::uint32_t b, std::uint32_t level, LevelState& state);
   void judge_open_pairs(std::uint32_t number);
+  void judge_pairs_not_due(std::uint32_t number);
   void add_hot_pair(std::uint32_t a, std::uint32_t b, double time);
   void tell(MonitorEvent event);
   RoomyBound roomy_bound(std::uint32_t number, double end) const;
