@@ -228,9 +228,19 @@ void Monitor::Engine::tell(MonitorEvent event) {
   events_.insert(at, event);
 }
 
+/// A plan's parabola lies around the line between its ends more closely than along its first tangent: for
+/// d in [0, T],  1/2 g d^2  is within  |g| T^2 / 16  of  1/2 g (T d - T^2 / 8).
 RoomyBound Monitor::Engine::roomy_bound(std::uint32_t number, double end) const {
   const Track& track = tracks_[number];
-  return {MovedBound(track.knowledge.bound(time_, end), time_), levels_.room(track.track_class)};
+  MovedBound moved(track.knowledge.bound(time_, end), time_);
+  if (const double duration = end - time_; moved.acceleration != Vec3{} && duration < infinity) {
+    const double sixteenth = duration * duration * 0.0625;
+    moved.centre -= moved.acceleration * sixteenth;
+    moved.velocity += moved.acceleration * (0.5 * duration);
+    moved.radius += norm(moved.acceleration) * (sixteenth * (1.0 + 0x1p-47));
+    moved.acceleration = {};
+  }
+  return {moved, levels_.room(track.track_class)};
 }
 
 Result<void> Monitor::Engine::start_windows(const Poll* poll) {
