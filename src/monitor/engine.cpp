@@ -265,11 +265,14 @@ Result<void> Monitor::Engine::start_windows(const Poll* poll) {
   ++counters_.windows;
   windows_.end_windows(time_, false);
   std::vector<Windows::Starter> starters;
-  for (const std::uint32_t number : ended)
-    if (tracks_[number].present)
-      starters.push_back({number, Windows::level_of(roomy_bound(number, next.end), next), next});
+  bounds_.resize(tracks_.numbers());
+  for (const std::uint32_t number : ended) {
+    if (!tracks_[number].present) continue;
+    bounds_[number] = roomy_bound(number, next.end);
+    starters.push_back({number, Windows::level_of(*bounds_[number], next), next});
+  }
   Shift alone;
-  const auto bound_of = [&](std::uint32_t number) { return roomy_bound(number, next.end); };
+  const auto bound_of = [&](std::uint32_t number) -> const RoomyBound& { return *bounds_[number]; };
   windows_.start(starters, time_, bound_of, alone);
   counters_.searches += starters.size();
   std::vector<Windows::Pair> pairs;

@@ -88,6 +88,7 @@ class Monitor::Engine {
   Agenda agenda_;
   std::deque<MonitorEvent> events_;  ///< of the present time, that have not been told yet
   Windows::Scratch scratch_;
+  std::vector<std::optional<RoomyBound>> bounds_;  ///< of those that start, by number
 };
 
 }  // namespace kinesphere
