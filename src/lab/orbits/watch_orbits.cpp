@@ -91,6 +91,7 @@ Result<OrbitWatch> watch_orbits(const std::vector<Orbit>& orbits, double until, 
       watch.approaches[open.at(pair)].end = event.time;
     }
   }
+  sort_by_pair(watch.approaches);
   watch.counters = monitor.counters();
   return watch;
 }

@@ -6,27 +6,20 @@
 
 #include "kinesphere/monitor/monitor.hpp"
 #include "lab/orbits/orbit.hpp"
+#include "lab/orbits/orbit_approach.hpp"
 
 namespace kinesphere {
-
-/// Two satellites are within the distance at every time from begin to end.
-struct OrbitApproach {
-  std::uint32_t first = 0, second = 0;  ///< first < second
-  double begin = 0.0, end = 0.0;
-
-  friend bool operator==(const OrbitApproach&, const OrbitApproach&) = default;
-};
 
 struct WatchOptions {
   double distance = 5.0;
   double tolerance = 1e-3;  ///< as MonitorDefinition has it (km)
-  double window = 64.0;     ///< the same (s)
+  double window = 128.0;    ///< the same (s)
   /// Plans of slow satellites are good for several windows: as long as they stray no farther than this.
   double stray = 1.0;
 };
 
 struct OrbitWatch {
-  /// By begin. Those that have not ended by the last time end then.
+  /// By pair and begin. Those that have not ended by the last time end then.
   std::vector<OrbitApproach> approaches;
   MonitorCounters counters{};
   std::uint64_t undecided = 0;  ///< events that left a pair undecided
