@@ -5,6 +5,7 @@
 
 #include "bench/monitoring.hpp"
 #include "bench/options.hpp"
+#include "bench/satellites.hpp"
 #include "bench/speed/speed.hpp"
 #include "bench/vessels.hpp"
 
@@ -16,6 +17,7 @@ struct BenchCommands {
   BenchOptions gas{.output = "bench-gas", .only = {}};
   VesselOptions vessels;
   MonitoringOptions monitoring;
+  SatelliteOptions satellites;
 };
 
 /// `commands` must live until the command line has been parsed.

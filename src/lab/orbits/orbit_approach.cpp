@@ -1,6 +1,7 @@
 #include "lab/orbits/orbit_approach.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <tuple>
 
@@ -33,16 +34,20 @@ void sort_by_pair(std::vector<OrbitApproach>& approaches) {
 }
 
 std::vector<OrbitApproach> not_inside(const std::vector<OrbitApproach>& approaches,
-                                      const std::vector<OrbitApproach>& others) {
+                                      const std::vector<OrbitApproach>& others, double step) {
+  /// The first time after `time` that counts.
+  const auto next = [step](double time) {
+    return step > 0.0 ? (std::floor(time / step) + 1.0) * step : time;
+  };
   std::vector<OrbitApproach> outside;
   for_each_with_others(approaches, others,
                        [&](const OrbitApproach& approach, std::size_t from, std::size_t to) {
-                         double covered = approach.begin;
                          bool has_begun = false;
+                         double covered = approach.begin;
                          for (std::size_t k = from; k < to; ++k) {
                            const auto& [first, second, begin, end] = others[k];
                            if (begin <= approach.begin && approach.begin <= end) has_begun = true;
-                           if (has_begun && begin <= covered) covered = std::max(covered, end);
+                           if (has_begun && begin <= next(covered)) covered = std::max(covered, end);
                          }
                          if (!has_begun || covered < approach.end) outside.push_back(approach);
                        });

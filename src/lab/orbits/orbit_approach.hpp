@@ -16,10 +16,10 @@ struct OrbitApproach {
 
 void sort_by_pair(std::vector<OrbitApproach>& approaches);
 
-/// Those of `approaches` that are not inside one of `others`. Both are sorted by pair; two of the others that
-/// touch count as one.
+/// Those of `approaches` that are at any time not inside one of `others`. Both are sorted by pair. With a
+/// `step` > 0 only times that are multiples of it count.
 std::vector<OrbitApproach> not_inside(const std::vector<OrbitApproach>& approaches,
-                                      const std::vector<OrbitApproach>& others);
+                                      const std::vector<OrbitApproach>& others, double step = 0.0);
 /// Those of `approaches` that have no time in common with any of `others`. Both are sorted by pair.
 std::vector<OrbitApproach> not_met(const std::vector<OrbitApproach>& approaches,
                                    const std::vector<OrbitApproach>& others);
