@@ -38,6 +38,7 @@ Monitor::Engine::Engine(const MonitorDefinition& definition)
 Result<void> Monitor::Engine::report(TrackId id, const TrackReport& report) {
   if (const Result<void> checked = check(id, report, "report"); !checked) return checked;
   take(id, report, Placing::now);
+  judge_open_pairs(*tracks_.find(id));
   return {};
 }
 
@@ -81,6 +82,7 @@ Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const
   return check.result();
 }
 
+/// Whoever calls it judges the open pairs of the track afterwards: of several reports, once all are taken.
 void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placing) {
   const TrackClass& promise = definition_.classes[report.track_class];
   const auto known = tracks_.find(id);
@@ -123,17 +125,14 @@ void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placin
           .velocity_excess = learned.excess.velocity});
     for (const std::uint32_t other : track.open)
       for (LevelState& state : open_.find(number, other)->levels) state.until = -infinity;
-    if (placing == Placing::later) {
+    if (placing == Placing::later)
       track.stamp = tracks_.fresh_stamp();
-      judge_open_pairs(number);
-    } else {
+    else
       settle(number);
-    }
     return;
   }
   if (learned.outcome == Knowledge::Outcome::resolves)
     tell({.time = time_, .kind = MonitorEventKind::resolved, .first = id});
-  judge_open_pairs(number);
 }
 
 /// Whatever was known of the track may be wrong: it gets a capsule from now on, and all facts anew.
@@ -229,9 +228,19 @@ void Monitor::Engine::tell(MonitorEvent event) {
   events_.insert(at, event);
 }
 
+/// A plan's parabola lies around the line between its ends more closely than along its first tangent: for
+/// d in [0, T],  1/2 g d^2  is within  |g| T^2 / 16  of  1/2 g (T d - T^2 / 8).
 RoomyBound Monitor::Engine::roomy_bound(std::uint32_t number, double end) const {
   const Track& track = tracks_[number];
-  return {MovedBound(track.knowledge.bound(time_, end), time_), levels_.room(track.track_class)};
+  MovedBound moved(track.knowledge.bound(time_, end), time_);
+  if (const double duration = end - time_; moved.acceleration != Vec3{} && duration < infinity) {
+    const double sixteenth = duration * duration * 0.0625;
+    moved.centre -= moved.acceleration * sixteenth;
+    moved.velocity += moved.acceleration * (0.5 * duration);
+    moved.radius += norm(moved.acceleration) * (sixteenth * (1.0 + 0x1p-47));
+    moved.acceleration = {};
+  }
+  return {moved, levels_.room(track.track_class)};
 }
 
 Result<void> Monitor::Engine::start_windows(const Poll* poll) {
@@ -250,16 +259,20 @@ Result<void> Monitor::Engine::start_windows(const Poll* poll) {
     }
     if (!asked.empty()) {
       if (const Result<void> done = ask(asked, *poll, Placing::later); !done) return done;
+      for (const std::uint32_t number : asked) judge_pairs_not_due(number);
     }
   }
   ++counters_.windows;
   windows_.end_windows(time_, false);
   std::vector<Windows::Starter> starters;
-  for (const std::uint32_t number : ended)
-    if (tracks_[number].present)
-      starters.push_back({number, Windows::level_of(roomy_bound(number, next.end), next), next});
+  bounds_.resize(tracks_.numbers());
+  for (const std::uint32_t number : ended) {
+    if (!tracks_[number].present) continue;
+    bounds_[number] = roomy_bound(number, next.end);
+    starters.push_back({number, Windows::level_of(*bounds_[number], next), next});
+  }
   Shift alone;
-  const auto bound_of = [&](std::uint32_t number) { return roomy_bound(number, next.end); };
+  const auto bound_of = [&](std::uint32_t number) -> const RoomyBound& { return *bounds_[number]; };
   windows_.start(starters, time_, bound_of, alone);
   counters_.searches += starters.size();
   std::vector<Windows::Pair> pairs;
@@ -312,6 +325,19 @@ void Monitor::Engine::add_hot_pair(std::uint32_t a, std::uint32_t b, double time
 void Monitor::Engine::judge_open_pairs(std::uint32_t number) {
   const std::vector<std::uint32_t> partners = tracks_[number].open;
   for (const std::uint32_t other : partners) judge(number, other);
+}
+
+/// After reports that were asked for. A pair that is due now waits for its turn: with the report of one track
+/// alone it may seem undecided.
+void Monitor::Engine::judge_pairs_not_due(std::uint32_t number) {
+  const std::vector<std::uint32_t> partners = tracks_[number].open;
+  for (const std::uint32_t other : partners) {
+    const std::vector<LevelState>& levels = open_.find(number, other)->levels;
+    const bool is_due = std::any_of(levels.begin(), levels.end(), [this](const LevelState& state) {
+      return -infinity < state.until && state.until <= time_;
+    });
+    if (!is_due) judge(number, other);
+  }
 }
 
 /// Says what is certain of two tracks now, tells what has changed, and keeps a record if they are not apart.
@@ -407,11 +433,13 @@ Result<void> Monitor::Engine::ask_about(const HotPair& pair, const Poll& poll) {
       if (!answered) agenda.add(pair);
     }
   } unanswered{agenda_, pair};
-  for (const std::uint32_t number : is_less_certain(a, b) ? std::array{a, b} : std::array{b, a}) {
+  const std::array<std::uint32_t, 2> both = is_less_certain(a, b) ? std::array{a, b} : std::array{b, a};
+  for (const std::uint32_t number : both) {
     if (is_void(pair) || is_decided(a, b)) break;
     if (!(tracks_[number].knowledge.stamp() < time_)) continue;
     if (const Result<void> asked = ask(std::span(&number, 1), poll, Placing::now); !asked) return asked;
   }
+  for (const std::uint32_t number : both) judge_pairs_not_due(number);
   unanswered.answered = true;
   return {};
 }

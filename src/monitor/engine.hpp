@@ -82,6 +82,7 @@ class Monitor::Engine {
   void judge(std::uint32_t a, std::uint32_t b);
   void judge_level(std::uint32_t a, std::uint32_t b, std::uint32_t level, LevelState& state);
   void judge_open_pairs(std::uint32_t number);
+  void judge_pairs_not_due(std::uint32_t number);
   void add_hot_pair(std::uint32_t a, std::uint32_t b, double time);
   void tell(MonitorEvent event);
   RoomyBound roomy_bound(std::uint32_t number, double end) const;
@@ -99,6 +100,7 @@ class Monitor::Engine {
   std::deque<MonitorEvent> events_;  ///< of the present time, that have not been told yet
   std::vector<HotPair> read_pairs_;  ///< of a snapshot, on their way into the agenda
   Windows::Scratch scratch_;
+  std::vector<std::optional<RoomyBound>> bounds_;  ///< of those that start, by number
 };
 
 }  // namespace kinesphere

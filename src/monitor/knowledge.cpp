@@ -240,7 +240,7 @@ Bound Knowledge::bound(double now, double end) const {
     return bound;
   };
   Bound all = moved(tightest(hypotheses_.front(), now, end));
-  for (const Hypothesis& hypothesis : hypotheses_) {
+  for (const Hypothesis& hypothesis : std::span(hypotheses_).subspan(1)) {
     const Bound one = moved(tightest(hypothesis, now, end));
     all.radius = std::max(all.radius, norm(one.position - all.position) * (1.0 + margin) + one.radius);
     all.growth_speed =

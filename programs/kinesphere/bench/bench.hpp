@@ -5,6 +5,7 @@
 
 #include "bench/monitoring.hpp"
 #include "bench/options.hpp"
+#include "bench/satellites.hpp"
 #include "bench/soak.hpp"
 #include "bench/speed/speed.hpp"
 #include "bench/vessels.hpp"
@@ -18,6 +19,7 @@ struct BenchCommands {
   VesselOptions vessels;
   MonitoringOptions monitoring;
   SoakSettings soak;
+  SatelliteOptions satellites;
 };
 
 /// `commands` must live until the command line has been parsed.
