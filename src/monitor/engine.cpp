@@ -106,8 +106,11 @@ void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placin
   }
   ++counters_.reports;
   if (learned.late) ++counters_.late;
+  std::uint32_t slots = 0;
+  for (const Hypothesis& hypothesis : track.knowledge.hypotheses()) slots |= 1u << hypothesis.slot;
+  track.placed &= slots;
   if (!known) {
-    settle(number);
+    place(number);
     expect_to_hear(number);
     return;
   }
@@ -125,28 +128,29 @@ void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placin
           .velocity_excess = learned.excess.velocity});
     for (const std::uint32_t other : track.open)
       for (LevelState& state : open_.find(number, other)->levels) state.until = -infinity;
-    if (placing == Placing::later)
-      track.stamp = tracks_.fresh_stamp();
-    else
-      settle(number);
+    if (placing == Placing::now) place(number);
     return;
   }
   if (learned.outcome == Knowledge::Outcome::resolves)
     tell({.time = time_, .kind = MonitorEventKind::resolved, .first = id});
 }
 
-/// Whatever was known of the track may be wrong: it gets a capsule from now on, and all facts anew.
-void Monitor::Engine::settle(std::uint32_t number) {
+/// A track is new, or may be elsewhere than was thought: its hypotheses get capsules from now on, and the
+/// pairs that they find are looked at.
+void Monitor::Engine::place(std::uint32_t number) {
   Track& track = tracks_[number];
-  track.stamp = tracks_.fresh_stamp();
   const Window now = window();
-  const RoomyBound bound = roomy_bound(number, now.end);
-  windows_.enter(number, bound, time_, now);
-  ++counters_.searches;
-  const std::span<const std::uint32_t> near = windows_.near(number, bound, time_, now.end, scratch_);
-  // Judging does not search.
-  for (const std::uint32_t other : near)
-    if (open_.find(number, other) == nullptr) find_pair(number, other);
+  for (const Hypothesis& hypothesis : track.knowledge.hypotheses()) {
+    if ((track.placed & 1u << hypothesis.slot) != 0) continue;
+    track.placed |= 1u << hypothesis.slot;
+    const std::uint32_t at = place_of(number, hypothesis);
+    const RoomyBound bound = roomy_bound(number, hypothesis, now.end);
+    windows_.enter(at, bound, time_, now);
+    ++counters_.searches;
+    // Finding a pair does not search.
+    for (const std::uint32_t near : windows_.near(at, bound, time_, now.end, scratch_))
+      find_pair(number, track_at(near));
+  }
   judge_open_pairs(number);
 }
 
@@ -165,7 +169,9 @@ void Monitor::Engine::leave(std::uint32_t number) {
     std::erase(tracks_[other].open, number);
   }
   tell({.time = time_, .kind = MonitorEventKind::left, .first = track.id});
-  windows_.leave(number);
+  for (std::uint32_t slot = 0; slot < Knowledge::slots; ++slot)
+    if (const std::uint32_t place = number * Knowledge::slots + slot; windows_.contains(place))
+      windows_.leave(place);
   tracks_.remove(number);
 }
 
@@ -199,7 +205,7 @@ bool Monitor::Engine::is_void(const HotPair& pair) const {
     const OpenRecord* record = open_.find(pair.first, pair.second);
     return record == nullptr || record->version != pair.first_stamp;
   }
-  return first.stamp != pair.first_stamp || tracks_[pair.second].stamp != pair.second_stamp ||
+  return first.life != pair.first_stamp || tracks_[pair.second].life != pair.second_stamp ||
          open_.find(pair.first, pair.second) != nullptr;
 }
 
@@ -230,9 +236,9 @@ void Monitor::Engine::tell(MonitorEvent event) {
 
 /// A plan's parabola lies around the line between its ends more closely than along its first tangent: for
 /// d in [0, T],  1/2 g d^2  is within  |g| T^2 / 16  of  1/2 g (T d - T^2 / 8).
-RoomyBound Monitor::Engine::roomy_bound(std::uint32_t number, double end) const {
-  const Track& track = tracks_[number];
-  MovedBound moved(track.knowledge.bound(time_, end), time_);
+RoomyBound Monitor::Engine::roomy_bound(std::uint32_t number, const Hypothesis& hypothesis,
+                                        double end) const {
+  MovedBound moved(Knowledge::bound(hypothesis, time_, end), time_);
   if (const double duration = end - time_; moved.acceleration != Vec3{} && duration < infinity) {
     const double sixteenth = duration * duration * 0.0625;
     moved.centre -= moved.acceleration * sixteenth;
@@ -240,16 +246,19 @@ RoomyBound Monitor::Engine::roomy_bound(std::uint32_t number, double end) const 
     moved.radius += norm(moved.acceleration) * (sixteenth * (1.0 + 0x1p-47));
     moved.acceleration = {};
   }
-  return {moved, levels_.room(track.track_class)};
+  return {moved, levels_.room(tracks_[number].track_class)};
 }
 
 Result<void> Monitor::Engine::start_windows(const Poll* poll) {
-  const std::vector<std::uint32_t> ended = windows_.ended(time_, false);
   const Window next = window();
+  // Tracks by number: the places of one follow one another.
+  std::vector<std::uint32_t> numbers;
+  for (const std::uint32_t place : windows_.ended(time_, false))
+    if (numbers.empty() || numbers.back() != track_at(place)) numbers.push_back(track_at(place));
   if (poll != nullptr) {
     // Whose plan ends, and who is in a pair that is undecided.
     std::vector<std::uint32_t> asked;
-    for (const std::uint32_t number : ended) {
+    for (const std::uint32_t number : numbers) {
       const Track& track = tracks_[number];
       if (track.knowledge.stamp() < time_ &&
           (track.knowledge.first_end() < next.end ||
@@ -265,23 +274,26 @@ Result<void> Monitor::Engine::start_windows(const Poll* poll) {
   ++counters_.windows;
   windows_.end_windows(time_, false);
   std::vector<Windows::Starter> starters;
-  bounds_.resize(tracks_.numbers());
-  for (const std::uint32_t number : ended) {
-    if (!tracks_[number].present) continue;
-    bounds_[number] = roomy_bound(number, next.end);
-    starters.push_back({number, Windows::level_of(*bounds_[number], next), next});
+  bounds_.resize(std::size_t{tracks_.numbers()} * Knowledge::slots);
+  for (const std::uint32_t number : numbers) {
+    Track& track = tracks_[number];
+    for (const Hypothesis& hypothesis : track.knowledge.hypotheses()) {
+      track.placed |= 1u << hypothesis.slot;
+      const std::uint32_t place = place_of(number, hypothesis);
+      bounds_[place] = roomy_bound(number, hypothesis, next.end);
+      starters.push_back({place, Windows::level_of(*bounds_[place], next), next});
+    }
   }
   Shift alone;
-  const auto bound_of = [&](std::uint32_t number) -> const RoomyBound& { return *bounds_[number]; };
+  const auto bound_of = [&](std::uint32_t place) -> const RoomyBound& { return *bounds_[place]; };
   windows_.start(starters, time_, bound_of, alone);
   counters_.searches += starters.size();
-  std::vector<Windows::Pair> pairs;
   const std::size_t started = windows_.started();
   constexpr std::size_t at_once = 256;
   for (std::size_t from = 0; from < started; from += at_once)
     for (const auto& [a, b] :
          windows_.near_started(from, std::min(started, from + at_once), time_, bound_of, scratch_))
-      if (open_.find(a, b) == nullptr) find_pair(a, b);
+      find_pair(track_at(a), track_at(b));
   return {};
 }
 
@@ -290,9 +302,9 @@ Result<void> Monitor::Engine::start_windows(const Poll* poll) {
 /// Puts a pair that has no record on the agenda, for when it may not be apart any more: `a` and `b` may come
 /// near each other before the window ends.
 void Monitor::Engine::find_pair(std::uint32_t a, std::uint32_t b) {
-  if (levels_of(a, b).empty()) return;
+  if (a == b || levels_of(a, b).empty() || open_.find(a, b) != nullptr) return;
   ++counters_.near_pairs;
-  const double horizon = std::min(windows_.end_of(a), windows_.end_of(b));
+  const double horizon = window().end;
   const double until = apart_until(a, b, horizon).value_or(time_);
   if (until < horizon) add_hot_pair(a, b, until);
 }
@@ -319,7 +331,7 @@ std::optional<double> Monitor::Engine::apart_until(std::uint32_t a, std::uint32_
 
 void Monitor::Engine::add_hot_pair(std::uint32_t a, std::uint32_t b, double time) {
   const auto [first, second] = std::minmax(a, b);
-  agenda_.add({time, first, second, tracks_[first].stamp, tracks_[second].stamp});
+  agenda_.add({time, first, second, tracks_[first].life, tracks_[second].life});
 }
 
 void Monitor::Engine::judge_open_pairs(std::uint32_t number) {
@@ -344,7 +356,7 @@ void Monitor::Engine::judge_pairs_not_due(std::uint32_t number) {
 void Monitor::Engine::judge(std::uint32_t a, std::uint32_t b) {
   OpenRecord* record = open_.find(a, b);
   if (record == nullptr) {
-    const double horizon = std::min(windows_.end_of(a), windows_.end_of(b));
+    const double horizon = window().end;
     if (const auto until = apart_until(a, b, horizon)) {
       if (*until < horizon) add_hot_pair(a, b, *until);
       return;
@@ -365,7 +377,7 @@ void Monitor::Engine::judge(std::uint32_t a, std::uint32_t b) {
     open_.remove(a, b);
     std::erase(tracks_[a].open, b);
     std::erase(tracks_[b].open, a);
-    if (until < std::min(windows_.end_of(a), windows_.end_of(b))) add_hot_pair(a, b, until);
+    if (until < window().end) add_hot_pair(a, b, until);
     return;
   }
   record->version = open_.fresh_version();

@@ -58,7 +58,7 @@ class Monitor::Engine {
   /// When a track gets another capsule that needs one: as the windows start, perhaps.
   enum class Placing { now, later };
   void take(TrackId id, const TrackReport& report, Placing placing);
-  void settle(std::uint32_t number);
+  void place(std::uint32_t number);
   void leave(std::uint32_t number);
   void expect_to_hear(std::uint32_t number);
   void is_due(std::uint32_t number);
@@ -85,7 +85,12 @@ class Monitor::Engine {
   void judge_pairs_not_due(std::uint32_t number);
   void add_hot_pair(std::uint32_t a, std::uint32_t b, double time);
   void tell(MonitorEvent event);
-  RoomyBound roomy_bound(std::uint32_t number, double end) const;
+  /// The number by which the windows know a hypothesis of a track; and the track.
+  static std::uint32_t place_of(std::uint32_t number, const Hypothesis& hypothesis) {
+    return number * Knowledge::slots + hypothesis.slot;
+  }
+  static std::uint32_t track_at(std::uint32_t place) { return place / Knowledge::slots; }
+  RoomyBound roomy_bound(std::uint32_t number, const Hypothesis& hypothesis, double end) const;
   Window window() const { return Windows::window_at(time_, tier_); }
 
   MonitorDefinition definition_;
@@ -100,7 +105,7 @@ class Monitor::Engine {
   std::deque<MonitorEvent> events_;  ///< of the present time, that have not been told yet
   std::vector<HotPair> read_pairs_;  ///< of a snapshot, on their way into the agenda
   Windows::Scratch scratch_;
-  std::vector<std::optional<RoomyBound>> bounds_;  ///< of those that start, by number
+  std::vector<std::optional<RoomyBound>> bounds_;  ///< of those that start, by place
 };
 
 }  // namespace kinesphere

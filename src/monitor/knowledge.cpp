@@ -10,7 +10,7 @@ namespace kinesphere {
 namespace {
 
 /// More contradictions at a time are not kept: the oldest hypothesis goes.
-constexpr std::size_t most_hypotheses = 4;
+constexpr std::size_t most_hypotheses = Knowledge::slots - 1;
 
 /// Relative rounding of the few operations behind a claim.
 constexpr double margin = 0x1p-47;
@@ -195,6 +195,7 @@ Knowledge::Learned Knowledge::learn(const TrackReport& given, const TrackClass& 
   }
   if (agreeing.empty()) {
     learned.outcome = Outcome::contradicts;
+    next.slot = free_slot();
     if (hypotheses_.size() == most_hypotheses) hypotheses_.erase(hypotheses_.begin());
     hypotheses_.push_back(std::move(next));
     return learned;
@@ -202,10 +203,12 @@ Knowledge::Learned Knowledge::learn(const TrackReport& given, const TrackClass& 
   if (hypotheses_.size() > 1) learned.outcome = Outcome::resolves;
   if (agreeing.size() > 1) {
     // They contradict each other, so one of them rests upon a wrong report, and this one is right.
+    next.slot = free_slot();
     hypotheses_ = {std::move(next)};
     return learned;
   }
   Hypothesis believed = std::move(hypotheses_[agreeing.front()]);
+  next.slot = believed.slot;
   hypotheses_.clear();
   const bool newer = report.stamp >= believed.stamp;
   hypotheses_.push_back(newer ? joined(std::move(next), std::move(believed), now, now + ahead)
@@ -228,28 +231,23 @@ const Claim& Knowledge::tightest(const Hypothesis& hypothesis, double from, doub
   return *best;
 }
 
-Bound Knowledge::bound(double now, double end) const {
-  const auto moved = [now](const Claim& claim) {
-    Bound bound = claim.bound();
-    bound.position = claim.centre_at(now);
-    bound.velocity = claim.velocity_at(now);
-    const double s = now - claim.time;
-    bound.radius = bound.radius_at(now);
-    bound.growth_speed += bound.growth_acceleration * s;
-    bound.time = now;
-    return bound;
-  };
-  Bound all = moved(tightest(hypotheses_.front(), now, end));
-  for (const Hypothesis& hypothesis : std::span(hypotheses_).subspan(1)) {
-    const Bound one = moved(tightest(hypothesis, now, end));
-    all.radius = std::max(all.radius, norm(one.position - all.position) * (1.0 + margin) + one.radius);
-    all.growth_speed =
-        std::max(all.growth_speed, norm(one.velocity - all.velocity) * (1.0 + margin) + one.growth_speed);
-    all.growth_acceleration = std::max(
-        all.growth_acceleration,
-        norm(one.planned_acceleration - all.planned_acceleration) * (1.0 + margin) + one.growth_acceleration);
-  }
-  return all;
+std::uint32_t Knowledge::free_slot() const {
+  std::uint32_t slot = 0;
+  while (std::any_of(hypotheses_.begin(), hypotheses_.end(),
+                     [slot](const Hypothesis& hypothesis) { return hypothesis.slot == slot; }))
+    ++slot;
+  return slot;
+}
+
+Bound Knowledge::bound(const Hypothesis& hypothesis, double now, double end) {
+  const Claim& claim = tightest(hypothesis, now, end);
+  Bound bound = claim.bound();
+  bound.position = claim.centre_at(now);
+  bound.velocity = claim.velocity_at(now);
+  bound.radius = bound.radius_at(now);
+  bound.growth_speed += bound.growth_acceleration * (now - claim.time);
+  bound.time = now;
+  return bound;
 }
 
 double Knowledge::worth_asking(double time) const {
@@ -278,7 +276,7 @@ bool Knowledge::is_sound(double now) const {
   return !hypotheses_.empty() && hypotheses_.size() <= most_hypotheses &&
          std::all_of(hypotheses_.begin(), hypotheses_.end(), [&](const Hypothesis& hypothesis) {
            const std::vector<Claim>& claims = hypothesis.claims;
-           return std::isfinite(hypothesis.stamp) && is_claim(hypothesis.motion) &&
+           return std::isfinite(hypothesis.stamp) && hypothesis.slot < slots && is_claim(hypothesis.motion) &&
                   hypothesis.latest_claims <= claims.size() &&
                   std::all_of(claims.begin(), claims.end(), is_claim) &&
                   std::any_of(claims.begin(), claims.end(), [now](const Claim& claim) {

@@ -80,14 +80,20 @@ Result<std::unique_ptr<Monitor::Engine>> Monitor::Engine::restore(std::span<cons
 
 const char* Monitor::Engine::contradiction() const {
   if (!std::isfinite(time_)) return "time";
-  if (!windows_.is_sound(tracks_.numbers())) return "windows";
+  if (!windows_.is_sound(std::size_t{tracks_.numbers()} * Knowledge::slots)) return "windows";
   const auto is_present = [this](std::uint32_t number) {
     return number < tracks_.numbers() && tracks_[number].present;
   };
   std::size_t partners = 0;
   for (std::uint32_t number = 0; number < tracks_.numbers(); ++number) {
     const Track& track = tracks_[number];
-    if (windows_.contains(number) != track.present) return "windows";
+    bool placed = false;
+    for (std::uint32_t slot = 0; slot < Knowledge::slots; ++slot) {
+      const bool contains = windows_.contains(number * Knowledge::slots + slot);
+      placed = placed || contains;
+      if ((track.placed & 1u << slot) != 0 && !contains) return "windows";
+    }
+    if (placed != track.present) return "windows";
     if (!track.present) {
       if (!track.open.empty()) return "pairs";
       continue;

@@ -54,6 +54,9 @@ int bench_soak(const SoakSettings& settings) {
   summary.row("wrongly within", grouped(result.wrongly_within));
   summary.row("open in the end", grouped(result.open));
   summary.space();
+  summary.row("looks", number(double(result.counters.looks) / double(reports)),
+              fmt::format("for each report, and {} tracks found near one",
+                          number(double(result.counters.near_pairs) / double(reports))));
   summary.row("monitor", number(1e6 * result.monitor_seconds / double(reports)), "us for each report");
   summary.row(
       "memory", grouped(result.memory / 1024),
