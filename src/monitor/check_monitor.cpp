@@ -52,15 +52,14 @@ Result<void> check_monitor(const MonitorDefinition& definition) {
     for (const std::size_t of : {rule.first_class, rule.second_class})
       check.require(of < definition.classes.size(), ErrorCode::out_of_range, subject("class"),
                     "must be less than the number of classes", definition.classes.size(), of);
+    const auto length = [&](std::string_view part, double value) {
+      check.positive(subject(part), value)
+          .require(value >= definition.tolerance && value <= definition.tolerance * limits::largest_length,
+                   ErrorCode::out_of_range, subject(part), "must be between 1 and 2^41 tolerances", value);
+    };
     for (const Separation& level : rule.levels) {
-      check.positive(subject("horizontal"), level.horizontal);
-      if (definition.dimensions == 3) check.positive(subject("vertical"), level.vertical);
-      check.require(
-          definition.tolerance <= level.horizontal &&
-              (definition.dimensions == 2 || definition.tolerance < level.vertical) &&
-              std::max(level.horizontal, level.vertical) <= definition.tolerance * limits::largest_length,
-          ErrorCode::out_of_range, subject("horizontal"), "must be between 1 and 2^41 tolerances",
-          level.horizontal);
+      length("horizontal", level.horizontal);
+      if (definition.dimensions == 3) length("vertical", level.vertical);
     }
     for (std::size_t other = 0; other < k; ++other) {
       const SeparationRule& before = definition.separations[other];

@@ -110,6 +110,10 @@ void add_bench_monitoring_command(CLI::App& bench, MonitoringOptions& options) {
 }
 
 int bench_monitoring(const MonitoringOptions& options) {
+  for (const double at_most : options.polling_tolerances)
+    if (at_most > options.distance)
+      throw ProgramError(
+          fmt::format("--polling must be at most --distance, {}, but is {}", options.distance, at_most));
   const RecordedSky sky = sky_of(options);
   const TrackClass promise = sky.promise();
   fmt::print("{} tracks, {:.6g} s in all; accelerations up to {:.4g}, speeds up to {:.4g}\n\n", sky.size(),
