@@ -1,4 +1,5 @@
-// All of the library that watches bodies: the world, the monitor, ready-made motions, responses and recordings.
+// All of the library that watches bodies: the world, the monitor, ready-made motions, responses and
+// recordings.
 #pragma once
 
 #include "kinesphere/answers.hpp"
