@@ -312,7 +312,8 @@ int watch(const WatchOptions& options) {
   try {
     watch.run();
   } catch (const ProgramError&) {
-    conclude();
+    // What a wrong option stops at the first report has no summary.
+    if (watch.watcher().monitor() || watch.watcher().counts().malformed > 0) conclude();
     throw;
   }
   conclude();
