@@ -104,8 +104,8 @@ class Watch {
     const std::chrono::milliseconds patience(by_machine ? 50 : 1000);
     bool has_ended = false;
     while (!has_ended && !stop_.asked()) {
-      read_records();
-      if (stop_.asked()) break;
+      // What has come in is taken, even when the program is asked to stop meanwhile.
+      while (const auto record = cutter_.next()) read(*record);
       std::string_view text;
       const auto outcome = source_.next(patience, text);
       has_ended = outcome == ReportSource::Outcome::end;
@@ -129,13 +129,6 @@ class Watch {
   /// Holds off whoever asks for the state.
   std::unique_lock<StateServer> guarded() {
     return server_ ? std::unique_lock(*server_) : std::unique_lock<StateServer>();
-  }
-
-  void read_records() {
-    while (const auto record = cutter_.next()) {
-      read(*record);
-      if (stop_.asked()) return;
-    }
   }
 
   void read(const Record& record) {
@@ -313,7 +306,7 @@ int watch(const WatchOptions& options) {
     watch.run();
   } catch (const ProgramError&) {
     // What a wrong option stops at the first report has no summary.
-    if (watch.watcher().monitor() || watch.watcher().counts().malformed > 0) conclude();
+    if (watch.watcher().monitor_counters().reports > 0 || watch.watcher().counts().malformed > 0) conclude();
     throw;
   }
   conclude();

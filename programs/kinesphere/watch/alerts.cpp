@@ -10,15 +10,6 @@
 namespace kinesphere::program {
 namespace {
 
-/// "first" is the id that comes first as a text.
-struct OrderedPair {
-  TrackId first, second;
-};
-
-OrderedPair in_text_order(const TrackNames& names, TrackId a, TrackId b) {
-  return names.text(b) < names.text(a) ? OrderedPair{b, a} : OrderedPair{a, b};
-}
-
 std::string verdict_fields(const AlertContext& context, const MonitorEvent& event) {
   const auto [first, second] = in_text_order(context.names, event.first, event.second);
   std::string line = fmt::format(
@@ -38,6 +29,10 @@ std::string verdict_fields(const AlertContext& context, const MonitorEvent& even
 }
 
 }  // namespace
+
+OrderedPair in_text_order(const TrackNames& names, TrackId a, TrackId b) {
+  return names.text(b) < names.text(a) ? OrderedPair{b, a} : OrderedPair{a, b};
+}
 
 std::string json_number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
 

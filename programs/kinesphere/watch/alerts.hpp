@@ -25,6 +25,11 @@ struct AlertContext {
   double stretch = 1.0;  ///< distances of the monitor are at most so many times too long
 };
 
+/// Two tracks, in the order of their ids as texts: so alerts name them.
+struct OrderedPair {
+  TrackId first, second;
+};
+OrderedPair in_text_order(const TrackNames& names, TrackId a, TrackId b);
 /// Limits of the distance of two tracks, and so on, without the braces: `"distance": [1, 2], ...`.
 std::string answer_fields(const AlertContext& context, const PairAnswer& answer);
 /// What the bounds of a track rest upon.

@@ -25,7 +25,8 @@ class JsonLinesFormat final : public ReportFormat {
       read_field(key, field.value());
     }
     const char* more = nullptr;
-    if (!document.current_location().get(more)) throw MalformedRecord("expected one JSON object in a line, but there is more");
+    if (!document.current_location().get(more))
+      throw MalformedRecord("expected one JSON object in a line, but there is more");
     hand_over(sink);
   } catch (const simdjson::simdjson_error& error) {
     throw MalformedRecord(std::string("expected a JSON object: ") + error.what());

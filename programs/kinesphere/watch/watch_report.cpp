@@ -78,9 +78,10 @@ void add_pairs(std::string& text, const Watcher& watcher) {
   const AlertContext context = watcher.context();
   const char* separator = "\n";
   for (const OpenPair& pair : context.monitor.open_pairs()) {
+    const auto [first, second] = in_text_order(context.names, pair.first, pair.second);
     text += fmt::format(
         R"({}{{"first": {}, "second": {}, "separation": {}, "level": {}, "verdict": "{}", "since": {}, {}}})",
-        separator, json_text(context.names.text(pair.first)), json_text(context.names.text(pair.second)),
+        separator, json_text(context.names.text(first)), json_text(context.names.text(second)),
         json_text(context.settings.separations[pair.level].name), pair.level, name_of(pair.verdict),
         json_time(context.times, pair.since),
         answer_fields(context, context.monitor.answer(pair.first, pair.second, pair.level).value()));
