@@ -103,16 +103,17 @@ class Watch {
     // So often alerts come by the passing of time alone.
     const std::chrono::milliseconds patience(by_machine ? 50 : 1000);
     bool has_ended = false;
-    while (!has_ended && !stop_.asked()) {
+    for (;;) {
       // What has come in is taken, even when the program is asked to stop meanwhile.
       while (const auto record = cutter_.next()) read(*record);
+      if (has_ended || stop_.asked()) break;
       std::string_view text;
       const auto outcome = source_.next(patience, text);
       has_ended = outcome == ReportSource::Outcome::end;
       if (outcome == ReportSource::Outcome::text) cutter_.feed(text);
       if (by_machine && outcome == ReportSource::Outcome::quiet) pass_time();
     }
-    if (!stop_.asked()) {
+    if (has_ended) {
       if (const auto last = cutter_.rest()) read(*last);
     }
     const auto guard = guarded();
