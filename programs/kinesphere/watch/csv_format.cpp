@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "number_text.hpp"
@@ -223,7 +224,7 @@ CsvColumns ais_columns(const std::vector<std::string_view>& header) {
 
 class CsvFormat final : public ReportFormat {
  public:
-  CsvFormat(const FormatChoices& choices, bool is_ais) : choices_(choices), is_ais_(is_ais) {}
+  CsvFormat(FormatChoices choices, bool is_ais) : choices_(std::move(choices)), is_ais_(is_ais) {}
 
   void read(const Record& record, ReportSink& sink) override {
     if (!record.is_whole) throw MalformedRecord("expected a line, but it is too long");

@@ -157,7 +157,7 @@ class JsonLinesFormat final : public ReportFormat {
     report.geographic = fields_.lat && fields_.lon;
     if (report.geographic == fields_.position.has_value()) {
       if (report.geographic)
-        throw MalformedRecord("expected either \"position\" or \"lat\" and \"lon\", but got both");
+        throw MalformedRecord(R"(expected either "position" or "lat" and "lon", but got both)");
       return sink.pass_over(Passed::no_position);
     }
     if (report.geographic) {

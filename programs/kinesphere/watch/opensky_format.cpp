@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <utility>
 
 #include "watch/json_reading.hpp"
 #include "watch/report_format.hpp"
@@ -17,7 +18,7 @@ constexpr std::size_t icao24 = 0, time_position = 3, longitude = 5, latitude = 6
 
 class OpenskyFormat final : public ReportFormat {
  public:
-  explicit OpenskyFormat(const FormatChoices& choices) : choices_(choices) {}
+  explicit OpenskyFormat(FormatChoices choices) : choices_(std::move(choices)) {}
 
   void read(const Record& record, ReportSink& sink) override try {
     if (!record.is_whole) throw MalformedRecord("expected a whole JSON document, but it is cut off");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "number_text.hpp"
@@ -29,7 +30,7 @@ double seconds_after(const FileTime& later, const FileTime& earlier) {
 
 class SbsFormat final : public ReportFormat {
  public:
-  explicit SbsFormat(const FormatChoices& choices) : choices_(choices) {}
+  explicit SbsFormat(FormatChoices choices) : choices_(std::move(choices)) {}
 
   void read(const Record& record, ReportSink& sink) override {
     if (!record.is_whole) throw MalformedRecord("expected a line, but it is too long");

@@ -179,6 +179,7 @@ TEST_F(WatchProgram, TellsWhatAMonitorTells) {
   std::sort(told.begin(), told.end());
   EXPECT_EQ(told, expected);
   EXPECT_GT(expected.size(), 50u);
+  EXPECT_EQ(summary_["tracks"], monitor.size()) << "those that left are forgotten";
   for (const char* kind : {"contradiction", "resolved", "silent", "left", "verdict"})
     EXPECT_TRUE(std::any_of(expected.begin(), expected.end(), [&](const std::string& line) {
       return line.starts_with(kind);
