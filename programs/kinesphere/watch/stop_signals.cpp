@@ -28,6 +28,8 @@ void ask_to_stop(int) {
 void handle_stops(void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;
+  // What is being written goes on to be written; poll() returns. A second signal stops the program at once.
+  action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
   ::sigemptyset(&action.sa_mask);
   for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
 }

@@ -3,7 +3,8 @@
 
 namespace kinesphere::program {
 
-/// While there is one, these signals do not stop the program: they ask it to end. One at a time.
+/// While there is one, the first of each of these signals does not stop the program, but asks it to end. One
+/// at a time.
 class StopSignals {
  public:
   StopSignals();
