@@ -87,9 +87,9 @@ class Watch {
  public:
   explicit Watch(const WatchOptions& options)
       : options_(options),
-        source_(options.file, stop_),
-        format_(format_of(options, source_, cutter_, stop_)),
-        watcher_(settings_of(options, format_, source_.name()),
+        source_(std::make_unique<FileSource>(options.file, stop_)),
+        format_(format_of(options, *source_, cutter_, stop_)),
+        watcher_(settings_of(options, format_, source_->name()),
                  [this](std::string_view line) { output_.write(line); }),
         reader_(make_format(format_, options.choices)) {
     cutter_.set_kind(records_of(format_));
@@ -108,7 +108,7 @@ class Watch {
       while (const auto record = cutter_.next()) read(*record);
       if (has_ended || stop_.asked()) break;
       std::string_view text;
-      const auto outcome = source_.next(patience, text);
+      const auto outcome = source_->next(patience, text);
       has_ended = outcome == ReportSource::Outcome::end;
       if (outcome == ReportSource::Outcome::text) cutter_.feed(text);
       if (by_machine && outcome == ReportSource::Outcome::quiet) pass_time();
@@ -157,13 +157,13 @@ class Watch {
   void complain() {
     const auto& lines = watcher_.counts().first_malformed;
     for (; complaints_ < lines.size() && !options_.quiet; ++complaints_)
-      fmt::print(stderr, "kinesphere: warning: {}:{}: {}\n", source_.name(), lines[complaints_].line,
+      fmt::print(stderr, "kinesphere: warning: {}:{}: {}\n", source_->name(), lines[complaints_].line,
                  lines[complaints_].reason);
   }
 
   const WatchOptions& options_;
   StopSignals stop_;
-  FileSource source_;
+  std::unique_ptr<ReportSource> source_;
   RecordCutter cutter_;
   StreamFormat format_;
   AlertOutput output_;

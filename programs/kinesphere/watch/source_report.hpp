@@ -46,7 +46,6 @@ struct SourceReport {
 /// Why something that is no error is passed over.
 enum class Passed {
   no_position,  ///< a track of which the stream has no position, or no time
-  no_height,    ///< in three dimensions; on the ground, say
   no_bound,     ///< the stream says that it does not know how far off the position may be
 };
 

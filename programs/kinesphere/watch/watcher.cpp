@@ -41,14 +41,8 @@ void Watcher::take(const SourceReport& report) {
     clock_is_chosen_ = true;
     clock_.set_source(report.arrival ? StreamClock::Source::arrivals : StreamClock::Source::stamps);
   }
-  if (settings_.clock == WatchSettings::Clock::machine) {
-    // The machine's clock has been told before the record was read.
-    if (seconds_between(clock_.now(), report.stamp) > settings_.leap) {
-      ++counts_.ahead;
-      return;
-    }
-    return deliver(report);
-  }
+  // The machine's clock has been told before the record was read.
+  if (settings_.clock == WatchSettings::Clock::machine) return deliver(report);
   const bool by_arrival = clock_.source() == StreamClock::Source::arrivals;
   if (by_arrival && !report.arrival)
     return refuse(fmt::format("expected a time of arrival of {}, as reports before had one", report.id));
@@ -63,10 +57,6 @@ void Watcher::take(const SourceReport& report) {
     return;
   }
   drop_held();
-  if (by_arrival && seconds_between(time, report.stamp) > settings_.leap) {
-    ++counts_.ahead;
-    return;
-  }
   go_on(time);
   deliver(report);
 }
@@ -100,9 +90,6 @@ void Watcher::pass_over(Passed reason) {
   switch (reason) {
     case Passed::no_position:
       ++counts_.no_position;
-      break;
-    case Passed::no_height:
-      ++counts_.no_height;
       break;
     case Passed::no_bound:
       ++counts_.no_bound;
@@ -280,6 +267,10 @@ void Watcher::deliver(const SourceReport& report) {
   const double age = seconds_between(report.stamp, clock_.now());
   if (age > settings_.forget) {
     ++counts_.stale;
+    return;
+  }
+  if (-age > settings_.leap) {
+    ++counts_.ahead;
     return;
   }
   if (!monitor_) begin_monitor(report);

@@ -224,6 +224,33 @@ TEST_F(WatchProgram, BelievesALeapThatOthersConfirm) {
   EXPECT_EQ(summary_["left"], 2);
 }
 
+TEST_F(WatchProgram, GoesByTimesOfArrival) {
+  std::string text;
+  const auto report = [&](const char* id, double stamp, double arrival) {
+    text += Json{{"id", id}, {"stamp", stamp}, {"arrival", arrival}, {"position", {0, 0, 0}}}.dump() + "\n";
+  };
+  report("a", 0, 1);
+  report("b", 900, 1);  // ahead, and waits with the first
+  report("b", 1, 2);
+  report("a", 2, 1000);  // this arrival is not confirmed
+  report("b", 3, 4);
+  report("a", 900, 5);
+  report("a", 5, 7);
+  text += R"({"id": "a", "stamp": 6, "position": [0, 0, 0]})"
+          "\n";
+  alerts(write("s.jsonl", text) + " --separation sphere:3 --largest-speed 1 --position-error 1");
+  EXPECT_EQ(summary_["reports"], 4);
+  EXPECT_EQ(summary_["ahead"], 3);
+  EXPECT_EQ(summary_["malformed"], 1);
+  EXPECT_EQ(summary_["from"], 1);
+  EXPECT_EQ(summary_["to"], 7);
+  // By the stamps: the first one is not confirmed either.
+  alerts(path("s.jsonl") + " --clock stamps --separation sphere:3 --largest-speed 1 --position-error 1");
+  EXPECT_EQ(summary_["reports"], 5);
+  EXPECT_EQ(summary_["ahead"], 3);
+  EXPECT_EQ(summary_["to"], 6);
+}
+
 TEST_F(WatchProgram, StopsAtTooManyMalformedLines) {
   std::string text = head_on(5);
   for (int k = 0; k < 15; ++k) text += "mumble " + std::to_string(k) + "\n";
