@@ -1,4 +1,5 @@
-// All of the library that watches bodies: the world, ready-made motions, responses and recordings.
+// All of the library that watches bodies: the world, the monitor, ready-made motions, responses and
+// recordings.
 #pragma once
 
 #include "kinesphere/answers.hpp"
@@ -13,6 +14,7 @@
 #include "kinesphere/event_range.hpp"
 #include "kinesphere/filter.hpp"
 #include "kinesphere/inspection.hpp"
+#include "kinesphere/monitor/monitor.hpp"
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/motion/frames.hpp"
 #include "kinesphere/motion/motion.hpp"

@@ -8,7 +8,7 @@
 
 namespace kinesphere {
 
-/// With s = t - time >= 0, and until `end`, the track is within `radius + speed s + 1/2 growth s^2` of
+/// From `time` until `end`, with s = t - time, the track is within `radius + speed s + 1/2 growth s^2` of
 /// position + velocity s + 1/2 acceleration s^2.
 struct Claim {
   double time = 0.0;

@@ -42,13 +42,14 @@ class Meeting {
       : a_(a, component),
         b_(b, component),
         now_(now),
+        begin_(std::max(a.time, b.time)),
         end_(std::min(a.end, b.end)),
         errors_(rounding::sum_up(a_.error, b_.error)),
         limit_(component.limit),
         outer_limit_(rounding::sum_down(component.limit, tolerance)),
         gap_(gap_limits(a_.path, b_.path, now)) {}
 
-  bool holds() const { return now_ < end_; }
+  bool holds() const { return begin_ <= now_ && now_ < end_; }
   double lower() const { return rounding::sum_down(gap_.lower, -errors_); }
   double upper() const { return rounding::sum_up(gap_.upper, errors_); }
   bool is_apart() const { return lower() > limit_; }
@@ -76,18 +77,19 @@ class Meeting {
   double growth() const { return a_.growth_at(now_) + b_.growth_at(now_); }
 
   View a_, b_;
-  double now_, end_;
+  double now_, begin_, end_;
   double errors_, limit_, outer_limit_;
   GapLimits gap_;
 };
 
-/// Calls visit(meeting) for each pair of claims that hold.
+/// Calls visit(meeting) for each pair of claims that hold, until it returns false.
 template <class Visit>
 void for_each_meeting(const Hypothesis& a, const Hypothesis& b, const Component& component, double tolerance,
                       double now, Visit visit) {
   for (const Claim& one : a.claims)
     for (const Claim& other : b.claims)
-      if (const Meeting meeting(one, other, component, tolerance, now); meeting.holds()) visit(meeting);
+      if (const Meeting meeting(one, other, component, tolerance, now); meeting.holds())
+        if (!visit(meeting)) return;
 }
 
 /// Until when two hypotheses leave no doubt that the two are apart, or within; -infinity if they leave one.
@@ -104,6 +106,8 @@ Certain certain_of(const Hypothesis& a, const Hypothesis& b, const Components& c
     for_each_meeting(a, b, component, tolerance, now, [&](const Meeting& meeting) {
       if (meeting.is_apart()) certain.apart = std::max(certain.apart, meeting.apart_until(horizon));
       if (meeting.is_within()) within = std::max(within, meeting.within_until(horizon));
+      // No other pair can say more.
+      return certain.apart < infinity && within < infinity;
     });
     certain.within = std::min(certain.within, within);
   }
@@ -120,6 +124,7 @@ double decided_from(const Hypothesis& a, const Hypothesis& b, const Components& 
     for_each_meeting(a, b, component, tolerance, now, [&](const Meeting& meeting) {
       apart = std::min(apart, meeting.may_be_apart(horizon));
       one_within = std::min(one_within, meeting.is_within() ? now : meeting.may_be_within(horizon));
+      return true;
     });
     within = std::max(within, one_within);
   }
@@ -159,6 +164,7 @@ DistanceBetween distance_between(const Knowledge& a, const Knowledge& b, const C
       for_each_meeting(one, other, component, 0.0, now, [&](const Meeting& meeting) {
         between.lower = std::max(between.lower, meeting.lower());
         between.upper = std::min(between.upper, meeting.upper());
+        return true;
       });
       all.lower = std::min(all.lower, between.lower);
       all.upper = std::max(all.upper, between.upper);

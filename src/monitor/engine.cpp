@@ -38,6 +38,7 @@ Monitor::Engine::Engine(const MonitorDefinition& definition)
 Result<void> Monitor::Engine::report(TrackId id, const TrackReport& report) {
   if (const Result<void> checked = check(id, report, "report"); !checked) return checked;
   take(id, report, Placing::now);
+  judge_open_pairs(*tracks_.find(id));
   return {};
 }
 
@@ -81,6 +82,7 @@ Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const
   return check.result();
 }
 
+/// Whoever calls it judges the open pairs of the track afterwards: of several reports, once all are taken.
 void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placing) {
   const TrackClass& promise = definition_.classes[report.track_class];
   const auto known = tracks_.find(id);
@@ -104,8 +106,11 @@ void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placin
   }
   ++counters_.reports;
   if (learned.late) ++counters_.late;
+  std::uint32_t slots = 0;
+  for (const Hypothesis& hypothesis : track.knowledge.hypotheses()) slots |= 1u << hypothesis.slot;
+  track.placed &= slots;
   if (!known) {
-    settle(number);
+    place(number);
     expect_to_hear(number);
     return;
   }
@@ -121,31 +126,31 @@ void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placin
           .first = id,
           .position_excess = learned.excess.position,
           .velocity_excess = learned.excess.velocity});
-    if (placing == Placing::later) {
-      track.stamp = tracks_.fresh_stamp();
-      judge_open_pairs(number);
-    } else {
-      settle(number);
-    }
+    for (const std::uint32_t other : track.open)
+      for (LevelState& state : open_.find(number, other)->levels) state.until = -infinity;
+    if (placing == Placing::now) place(number);
     return;
   }
   if (learned.outcome == Knowledge::Outcome::resolves)
     tell({.time = time_, .kind = MonitorEventKind::resolved, .first = id});
-  judge_open_pairs(number);
 }
 
-/// Whatever was known of the track may be wrong: it gets a capsule from now on, and all facts anew.
-void Monitor::Engine::settle(std::uint32_t number) {
+/// A track is new, or may be elsewhere than was thought: its hypotheses get capsules from now on, and the
+/// pairs that they find are looked at.
+void Monitor::Engine::place(std::uint32_t number) {
   Track& track = tracks_[number];
-  track.stamp = tracks_.fresh_stamp();
   const Window now = window();
-  const RoomyBound bound = roomy_bound(number, now.end);
-  windows_.enter(number, bound, time_, now);
-  ++counters_.searches;
-  const std::span<const std::uint32_t> near = windows_.near(number, bound, time_, now.end, scratch_);
-  // Judging does not search.
-  for (const std::uint32_t other : near)
-    if (open_.find(number, other) == nullptr) find_pair(number, other);
+  for (const Hypothesis& hypothesis : track.knowledge.hypotheses()) {
+    if ((track.placed & 1u << hypothesis.slot) != 0) continue;
+    track.placed |= 1u << hypothesis.slot;
+    const std::uint32_t at = place_of(number, hypothesis);
+    const RoomyBound bound = roomy_bound(number, hypothesis, now.end);
+    windows_.enter(at, bound, time_, now);
+    ++counters_.searches;
+    // Finding a pair does not search.
+    for (const std::uint32_t near : windows_.near(at, bound, time_, now.end, scratch_))
+      find_pair(number, track_at(near));
+  }
   judge_open_pairs(number);
 }
 
@@ -164,7 +169,9 @@ void Monitor::Engine::leave(std::uint32_t number) {
     std::erase(tracks_[other].open, number);
   }
   tell({.time = time_, .kind = MonitorEventKind::left, .first = track.id});
-  windows_.leave(number);
+  for (std::uint32_t slot = 0; slot < Knowledge::slots; ++slot)
+    if (const std::uint32_t place = number * Knowledge::slots + slot; windows_.contains(place))
+      windows_.leave(place);
   tracks_.remove(number);
 }
 
@@ -198,7 +205,7 @@ bool Monitor::Engine::is_void(const HotPair& pair) const {
     const OpenRecord* record = open_.find(pair.first, pair.second);
     return record == nullptr || record->version != pair.first_stamp;
   }
-  return first.stamp != pair.first_stamp || tracks_[pair.second].stamp != pair.second_stamp ||
+  return first.life != pair.first_stamp || tracks_[pair.second].life != pair.second_stamp ||
          open_.find(pair.first, pair.second) != nullptr;
 }
 
@@ -227,57 +234,87 @@ void Monitor::Engine::tell(MonitorEvent event) {
   events_.insert(at, event);
 }
 
-RoomyBound Monitor::Engine::roomy_bound(std::uint32_t number, double end) const {
-  const Track& track = tracks_[number];
-  return {MovedBound(track.knowledge.bound(time_, end), time_), levels_.room(track.track_class)};
+/// A plan's parabola lies around the line between its ends more closely than along its first tangent: for
+/// d in [0, T],  1/2 g d^2  is within  |g| T^2 / 16  of  1/2 g (T d - T^2 / 8).
+RoomyBound Monitor::Engine::roomy_bound(std::uint32_t number, const Hypothesis& hypothesis,
+                                        double end) const {
+  MovedBound moved(Knowledge::bound(hypothesis, time_, end), time_);
+  if (const double duration = end - time_; moved.acceleration != Vec3{} && duration < infinity) {
+    const double sixteenth = duration * duration * 0.0625;
+    moved.centre -= moved.acceleration * sixteenth;
+    moved.velocity += moved.acceleration * (0.5 * duration);
+    moved.radius += norm(moved.acceleration) * (sixteenth * (1.0 + 0x1p-47));
+    moved.acceleration = {};
+  }
+  return {moved, levels_.room(tracks_[number].track_class)};
 }
 
 Result<void> Monitor::Engine::start_windows(const Poll* poll) {
-  const std::vector<std::uint32_t> ended = windows_.ended(time_, false);
   const Window next = window();
+  // Tracks by number: the places of one follow one another.
+  std::vector<std::uint32_t> numbers;
+  for (const std::uint32_t place : windows_.ended(time_, false))
+    if (numbers.empty() || numbers.back() != track_at(place)) numbers.push_back(track_at(place));
   if (poll != nullptr) {
+    // Whose plan ends, and who is in a pair that is undecided.
     std::vector<std::uint32_t> asked;
-    for (const std::uint32_t number : ended)
-      if (const Knowledge& knowledge = tracks_[number].knowledge;
-          knowledge.stamp() < time_ && knowledge.first_end() < next.end)
+    for (const std::uint32_t number : numbers) {
+      const Track& track = tracks_[number];
+      if (track.knowledge.stamp() < time_ &&
+          (track.knowledge.first_end() < next.end ||
+           std::any_of(track.open.begin(), track.open.end(),
+                       [&](std::uint32_t other) { return open_.find(number, other)->is_undecided(); })))
         asked.push_back(number);
+    }
     if (!asked.empty()) {
       if (const Result<void> done = ask(asked, *poll, Placing::later); !done) return done;
+      for (const std::uint32_t number : asked) judge_pairs_not_due(number);
     }
   }
   ++counters_.windows;
   windows_.end_windows(time_, false);
   std::vector<Windows::Starter> starters;
-  for (const std::uint32_t number : ended)
-    if (tracks_[number].present)
-      starters.push_back({number, Windows::level_of(roomy_bound(number, next.end), next), next});
+  bounds_.resize(std::size_t{tracks_.numbers()} * Knowledge::slots);
+  for (const std::uint32_t number : numbers) {
+    Track& track = tracks_[number];
+    for (const Hypothesis& hypothesis : track.knowledge.hypotheses()) {
+      track.placed |= 1u << hypothesis.slot;
+      const std::uint32_t place = place_of(number, hypothesis);
+      bounds_[place] = roomy_bound(number, hypothesis, next.end);
+      starters.push_back({place, Windows::level_of(*bounds_[place], next), next});
+    }
+  }
   Shift alone;
-  const auto bound_of = [&](std::uint32_t number) { return roomy_bound(number, next.end); };
+  const auto bound_of = [&](std::uint32_t place) -> const RoomyBound& { return *bounds_[place]; };
   windows_.start(starters, time_, bound_of, alone);
   counters_.searches += starters.size();
-  std::vector<Windows::Pair> pairs;
   const std::size_t started = windows_.started();
   constexpr std::size_t at_once = 256;
   for (std::size_t from = 0; from < started; from += at_once)
     for (const auto& [a, b] :
          windows_.near_started(from, std::min(started, from + at_once), time_, bound_of, scratch_))
-      if (open_.find(a, b) == nullptr) find_pair(a, b);
+      find_pair(track_at(a), track_at(b));
   return {};
 }
 
 // Pairs.
 
-/// All that is certain of a pair that has no record. `a` and `b` may come near each other before the window
-/// ends.
+/// Puts a pair that has no record on the agenda, for when it may not be apart any more: `a` and `b` may come
+/// near each other before the window ends.
 void Monitor::Engine::find_pair(std::uint32_t a, std::uint32_t b) {
-  if (levels_of(a, b).empty()) return;
+  if (a == b || levels_of(a, b).empty() || open_.find(a, b) != nullptr) return;
   ++counters_.near_pairs;
-  const double horizon = std::min(windows_.end_of(a), windows_.end_of(b));
-  if (const auto until = apart_until(a, b, horizon)) {
-    if (*until < horizon) add_hot_pair(a, b, *until);
-  } else {
-    judge(a, b);
-  }
+  const double horizon = window().end;
+  const double until = apart_until(a, b, horizon).value_or(time_);
+  if (until < horizon) add_hot_pair(a, b, until);
+}
+
+bool Monitor::Engine::is_decided(std::uint32_t a, std::uint32_t b) {
+  const std::span<const Components> levels = levels_of(a, b);
+  counters_.looks += levels.size();
+  return std::all_of(levels.begin(), levels.end(), [&](const Components& level) {
+    return course(a, b, level, infinity).verdict != Verdict::undecided;
+  });
 }
 
 /// If they are apart at all levels.
@@ -294,7 +331,7 @@ std::optional<double> Monitor::Engine::apart_until(std::uint32_t a, std::uint32_
 
 void Monitor::Engine::add_hot_pair(std::uint32_t a, std::uint32_t b, double time) {
   const auto [first, second] = std::minmax(a, b);
-  agenda_.add({time, first, second, tracks_[first].stamp, tracks_[second].stamp});
+  agenda_.add({time, first, second, tracks_[first].life, tracks_[second].life});
 }
 
 void Monitor::Engine::judge_open_pairs(std::uint32_t number) {
@@ -302,40 +339,45 @@ void Monitor::Engine::judge_open_pairs(std::uint32_t number) {
   for (const std::uint32_t other : partners) judge(number, other);
 }
 
+/// After reports that were asked for. A pair that is due now waits for its turn: with the report of one track
+/// alone it may seem undecided.
+void Monitor::Engine::judge_pairs_not_due(std::uint32_t number) {
+  const std::vector<std::uint32_t> partners = tracks_[number].open;
+  for (const std::uint32_t other : partners) {
+    const std::vector<LevelState>& levels = open_.find(number, other)->levels;
+    const bool is_due = std::any_of(levels.begin(), levels.end(), [this](const LevelState& state) {
+      return -infinity < state.until && state.until <= time_;
+    });
+    if (!is_due) judge(number, other);
+  }
+}
+
 /// Says what is certain of two tracks now, tells what has changed, and keeps a record if they are not apart.
 void Monitor::Engine::judge(std::uint32_t a, std::uint32_t b) {
-  const std::span<const Components> levels = levels_of(a, b);
   OpenRecord* record = open_.find(a, b);
   if (record == nullptr) {
-    record = &open_.add(a, b, levels.size());
+    const double horizon = window().end;
+    if (const auto until = apart_until(a, b, horizon)) {
+      if (*until < horizon) add_hot_pair(a, b, *until);
+      return;
+    }
+    record = &open_.add(a, b, levels_of(a, b).size());
     tracks_[a].open.push_back(b);
     tracks_[b].open.push_back(a);
   }
   double until = infinity;
   bool apart = true;
-  const auto [first, second] = std::minmax(tracks_[a].id, tracks_[b].id);
-  for (std::uint32_t level = 0; level < levels.size(); ++level) {
-    ++counters_.looks;
-    const Course now = course(a, b, levels[level], infinity);
-    until = std::min(until, now.until);
-    apart = apart && now.verdict == Verdict::apart;
-    LevelState& state = record->levels[level];
-    if (state.verdict == now.verdict) continue;
-    tell({.time = time_,
-          .kind = MonitorEventKind::verdict,
-          .first = first,
-          .second = second,
-          .level = level,
-          .verdict = now.verdict,
-          .before = state.verdict,
-          .since = state.since});
-    state = {now.verdict, time_};
+  for (std::uint32_t level = 0; level < record->levels.size(); ++level) {
+    judge_level(a, b, level, record->levels[level]);
+    const LevelState& state = record->levels[level];
+    until = std::min(until, state.until);
+    apart = apart && state.verdict == Verdict::apart;
   }
   if (apart) {
     open_.remove(a, b);
     std::erase(tracks_[a].open, b);
     std::erase(tracks_[b].open, a);
-    if (until < std::min(windows_.end_of(a), windows_.end_of(b))) add_hot_pair(a, b, until);
+    if (until < window().end) add_hot_pair(a, b, until);
     return;
   }
   record->version = open_.fresh_version();
@@ -343,10 +385,32 @@ void Monitor::Engine::judge(std::uint32_t a, std::uint32_t b) {
   if (until < infinity) agenda_.add({until, one, other, record->version, of_open_record});
 }
 
+void Monitor::Engine::judge_level(std::uint32_t a, std::uint32_t b, std::uint32_t level, LevelState& state) {
+  ++counters_.looks;
+  const Course now = course(a, b, levels_of(a, b)[level], infinity);
+  // What was certain stays so, also if later reports alone would leave it open.
+  const bool still = state.verdict != Verdict::undecided && state.until > time_;
+  if (now.verdict == state.verdict || still) {
+    const bool known_longer = still && now.verdict != state.verdict;
+    state.until = known_longer ? state.until : still ? std::max(state.until, now.until) : now.until;
+    return;
+  }
+  const auto [first, second] = std::minmax(tracks_[a].id, tracks_[b].id);
+  tell({.time = time_,
+        .kind = MonitorEventKind::verdict,
+        .first = first,
+        .second = second,
+        .level = level,
+        .verdict = now.verdict,
+        .before = state.verdict,
+        .since = state.since});
+  state = {now.verdict, time_, now.until};
+}
+
 /// More can be learned from a report of `a` than from one of `b`.
 bool Monitor::Engine::is_less_certain(std::uint32_t a, std::uint32_t b) const {
-  const double of_a = tracks_[a].knowledge.radius_at(time_);
-  const double of_b = tracks_[b].knowledge.radius_at(time_);
+  const double of_a = tracks_[a].knowledge.worth_asking(time_);
+  const double of_b = tracks_[b].knowledge.worth_asking(time_);
   return of_a != of_b ? of_a > of_b : tracks_[a].id < tracks_[b].id;
 }
 
@@ -359,15 +423,13 @@ Result<void> Monitor::Engine::look(const Poll* poll) {
     is_due(pair.first);
     return {};
   }
-  if (poll != nullptr) {
+  const OpenRecord* record = open_.find(pair.first, pair.second);
+  if (poll != nullptr && (record == nullptr || record->is_expiring(time_))) {
     if (const Result<void> asked = ask_about(pair, *poll); !asked) return asked;
     // What was answered may have made it another pair.
     if (is_void(pair)) return {};
   }
-  if (pair.second_stamp == of_open_record)
-    judge(pair.first, pair.second);
-  else
-    find_pair(pair.first, pair.second);
+  judge(pair.first, pair.second);
   return {};
 }
 
@@ -383,11 +445,13 @@ Result<void> Monitor::Engine::ask_about(const HotPair& pair, const Poll& poll) {
       if (!answered) agenda.add(pair);
     }
   } unanswered{agenda_, pair};
-  for (const std::uint32_t number : is_less_certain(a, b) ? std::array{a, b} : std::array{b, a}) {
-    if (is_void(pair) || apart_until(a, b, std::min(windows_.end_of(a), windows_.end_of(b)))) break;
+  const std::array<std::uint32_t, 2> both = is_less_certain(a, b) ? std::array{a, b} : std::array{b, a};
+  for (const std::uint32_t number : both) {
+    if (is_void(pair) || is_decided(a, b)) break;
     if (!(tracks_[number].knowledge.stamp() < time_)) continue;
     if (const Result<void> asked = ask(std::span(&number, 1), poll, Placing::now); !asked) return asked;
   }
+  for (const std::uint32_t number : both) judge_pairs_not_due(number);
   unanswered.answered = true;
   return {};
 }
@@ -429,9 +493,10 @@ Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::u
   const Course now = course(a, b, levels[level], infinity);
   const OpenRecord* record = open_.find(a, b);
   const LevelState state = record != nullptr ? record->levels[level] : LevelState{};
-  answer.verdict = state.verdict;
+  answer.verdict = record != nullptr ? state.verdict : now.verdict;
   answer.since = state.since;
-  answer.until = now.verdict == state.verdict ? now.until : time_;
+  answer.until =
+      record == nullptr || now.verdict == state.verdict ? std::max(now.until, state.until) : state.until;
   const Component& nearest = *levels[level].begin();
   const DistanceBetween between = distance_between(one.knowledge, other.knowledge, nearest, time_);
   answer.lower = std::max(0.0, between.lower);
@@ -493,9 +558,7 @@ std::vector<ReportNeed> Monitor::Engine::needed(double until) const {
     needs.push_back({tracks_[asked].id, std::max(time_, pair.time), tracks_[other].id});
   });
   open_.for_each([&](std::uint32_t a, std::uint32_t b, const OpenRecord& record) {
-    if (std::none_of(record.levels.begin(), record.levels.end(),
-                     [](const LevelState& state) { return state.verdict == Verdict::undecided; }))
-      return;
+    if (!record.is_undecided()) return;
     const auto [asked, other] = is_less_certain(a, b) ? std::pair(a, b) : std::pair(b, a);
     needs.push_back({tracks_[asked].id, time_, tracks_[other].id});
   });

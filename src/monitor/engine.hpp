@@ -1,9 +1,12 @@
 // The engine of a monitor. The facts that it keeps, and why they suffice: docs/monitoring.md.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -42,12 +45,20 @@ class Monitor::Engine {
   std::vector<OpenPair> open_pairs() const;
   std::vector<ReportNeed> needed(double until) const;
 
+  std::vector<std::byte> save() const;
+  static Result<std::unique_ptr<Engine>> restore(std::span<const std::byte> snapshot);
+
  private:
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive);
+  /// What cannot have come about of a state that was read, if anything.
+  const char* contradiction() const;
+
   Result<void> check(TrackId id, const TrackReport& report, const char* call) const;
   /// When a track gets another capsule that needs one: as the windows start, perhaps.
   enum class Placing { now, later };
   void take(TrackId id, const TrackReport& report, Placing placing);
-  void settle(std::uint32_t number);
+  void place(std::uint32_t number);
   void leave(std::uint32_t number);
   void expect_to_hear(std::uint32_t number);
   void is_due(std::uint32_t number);
@@ -65,13 +76,21 @@ class Monitor::Engine {
                      definition_.time_resolution);
   }
   std::optional<double> apart_until(std::uint32_t a, std::uint32_t b, double horizon);
+  bool is_decided(std::uint32_t a, std::uint32_t b);
   bool is_less_certain(std::uint32_t a, std::uint32_t b) const;
   void find_pair(std::uint32_t a, std::uint32_t b);
   void judge(std::uint32_t a, std::uint32_t b);
+  void judge_level(std::uint32_t a, std::uint32_t b, std::uint32_t level, LevelState& state);
   void judge_open_pairs(std::uint32_t number);
+  void judge_pairs_not_due(std::uint32_t number);
   void add_hot_pair(std::uint32_t a, std::uint32_t b, double time);
   void tell(MonitorEvent event);
-  RoomyBound roomy_bound(std::uint32_t number, double end) const;
+  /// The number by which the windows know a hypothesis of a track; and the track.
+  static std::uint32_t place_of(std::uint32_t number, const Hypothesis& hypothesis) {
+    return number * Knowledge::slots + hypothesis.slot;
+  }
+  static std::uint32_t track_at(std::uint32_t place) { return place / Knowledge::slots; }
+  RoomyBound roomy_bound(std::uint32_t number, const Hypothesis& hypothesis, double end) const;
   Window window() const { return Windows::window_at(time_, tier_); }
 
   MonitorDefinition definition_;
@@ -84,7 +103,9 @@ class Monitor::Engine {
   Windows windows_;
   Agenda agenda_;
   std::deque<MonitorEvent> events_;  ///< of the present time, that have not been told yet
+  std::vector<HotPair> read_pairs_;  ///< of a snapshot, on their way into the agenda
   Windows::Scratch scratch_;
+  std::vector<std::optional<RoomyBound>> bounds_;  ///< of those that start, by place
 };
 
 }  // namespace kinesphere

@@ -1,6 +1,7 @@
 #include "monitor/knowledge.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "bound/rounding.hpp"
@@ -9,7 +10,7 @@ namespace kinesphere {
 namespace {
 
 /// More contradictions at a time are not kept: the oldest hypothesis goes.
-constexpr std::size_t most_hypotheses = 4;
+constexpr std::size_t most_hypotheses = Knowledge::slots - 1;
 
 /// Relative rounding of the few operations behind a claim.
 constexpr double margin = 0x1p-47;
@@ -72,19 +73,40 @@ void widen(Claim& claim) {
   claim.radius = claim.radius + Spread(size);
 }
 
+/// From when on the largest speed counts, as it would be exceeded after a time `after` of speeding up: the
+/// track is within the motion's radius then, and goes on from there by its largest speed.
+std::optional<Claim> range_after(const Claim& motion, double after, const TrackClass& promise) {
+  const double begin = motion.time + after;
+  if (!(after > 0.0 && begin < motion.end)) return std::nullopt;
+  return Claim{.time = begin,
+               .position = motion.centre_at(begin),
+               .radius = motion.radius_at(begin),
+               .speed = promise.largest_speed};
+}
+
 std::vector<Claim> claims_of(const TrackReport& report, const TrackClass& promise, double now) {
   std::vector<Claim> claims;
-  if (report.plan && report.stamp <= now && now < report.plan->valid_until &&
-      is_finite(report.velocity_error)) {
+  const bool has_velocity = is_finite(report.velocity_error);
+  if (report.plan && report.stamp <= now && now < report.plan->valid_until && has_velocity) {
     Claim claim = motion_of(report, promise);
     claim.acceleration = report.plan->acceleration;
     claim.growth = report.plan->acceleration_limit;
     claim.end = report.plan->valid_until;
     claims.push_back(claim);
   }
-  if (is_finite(promise.acceleration_limit) && is_finite(report.velocity_error))
+  if (is_finite(promise.acceleration_limit) && has_velocity)
     claims.push_back(brought_back(motion_of(report, promise), now));
-  if (is_finite(promise.largest_speed)) claims.push_back(brought_back(range_of(report, promise), now));
+  if (is_finite(promise.largest_speed)) {
+    if (!claims.empty()) {
+      // Ahead the largest speed is reached sooner than on the way back.
+      const Claim motion = claims.front();
+      const double fastest = promise.largest_speed.total();
+      const double limit = motion.growth.total();
+      for (const double speed : {fastest - norm(motion.velocity), fastest})
+        if (const auto range = range_after(motion, speed / limit, promise)) claims.push_back(*range);
+    }
+    claims.push_back(brought_back(range_of(report, promise), now));
+  }
   for (Claim& claim : claims) widen(claim);
   return claims;
 }
@@ -133,15 +155,15 @@ Hypothesis hypothesis_of(const TrackReport& report, const TrackClass& promise, d
   return hypothesis;
 }
 
-/// Both hold. What the latest report says stays, and of all else the claim that is tightest at a time, if it
-/// tells more then.
-Hypothesis joined(Hypothesis latest, Hypothesis other, double time) {
+/// Both hold. What the latest report says stays, and of all else the claim that is tightest at a time soon,
+/// if it tells more then.
+Hypothesis joined(Hypothesis latest, Hypothesis other, double now, double soon) {
   other.claims.insert(other.claims.end(),
                       latest.claims.begin() + static_cast<std::ptrdiff_t>(latest.latest_claims),
                       latest.claims.end());
   latest.claims.resize(latest.latest_claims);
-  const Claim& best = Knowledge::tightest(other, time);
-  if (best.radius_at(time).total() < Knowledge::tightest(latest, time).radius_at(time).total())
+  const Claim& best = Knowledge::tightest(other, now, soon);
+  if (best.radius_at(soon).total() < Knowledge::tightest(latest, now, soon).radius_at(soon).total())
     latest.claims.push_back(best);
   return latest;
 }
@@ -173,6 +195,7 @@ Knowledge::Learned Knowledge::learn(const TrackReport& given, const TrackClass& 
   }
   if (agreeing.empty()) {
     learned.outcome = Outcome::contradicts;
+    next.slot = free_slot();
     if (hypotheses_.size() == most_hypotheses) hypotheses_.erase(hypotheses_.begin());
     hypotheses_.push_back(std::move(next));
     return learned;
@@ -180,66 +203,86 @@ Knowledge::Learned Knowledge::learn(const TrackReport& given, const TrackClass& 
   if (hypotheses_.size() > 1) learned.outcome = Outcome::resolves;
   if (agreeing.size() > 1) {
     // They contradict each other, so one of them rests upon a wrong report, and this one is right.
+    next.slot = free_slot();
     hypotheses_ = {std::move(next)};
     return learned;
   }
   Hypothesis believed = std::move(hypotheses_[agreeing.front()]);
+  next.slot = believed.slot;
   hypotheses_.clear();
   const bool newer = report.stamp >= believed.stamp;
-  hypotheses_.push_back(newer ? joined(std::move(next), std::move(believed), now + ahead)
-                              : joined(std::move(believed), std::move(next), now + ahead));
+  hypotheses_.push_back(newer ? joined(std::move(next), std::move(believed), now, now + ahead)
+                              : joined(std::move(believed), std::move(next), now, now + ahead));
   return learned;
 }
 
-const Claim& Knowledge::tightest(const Hypothesis& hypothesis, double time) {
+const Claim& Knowledge::tightest(const Hypothesis& hypothesis, double from, double until) {
   const Claim* best = nullptr;
   double least = infinity;
   for (const Claim& claim : hypothesis.claims) {
-    if (claim.end < time) continue;
-    const double radius = claim.radius_at(time).total();
+    if (claim.time > from || claim.end < until) continue;
+    const double radius = claim.radius_at(until).total();
     if (best == nullptr || radius < least) {
       best = &claim;
       least = radius;
     }
   }
-  return best != nullptr ? *best : hypothesis.claims.back();
+  assert(best != nullptr);
+  return *best;
 }
 
-Bound Knowledge::bound(double now, double end) const {
-  const auto moved = [now](const Claim& claim) {
-    Bound bound = claim.bound();
-    bound.position = claim.centre_at(now);
-    bound.velocity = claim.velocity_at(now);
-    const double s = now - claim.time;
-    bound.radius = bound.radius_at(now);
-    bound.growth_speed += bound.growth_acceleration * s;
-    bound.time = now;
-    return bound;
-  };
-  Bound all = moved(tightest(hypotheses_.front(), end));
-  for (const Hypothesis& hypothesis : hypotheses_) {
-    const Bound one = moved(tightest(hypothesis, end));
-    all.radius = std::max(all.radius, norm(one.position - all.position) * (1.0 + margin) + one.radius);
-    all.growth_speed =
-        std::max(all.growth_speed, norm(one.velocity - all.velocity) * (1.0 + margin) + one.growth_speed);
-    all.growth_acceleration = std::max(
-        all.growth_acceleration,
-        norm(one.planned_acceleration - all.planned_acceleration) * (1.0 + margin) + one.growth_acceleration);
-  }
-  return all;
+std::uint32_t Knowledge::free_slot() const {
+  std::uint32_t slot = 0;
+  while (std::any_of(hypotheses_.begin(), hypotheses_.end(),
+                     [slot](const Hypothesis& hypothesis) { return hypothesis.slot == slot; }))
+    ++slot;
+  return slot;
 }
 
-double Knowledge::radius_at(double time) const {
+Bound Knowledge::bound(const Hypothesis& hypothesis, double now, double end) {
+  const Claim& claim = tightest(hypothesis, now, end);
+  Bound bound = claim.bound();
+  bound.position = claim.centre_at(now);
+  bound.velocity = claim.velocity_at(now);
+  bound.radius = bound.radius_at(now);
+  bound.growth_speed += bound.growth_acceleration * (now - claim.time);
+  bound.time = now;
+  return bound;
+}
+
+double Knowledge::worth_asking(double time) const {
   double largest = 0.0;
   for (const Hypothesis& hypothesis : hypotheses_)
     largest = std::max(largest, tightest(hypothesis, time).radius_at(time).total());
-  return largest;
+  return largest * std::max(0.0, time - stamp());
 }
 
 double Knowledge::stamp() const {
   double latest = -infinity;
   for (const Hypothesis& hypothesis : hypotheses_) latest = std::max(latest, hypothesis.stamp);
   return latest;
+}
+
+bool Knowledge::is_sound(double now) const {
+  const auto is_length = [](double value) { return value >= 0.0; };
+  const auto is_spread = [&](const Spread& spread) {
+    return is_length(spread.horizontal()) && is_length(spread.vertical()) && is_length(spread.total());
+  };
+  const auto is_claim = [&](const Claim& claim) {
+    return std::isfinite(claim.time) && !std::isnan(claim.end) && kinesphere::is_finite(claim.position) &&
+           kinesphere::is_finite(claim.velocity) && kinesphere::is_finite(claim.acceleration) &&
+           is_spread(claim.radius) && is_spread(claim.speed) && is_spread(claim.growth);
+  };
+  return !hypotheses_.empty() && hypotheses_.size() <= most_hypotheses &&
+         std::all_of(hypotheses_.begin(), hypotheses_.end(), [&](const Hypothesis& hypothesis) {
+           const std::vector<Claim>& claims = hypothesis.claims;
+           return std::isfinite(hypothesis.stamp) && hypothesis.slot < slots && is_claim(hypothesis.motion) &&
+                  hypothesis.latest_claims <= claims.size() &&
+                  std::all_of(claims.begin(), claims.end(), is_claim) &&
+                  std::any_of(claims.begin(), claims.end(), [now](const Claim& claim) {
+                    return claim.time <= now && claim.end == infinity;
+                  });
+         });
 }
 
 double Knowledge::first_end() const {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,7 +15,8 @@ namespace kinesphere {
 
 /// A way in which the reports can be explained: all of its claims hold.
 struct Hypothesis {
-  double stamp = 0.0;  ///< of its latest report
+  double stamp = 0.0;      ///< of its latest report
+  std::uint32_t slot = 0;  ///< no other one of the track has the same, nor had one just before it came
   /// What the latest report says by itself, for comparing with others; both before and after it.
   Claim motion{};
   State state{};
@@ -23,8 +26,8 @@ struct Hypothesis {
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [stamp, motion, state, claims, latest_claims] = self;
-    archive(stamp, motion, state, claims, latest_claims);
+    auto& [stamp, slot, motion, state, claims, latest_claims] = self;
+    archive(stamp, slot, motion, state, claims, latest_claims);
   }
 };
 
@@ -39,6 +42,9 @@ struct Excess {
 /// one contradicts those before. There are several only while reports contradict each other.
 class Knowledge {
  public:
+  /// Slots of hypotheses are less than this: there always is a free one.
+  static constexpr std::uint32_t slots = 4;
+
   enum class Outcome {
     repeated,     ///< it is the same report as before
     agrees,       ///< with all that was believed
@@ -58,12 +64,19 @@ class Knowledge {
   std::span<const Hypothesis> hypotheses() const { return hypotheses_; }
   /// Of the latest report.
   double stamp() const;
-  /// Of the hypothesis, the claim that is tightest at a time.
-  static const Claim& tightest(const Hypothesis& hypothesis, double time);
-  /// Contains the track from `now` until `end`, in all hypotheses.
-  Bound bound(double now, double end) const;
-  /// How much is uncertain at a time: the radius of the largest place.
-  double radius_at(double time) const;
+  /// Of the hypothesis, of the claims that hold all the time, the one that is tightest in the end.
+  static const Claim& tightest(const Hypothesis& hypothesis, double from, double until);
+  static const Claim& tightest(const Hypothesis& hypothesis, double time) {
+    return tightest(hypothesis, time, time);
+  }
+  /// Contains the track from `now` until `end`, if the hypothesis is true.
+  static Bound bound(const Hypothesis& hypothesis, double now, double end);
+  /// A track is asked rather than another if this is larger. If two tracks with the acceleration limits A and
+  /// B are to be certain to the same sum of radii, the fewest reports are needed where their ages are as
+  /// A^(-1/3) : B^(-1/3). Then this, radius by age, is the same for both.
+  double worth_asking(double time) const;
+  /// For what was read: there is always a claim to go by.
+  bool is_sound(double now) const;
   /// When the first claim that `bound` may rest upon ends.
   double first_end() const;
 
@@ -74,6 +87,8 @@ class Knowledge {
   }
 
  private:
+  std::uint32_t free_slot() const;
+
   std::vector<Hypothesis> hypotheses_;
 };
 

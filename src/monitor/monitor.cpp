@@ -1,81 +1,11 @@
 // The public calls of a monitor: checked, and handed on.
 #include "kinesphere/monitor/monitor.hpp"
 
-#include <cmath>
-
 #include "input/input_check.hpp"
-#include "kinesphere/limits.hpp"
+#include "monitor/check_monitor.hpp"
 #include "monitor/engine.hpp"
 
 namespace kinesphere {
-namespace {
-
-Result<void> check_definition(const MonitorDefinition& definition) {
-  InputCheck check("Monitor::create");
-  check.require(definition.dimensions == 2 || definition.dimensions == 3, ErrorCode::out_of_range,
-                {"dimensions"}, "must be 2 or 3", static_cast<double>(definition.dimensions));
-  check.finite({"start_time"}, definition.start_time)
-      .require(std::abs(definition.start_time) <= limits::largest_time, ErrorCode::out_of_range,
-               {"start_time"}, "must lie within +-", limits::largest_time, definition.start_time)
-      .positive({"tolerance"}, definition.tolerance)
-      .require(definition.tolerance >= limits::least_contact_tolerance &&
-                   definition.tolerance <= limits::largest_contact_tolerance,
-               ErrorCode::out_of_range, {"tolerance"}, "must lie within the limits of a contact tolerance",
-               definition.tolerance)
-      .positive({"time_resolution"}, definition.time_resolution)
-      .positive({"window"}, definition.window)
-      .require(definition.silence_after > 0.0, ErrorCode::out_of_range, {"silence_after"}, "must be > 0",
-               definition.silence_after)
-      .require(definition.forget_after > 0.0, ErrorCode::out_of_range, {"forget_after"}, "must be > 0",
-               definition.forget_after)
-      .require(!definition.classes.empty(), ErrorCode::out_of_range, {"classes"}, "must name at least one",
-               definition.classes.size());
-  const auto limit = [&check](const Subject& subject, const Spread& spread) {
-    for (const double value : {spread.horizontal(), spread.vertical(), spread.total()})
-      check.require(value >= 0.0, ErrorCode::out_of_range, subject, "must be >= 0", value);
-  };
-  for (std::size_t k = 0; k < definition.classes.size(); ++k) {
-    const TrackClass& one = definition.classes[k];
-    const auto subject = [k](std::string_view part) {
-      return Subject{.argument = "classes", .part = part, .part_number = k};
-    };
-    limit(subject("acceleration_limit"), one.acceleration_limit);
-    limit(subject("largest_speed"), one.largest_speed);
-    check.within(subject("planned_acceleration"), one.planned_acceleration, limits::largest_acceleration);
-    check.require(std::isfinite(one.acceleration_limit.total()) || std::isfinite(one.largest_speed.total()),
-                  ErrorCode::out_of_range, subject("acceleration_limit"),
-                  "must be finite where largest_speed is not", one.acceleration_limit.total());
-  }
-  for (std::size_t k = 0; k < definition.separations.size(); ++k) {
-    const SeparationRule& rule = definition.separations[k];
-    const auto subject = [k](std::string_view part) {
-      return Subject{.argument = "separations", .part = part, .part_number = k};
-    };
-    for (const std::size_t of : {rule.first_class, rule.second_class})
-      check.require(of < definition.classes.size(), ErrorCode::out_of_range, subject("class"),
-                    "must be less than the number of classes", definition.classes.size(), of);
-    for (const Separation& level : rule.levels) {
-      check.positive(subject("horizontal"), level.horizontal);
-      if (definition.dimensions == 3) check.positive(subject("vertical"), level.vertical);
-      check.require(
-          definition.tolerance < level.horizontal &&
-              (definition.dimensions == 2 || definition.tolerance < level.vertical) &&
-              std::max(level.horizontal, level.vertical) <= definition.tolerance * limits::largest_length,
-          ErrorCode::out_of_range, subject("horizontal"), "must be between 1 and 2^41 tolerances",
-          level.horizontal);
-    }
-    for (std::size_t other = 0; other < k; ++other) {
-      const SeparationRule& before = definition.separations[other];
-      check.require(std::minmax(rule.first_class, rule.second_class) !=
-                        std::minmax(before.first_class, before.second_class),
-                    ErrorCode::out_of_range, subject("class"), "must be other ones than those of separations",
-                    other, k);
-    }
-  }
-  return check.result();
-}
-
-}  // namespace
 
 std::string_view name_of(MonitorEventKind kind) {
   switch (kind) {
@@ -108,7 +38,7 @@ std::string_view name_of(Verdict verdict) {
 }
 
 Result<Monitor> Monitor::create(const MonitorDefinition& definition) {
-  if (const Result<void> checked = check_definition(definition); !checked) return checked.error();
+  if (const Result<void> checked = check_monitor(definition); !checked) return checked.error();
   return Monitor(std::make_unique<Engine>(definition));
 }
 
@@ -168,5 +98,13 @@ Result<PairAnswer> Monitor::answer(TrackId first, TrackId second, std::uint32_t 
 }
 std::vector<OpenPair> Monitor::open_pairs() const { return engine_->open_pairs(); }
 std::vector<ReportNeed> Monitor::needed(double until) const { return engine_->needed(until); }
+
+std::vector<std::byte> Monitor::save() const { return engine_->save(); }
+
+Result<Monitor> Monitor::restore(std::span<const std::byte> snapshot) {
+  auto engine = Engine::restore(snapshot);
+  if (!engine) return engine.error();
+  return Monitor(std::move(*engine));
+}
 
 }  // namespace kinesphere

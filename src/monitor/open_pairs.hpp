@@ -15,17 +15,29 @@ namespace kinesphere {
 struct LevelState {
   Verdict verdict = Verdict::apart;
   double since = -infinity;
+  double until = -infinity;  ///< a certain verdict holds until then, whatever is reported
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [verdict, since] = self;
-    archive(verdict, since);
+    auto& [verdict, since, until] = self;
+    archive(verdict, since, until);
   }
 };
 
 struct OpenRecord {
   std::uint32_t version = 0;  ///< what is in the agenda for another one is void
   std::vector<LevelState> levels;
+
+  bool is_undecided() const {
+    return std::any_of(levels.begin(), levels.end(),
+                       [](const LevelState& state) { return state.verdict == Verdict::undecided; });
+  }
+  /// Something that was certain is not so from now on.
+  bool is_expiring(double now) const {
+    return std::any_of(levels.begin(), levels.end(), [now](const LevelState& state) {
+      return state.verdict != Verdict::undecided && state.until <= now;
+    });
+  }
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
@@ -53,6 +65,8 @@ class OpenRecords {
   void remove(std::uint32_t a, std::uint32_t b) { records_.erase(key(a, b)); }
   std::uint32_t fresh_version() { return ++last_version_; }
   std::size_t size() const { return records_.size(); }
+  std::uint32_t last_version() const { return last_version_; }
+  void start_versions_at(std::uint32_t version) { last_version_ = version; }
   /// Calls visit(a, b, record), in no particular order.
   template <class Visit>
   void for_each(Visit visit) const {

@@ -17,15 +17,17 @@ struct Track {
   std::size_t track_class = 0;
   bool present = false;
   bool silent = false;
-  std::uint32_t life = 0;   ///< no two tracks ever have the same
-  std::uint32_t stamp = 0;  ///< another one as soon as facts about the track may be wrong
+  std::uint32_t life = 0;  ///< no two tracks ever have the same
+  /// Of the hypotheses that have a capsule of their own, a bit for each slot. The others need none, as long
+  /// as those that were there before them have theirs.
+  std::uint32_t placed = 0;
   Knowledge knowledge{};
   std::vector<std::uint32_t> open;  ///< partners in pairs that are not certainly apart
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [id, track_class, present, silent, life, stamp, knowledge, open] = self;
-    archive(id, track_class, present, silent, life, stamp, knowledge, open);
+    auto& [id, track_class, present, silent, life, placed, knowledge, open] = self;
+    archive(id, track_class, present, silent, life, placed, knowledge, open);
   }
 };
 
@@ -40,7 +42,6 @@ class TrackTable {
     const auto at = numbers_.find(id);
     return at == numbers_.end() ? std::nullopt : std::optional(at->second);
   }
-  std::uint32_t fresh_stamp() { return ++last_stamp_; }
 
   std::uint32_t add(TrackId id, std::size_t track_class) {
     std::uint32_t number = numbers();
@@ -55,8 +56,7 @@ class TrackTable {
     track.id = id;
     track.track_class = track_class;
     track.present = true;
-    track.life = fresh_stamp();
-    track.stamp = track.life;
+    track.life = ++last_life_;
     return number;
   }
   void remove(std::uint32_t number) {
@@ -74,14 +74,29 @@ class TrackTable {
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [tracks, free, last_stamp, numbers] = self;
-    archive(tracks, free, last_stamp);
+    auto& [tracks, free, last_life, numbers] = self;
+    archive(tracks, free, last_life);
+  }
+  /// For one that was read: finds tracks by their ids again, and says whether the table can be.
+  bool index() {
+    numbers_.clear();
+    for (std::uint32_t number = 0; number < tracks_.size(); ++number) {
+      const Track& track = tracks_[number];
+      if (track.present && !numbers_.emplace(track.id, number).second) return false;
+      if (track.life > last_life_) return false;
+    }
+    std::vector<bool> seen(tracks_.size(), false);
+    for (const std::uint32_t number : free_) {
+      if (number >= tracks_.size() || tracks_[number].present || seen[number]) return false;
+      seen[number] = true;
+    }
+    return numbers_.size() + free_.size() == tracks_.size();
   }
 
  private:
   std::vector<Track> tracks_;
   std::vector<std::uint32_t> free_;
-  std::uint32_t last_stamp_ = 0;
+  std::uint32_t last_life_ = 0;
   std::unordered_map<TrackId, std::uint32_t> numbers_;
 };
 

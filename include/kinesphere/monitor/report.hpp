@@ -32,6 +32,8 @@ class Spread {
   constexpr double vertical() const { return vertical_; }
   /// Where lengths along z count `stretch` >= 0 times.
   double total(double stretch = 1.0) const {
+    // No diagonal is shorter than its longer side.
+    if (stretch == 1.0 && total_ <= std::max(horizontal_, vertical_)) return total_;
     return std::min(around(horizontal_, stretch * vertical_), std::max(1.0, stretch) * total_);
   }
   /// In the plane: as if there were no z.

@@ -3,7 +3,10 @@
 
 #include <CLI/App.hpp>
 
+#include "bench/monitoring.hpp"
 #include "bench/options.hpp"
+#include "bench/satellites.hpp"
+#include "bench/soak.hpp"
 #include "bench/speed/speed.hpp"
 #include "bench/vessels.hpp"
 
@@ -14,6 +17,9 @@ struct BenchCommands {
   SpeedOptions speed{{.output = "bench-speed", .only = {}}, {}};
   BenchOptions gas{.output = "bench-gas", .only = {}};
   VesselOptions vessels;
+  MonitoringOptions monitoring;
+  SoakSettings soak;
+  SatelliteOptions satellites;
 };
 
 /// `commands` must live until the command line has been parsed.

@@ -1,0 +1,75 @@
+#include "monitor/check_monitor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "input/input_check.hpp"
+#include "kinesphere/limits.hpp"
+
+namespace kinesphere {
+
+Result<void> check_monitor(const MonitorDefinition& definition) {
+  InputCheck check("Monitor::create");
+  check.require(definition.dimensions == 2 || definition.dimensions == 3, ErrorCode::out_of_range,
+                {"dimensions"}, "must be 2 or 3", static_cast<double>(definition.dimensions));
+  check.finite({"start_time"}, definition.start_time)
+      .require(std::abs(definition.start_time) <= limits::largest_time, ErrorCode::out_of_range,
+               {"start_time"}, "must lie within +-", limits::largest_time, definition.start_time)
+      .positive({"tolerance"}, definition.tolerance)
+      .require(definition.tolerance >= limits::least_contact_tolerance &&
+                   definition.tolerance <= limits::largest_contact_tolerance,
+               ErrorCode::out_of_range, {"tolerance"}, "must lie within the limits of a contact tolerance",
+               definition.tolerance)
+      .positive({"time_resolution"}, definition.time_resolution)
+      .positive({"window"}, definition.window)
+      .require(definition.silence_after > 0.0, ErrorCode::out_of_range, {"silence_after"}, "must be > 0",
+               definition.silence_after)
+      .require(definition.forget_after > 0.0, ErrorCode::out_of_range, {"forget_after"}, "must be > 0",
+               definition.forget_after)
+      .require(!definition.classes.empty(), ErrorCode::out_of_range, {"classes"}, "must name at least one",
+               definition.classes.size());
+  const auto limit = [&check](const Subject& subject, const Spread& spread) {
+    for (const double value : {spread.horizontal(), spread.vertical(), spread.total()})
+      check.require(value >= 0.0, ErrorCode::out_of_range, subject, "must be >= 0", value);
+  };
+  for (std::size_t k = 0; k < definition.classes.size(); ++k) {
+    const TrackClass& one = definition.classes[k];
+    const auto subject = [k](std::string_view part) {
+      return Subject{.argument = "classes", .part = part, .part_number = k};
+    };
+    limit(subject("acceleration_limit"), one.acceleration_limit);
+    limit(subject("largest_speed"), one.largest_speed);
+    check.within(subject("planned_acceleration"), one.planned_acceleration, limits::largest_acceleration);
+    check.require(std::isfinite(one.acceleration_limit.total()) || std::isfinite(one.largest_speed.total()),
+                  ErrorCode::out_of_range, subject("acceleration_limit"),
+                  "must be finite where largest_speed is not", one.acceleration_limit.total());
+  }
+  for (std::size_t k = 0; k < definition.separations.size(); ++k) {
+    const SeparationRule& rule = definition.separations[k];
+    const auto subject = [k](std::string_view part) {
+      return Subject{.argument = "separations", .part = part, .part_number = k};
+    };
+    for (const std::size_t of : {rule.first_class, rule.second_class})
+      check.require(of < definition.classes.size(), ErrorCode::out_of_range, subject("class"),
+                    "must be less than the number of classes", definition.classes.size(), of);
+    const auto length = [&](std::string_view part, double value) {
+      check.positive(subject(part), value)
+          .require(value >= definition.tolerance && value <= definition.tolerance * limits::largest_length,
+                   ErrorCode::out_of_range, subject(part), "must be between 1 and 2^41 tolerances", value);
+    };
+    for (const Separation& level : rule.levels) {
+      length("horizontal", level.horizontal);
+      if (definition.dimensions == 3) length("vertical", level.vertical);
+    }
+    for (std::size_t other = 0; other < k; ++other) {
+      const SeparationRule& before = definition.separations[other];
+      check.require(std::minmax(rule.first_class, rule.second_class) !=
+                        std::minmax(before.first_class, before.second_class),
+                    ErrorCode::out_of_range, subject("class"), "must be other ones than those of separations",
+                    other, k);
+    }
+  }
+  return check.result();
+}
+
+}  // namespace kinesphere

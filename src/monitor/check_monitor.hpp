@@ -1,0 +1,11 @@
+// Whether a monitor can be as it is defined.
+#pragma once
+
+#include "kinesphere/monitor/monitor.hpp"
+#include "kinesphere/result.hpp"
+
+namespace kinesphere {
+
+Result<void> check_monitor(const MonitorDefinition& definition);
+
+}  // namespace kinesphere

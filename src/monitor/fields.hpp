@@ -1,0 +1,51 @@
+// The fields of a monitor's public structs, for archives.
+#pragma once
+
+#include <cstdint>
+
+#include "archive/fields.hpp"
+#include "kinesphere/monitor/monitor.hpp"
+#include "monitor/open_pairs.hpp"
+
+namespace kinesphere {
+
+template <Some<TrackClass> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [acceleration_limit, planned_acceleration, largest_speed] = self;
+  archive(acceleration_limit, planned_acceleration, largest_speed);
+}
+
+template <Some<SeparationRule> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [first_class, second_class, levels] = self;
+  archive(first_class, second_class, levels);
+}
+
+template <Some<MonitorDefinition> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [dimensions, start_time, classes, separations, tolerance, time_resolution, window, silence_after,
+         forget_after] = self;
+  archive(dimensions, start_time, classes, separations, tolerance, time_resolution, window, silence_after,
+          forget_after);
+}
+
+template <Some<MonitorCounters> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [reports, late, repeated, contradictions, polls, windows, searches, near_pairs, looks] = self;
+  archive(reports, late, repeated, contradictions, polls, windows, searches, near_pairs, looks);
+}
+
+/// A record, and the numbers of its tracks.
+struct SavedRecord {
+  std::uint32_t first = 0;
+  std::uint32_t second = 0;
+  OpenRecord record{};
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [first, second, record] = self;
+    archive(first, second, record);
+  }
+};
+
+}  // namespace kinesphere

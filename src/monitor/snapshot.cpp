@@ -1,0 +1,132 @@
+// Snapshots of a monitor: all of its state as it stands, as bytes, and back.
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "archive/archive.hpp"
+#include "archive/envelope.hpp"
+#include "monitor/check_monitor.hpp"
+#include "monitor/engine.hpp"
+#include "monitor/fields.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// Raise the version when the fields change, or when the engine would go on from the same fields in another
+/// way.
+constexpr Envelope envelope{{'K', 'i', 'n', 'M', 'o', 'n', '\r', '\n'},
+                            1,
+                            "monitor",
+                            "Monitor::restore",
+                            "snapshot",
+                            ErrorCode::bad_snapshot};
+
+}  // namespace
+
+template <class Self, class Archive>
+void Monitor::Engine::transfer(Self& self, Archive& archive) {
+  archive(self.time_, self.counters_, self.tracks_, self.windows_);
+  std::vector<SavedRecord> records;
+  std::vector<MonitorEvent> events;
+  std::uint32_t last_version = 0;
+  if constexpr (std::is_const_v<Self>) {
+    self.open_.for_each([&](std::uint32_t a, std::uint32_t b, const OpenRecord& record) {
+      records.push_back({a, b, record});
+    });
+    std::sort(records.begin(), records.end(), [](const SavedRecord& p, const SavedRecord& q) {
+      return std::tie(p.first, p.second) < std::tie(q.first, q.second);
+    });
+    events.assign(self.events_.begin(), self.events_.end());
+    last_version = self.open_.last_version();
+    std::vector<HotPair> pairs;
+    self.agenda_.for_each([&](const HotPair& pair) {
+      if (!self.is_void(pair)) pairs.push_back(pair);
+    });
+    std::sort(pairs.begin(), pairs.end());
+    archive(records, last_version, events, pairs);
+  } else {
+    archive(records, last_version, events, self.read_pairs_);
+    for (const SavedRecord& saved : records) self.open_.add(saved.first, saved.second, 0) = saved.record;
+    self.open_.start_versions_at(last_version);
+    self.events_.assign(events.begin(), events.end());
+  }
+}
+
+std::vector<std::byte> Monitor::Engine::save() const {
+  ByteWriter content;
+  content(definition_);
+  transfer(*this, content);
+  return envelope.seal(content.bytes());
+}
+
+Result<std::unique_ptr<Monitor::Engine>> Monitor::Engine::restore(std::span<const std::byte> snapshot) {
+  const auto content = envelope.open(snapshot);
+  if (!content) return content.error();
+  ByteReader reader(*content);
+  MonitorDefinition definition;
+  reader(definition);
+  if (reader.failed() || !check_monitor(definition))
+    return envelope.refusal("must hold a monitor that can be, but its definition is impossible");
+  auto engine = std::make_unique<Engine>(definition);
+  transfer(*engine, reader);
+  if (reader.failed() || reader.remaining() != 0)
+    return envelope.refusal("must hold a monitor, but its content does not have the form of one");
+  if (const char* where = engine->tracks_.index() ? engine->contradiction() : "tracks")
+    return envelope.refusal(std::string("must hold a monitor that can be, but contradicts itself in its ") +
+                            where);
+  engine->agenda_.add_all(engine->read_pairs_);
+  return engine;
+}
+
+const char* Monitor::Engine::contradiction() const {
+  if (!std::isfinite(time_)) return "time";
+  if (!windows_.is_sound(std::size_t{tracks_.numbers()} * Knowledge::slots)) return "windows";
+  const auto is_present = [this](std::uint32_t number) {
+    return number < tracks_.numbers() && tracks_[number].present;
+  };
+  std::size_t partners = 0;
+  for (std::uint32_t number = 0; number < tracks_.numbers(); ++number) {
+    const Track& track = tracks_[number];
+    bool placed = false;
+    for (std::uint32_t slot = 0; slot < Knowledge::slots; ++slot) {
+      const bool contains = windows_.contains(number * Knowledge::slots + slot);
+      placed = placed || contains;
+      if ((track.placed & 1u << slot) != 0 && !contains) return "windows";
+    }
+    if (placed != track.present) return "windows";
+    if (!track.present) {
+      if (!track.open.empty()) return "pairs";
+      continue;
+    }
+    if (track.track_class >= definition_.classes.size() || !track.knowledge.is_sound(time_)) return "tracks";
+    partners += track.open.size();
+    for (std::size_t k = 0; k < track.open.size(); ++k) {
+      const std::uint32_t other = track.open[k];
+      if (!is_present(other) || other == number || open_.find(number, other) == nullptr ||
+          std::count(track.open.begin(), track.open.end(), other) != 1 ||
+          std::count(tracks_[other].open.begin(), tracks_[other].open.end(), number) != 1)
+        return "pairs";
+    }
+  }
+  if (partners != 2 * open_.size()) return "pairs";
+  bool sound = true;
+  open_.for_each([&](std::uint32_t a, std::uint32_t b, const OpenRecord& record) {
+    sound = sound && a < b && is_present(a) && is_present(b) && record.version <= open_.last_version() &&
+            record.levels.size() == levels_of(a, b).size() &&
+            std::all_of(record.levels.begin(), record.levels.end(),
+                        [](const LevelState& state) { return state.verdict <= Verdict::within; });
+  });
+  if (!sound) return "pairs";
+  const auto is_pair = [&](const HotPair& pair) {
+    return pair.time < infinity && is_present(pair.first) &&
+           (pair.second == HotPair::walls || (pair.first < pair.second && is_present(pair.second))) &&
+           !is_void(pair);
+  };
+  if (!std::all_of(read_pairs_.begin(), read_pairs_.end(), is_pair)) return "agenda";
+  const auto is_event = [this](const MonitorEvent& event) {
+    return event.time == time_ && event.kind <= MonitorEventKind::left;
+  };
+  return std::all_of(events_.begin(), events_.end(), is_event) ? nullptr : "events";
+}
+
+}  // namespace kinesphere
