@@ -441,6 +441,24 @@ TEST_F(WatchProgram, TellsAtOnceAndEndsWhenAskedTo) {
   }
 }
 
+TEST_F(WatchProgram, WaitsForNothingThatIsNotNeeded) {
+  Live live("--separation sphere:30" + promises, path("err"));
+  // Times that confirm each other, and then two that meet.
+  for (const char* id : {"far", "away", "here"})
+    live.write(std::string(R"({"id": ")") + id + R"(", "stamp": 1, "position": [)" +
+               (*id == 'h'   ? "0"
+                : *id == 'f' ? "1e5"
+                             : "-1e5") +
+               R"(, 0, 0], "velocity": [0, 0, 0]})" + "\n");
+  live.write(R"({"id": "there", "stamp": 2, "position": [5, 0, 0], "velocity": [0, 0, 0]})"
+             "\n");
+  const Json alert = Json::parse(live.line());
+  EXPECT_EQ(alert["verdict"], "within");
+  EXPECT_EQ(alert["time"], 2);
+  live.end_input();
+  EXPECT_EQ(live.wait(), 0);
+}
+
 TEST_F(WatchProgram, LetsTimePassByTheClockOfTheMachine) {
   using namespace std::chrono;
   Live live("--separation sphere:30 --clock arrival --silence 200ms --forget 400ms" + promises, path("err"));

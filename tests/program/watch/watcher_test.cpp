@@ -78,15 +78,6 @@ TEST_P(FlightsOverTheEarth, AreToldOfWithCertainty) {
       .source = "test"};
   std::map<std::tuple<std::string, std::string, int>, std::string> verdicts;
   std::map<std::string, int> told;
-  Watcher watcher(settings, [&](std::string_view line) {
-    const auto alert = nlohmann::json::parse(line);
-    ASSERT_EQ(alert["event"], "verdict") << line;
-    std::string& verdict = verdicts[{alert["first"], alert["second"], alert["level"]}];
-    ASSERT_EQ(alert["before"], verdict.empty() ? "apart" : verdict);
-    verdict = alert["verdict"];
-    ++told[verdict];
-  });
-
   Random random(11);
   std::vector<Flight> flights(30);
   for (Flight& flight : flights) {
@@ -102,6 +93,22 @@ TEST_P(FlightsOverTheEarth, AreToldOfWithCertainty) {
     flight.turn = random.uniform(-1.0, 1.0) * 4.5 / flight.speed / degree;
     flight.climb = random.uniform(-3.0, 3.0);
   }
+  Watcher watcher(settings, [&](std::string_view line) {
+    const auto alert = nlohmann::json::parse(line);
+    ASSERT_EQ(alert["event"], "verdict") << line;
+    std::string& verdict = verdicts[{alert["first"], alert["second"], alert["level"]}];
+    ASSERT_EQ(alert["before"], verdict.empty() ? "apart" : verdict);
+    verdict = alert["verdict"];
+    // Both have gone on by a tick at most.
+    const auto flight = [&](const char* which) {
+      return flights[std::stoul(alert[which].get<std::string>().substr(7)) - 10];
+    };
+    const double truth = distance_between(flight("first"), flight("second")), gone = 2 * 300.0 * tick;
+    EXPECT_LE(alert["distance"][0], truth + gone) << line;
+    EXPECT_GE(alert["distance"][1], truth - gone) << line;
+    ++told[verdict];
+  });
+
   struct Waiting {
     double arrival;
     std::string id;
