@@ -3,7 +3,7 @@
 # Usage: setup.sh run | mpi | browser | python | bench | test | coverage
 set -euo pipefail
 
-packages=(g++ cmake ninja-build libhwy-dev libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev libgeographiclib-dev libcpp-httplib-dev)
+packages=(g++ cmake ninja-build libhwy-dev libcli11-dev libfmt-dev nlohmann-json3-dev libsimdjson-dev zlib1g-dev libgeographiclib-dev libcpp-httplib-dev)
 mpi=(libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev)
 browser=(emscripten nodejs)
 # That of Node.js itself brings npm along.

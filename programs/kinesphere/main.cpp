@@ -17,6 +17,7 @@
 #include "tracks.hpp"
 #include "verify.hpp"
 #include "view.hpp"
+#include "watch.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -36,6 +37,7 @@ int main(int argc, char** argv) {
   VerifyOptions verify_options;
   TracksOptions tracks_options;
   ViewOptions view_options;
+  WatchOptions watch_options;
   BenchCommands bench_commands;
   const CLI::App* const run_command = add_run_command(app, run_options);
   const CLI::App* const replay_command = add_replay_command(app, replay_options);
@@ -43,6 +45,7 @@ int main(int argc, char** argv) {
   const CLI::App* const verify_command = add_verify_command(app, verify_options);
   const CLI::App* const scenes_command = add_scenes_command(app);
   const CLI::App* const view_command = add_view_command(app, view_options);
+  const CLI::App* const watch_command = add_watch_command(app, watch_options);
   const CLI::App* const bench_command = add_bench_command(app, bench_commands);
   try {
     app.parse(argc, argv);
@@ -65,8 +68,10 @@ int main(int argc, char** argv) {
   if (*verify_command) return finished(verify(verify_options));
   if (*scenes_command) return finished(list_scenes());
   if (*view_command) return finished(view(view_options));
+  if (*watch_command) return finished(watch(watch_options));
   if (*bench_command) return finished(bench(*bench_command, bench_commands));
-  throw ProgramError("expected a command: run, replay, tracks, verify, scenes, view or bench (see --help)");
+  throw ProgramError(
+      "expected a command: run, replay, tracks, verify, scenes, view, watch or bench (see --help)");
 }
 
 }  // namespace

@@ -177,12 +177,17 @@ void Monitor::Engine::leave(std::uint32_t number) {
 
 /// Puts on the agenda when too long nothing will have been heard of a track.
 void Monitor::Engine::expect_to_hear(std::uint32_t number) {
-  const Track& track = tracks_[number];
+  Track& track = tracks_[number];
   const double after =
       track.silent ? definition_.forget_after : std::min(definition_.silence_after, definition_.forget_after);
   const double time = std::max(time_, track.knowledge.stamp() + after);
+  ++track.expected;
   if (time < infinity)
-    agenda_.add({.time = time, .first = number, .second = HotPair::walls, .first_stamp = track.life});
+    agenda_.add({.time = time,
+                 .first = number,
+                 .second = HotPair::walls,
+                 .first_stamp = track.life,
+                 .second_stamp = track.expected});
 }
 
 void Monitor::Engine::is_due(std::uint32_t number) {
@@ -200,7 +205,7 @@ void Monitor::Engine::is_due(std::uint32_t number) {
 
 bool Monitor::Engine::is_void(const HotPair& pair) const {
   const Track& first = tracks_[pair.first];
-  if (!pair.has_second()) return first.life != pair.first_stamp;
+  if (!pair.has_second()) return first.life != pair.first_stamp || first.expected != pair.second_stamp;
   if (pair.second_stamp == of_open_record) {
     const OpenRecord* record = open_.find(pair.first, pair.second);
     return record == nullptr || record->version != pair.first_stamp;

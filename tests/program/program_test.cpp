@@ -56,7 +56,7 @@ TEST_F(ProgramTest, ListsTheScenes) {
 
 TEST_F(ProgramTest, RefusesWrongOptions) {
   const std::string scene = write("s.json", small_scene);
-  expect_wrong_input("", {"expected a command: run, replay, tracks, verify, scenes, view or bench"});
+  expect_wrong_input("", {"expected a command: run, replay, tracks, verify, scenes, view, watch or bench"});
   expect_wrong_input("fly", {"fly"});
   expect_wrong_input("run", {"SCENE"});
   expect_wrong_input("run " + scene + " --fast", {"--fast"});

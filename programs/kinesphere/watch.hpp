@@ -1,0 +1,37 @@
+// `kinesphere watch`: what is certain about the separation of tracks that a stream reports.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "watch/report_format.hpp"
+
+namespace kinesphere::program {
+
+struct WatchOptions {
+  std::string file = "-";
+  std::string format;  ///< empty: as the stream's beginning shows
+  FormatChoices choices;
+  std::vector<std::string> separations;
+  std::optional<int> dimensions;
+  std::string acceleration, largest_speed;
+  std::string position_error, velocity_error, stamp_error;
+  std::string silence, forget, leap;
+  std::string clock = "stream";
+  std::string origin, radius;
+  std::optional<std::size_t> most_malformed;
+  std::string summary;
+  std::optional<int> serve;
+  bool quiet = false;
+};
+
+/// `options` must live until the command line has been parsed.
+CLI::App* add_watch_command(CLI::App& program, WatchOptions& options);
+/// Watches until the stream ends or the process is asked to stop (SIGINT, SIGTERM); returns the exit code.
+/// Throws ProgramError.
+int watch(const WatchOptions& options);
+
+}  // namespace kinesphere::program

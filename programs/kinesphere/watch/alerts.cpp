@@ -1,0 +1,87 @@
+// Alerts as JSON lines.
+#include "watch/alerts.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "json_text.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+std::string verdict_fields(const AlertContext& context, const MonitorEvent& event) {
+  const auto [first, second] = in_text_order(context.names, event.first, event.second);
+  std::string line = fmt::format(
+      R"("first": {}, "second": {}, "separation": {}, "level": {}, "verdict": "{}", "before": "{}", "since": {})",
+      json_text(context.names.text(first)), json_text(context.names.text(second)),
+      json_text(context.settings.separations[event.level].name), event.level, name_of(event.verdict),
+      name_of(event.before), json_time(context.times, event.since));
+  if (const auto answer = context.monitor.answer(event.first, event.second, event.level))
+    line += ", " + answer_fields(context, answer.value());
+  const NamedTrack* const one = context.names.find(first);
+  const NamedTrack* const other = context.names.find(second);
+  if (one != nullptr && other != nullptr)
+    line += fmt::format(R"(, "rests_on": {{"first": {}, "second": {}, "both": {}}})",
+                        json_text(declarations_of(*one)), json_text(declarations_of(*other)),
+                        json_text(context.settings.promise));
+  return line;
+}
+
+}  // namespace
+
+OrderedPair in_text_order(const TrackNames& names, TrackId a, TrackId b) {
+  return names.text(b) < names.text(a) ? OrderedPair{b, a} : OrderedPair{a, b};
+}
+
+std::string json_number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
+
+std::string json_time(const TimeScale& times, double time) {
+  if (!std::isfinite(time)) return "null";
+  constexpr int decimals = 6;
+  const std::string text = times.text(time, decimals);
+  return times.is_number() ? text : fmt::format("\"{}\"", text);
+}
+
+std::string answer_fields(const AlertContext& context, const PairAnswer& answer) {
+  const auto length = [](double value) {
+    return std::isfinite(value) ? fmt::format("{:.6g}", value) : "null";
+  };
+  return fmt::format(
+      R"("distance": [{}, {}], "until": {}, "closest_distance": {}, "closest_time": {}, "likely_time": {}, "ask": {}, "ask_by": {})",
+      length(answer.lower / context.stretch), length(answer.upper), json_time(context.times, answer.until),
+      length(answer.closest_distance), json_time(context.times, answer.closest_time),
+      json_time(context.times, answer.likely_time), json_text(context.names.text(answer.ask)),
+      json_time(context.times, answer.ask_by));
+}
+
+std::string declarations_of(const NamedTrack& track) {
+  std::string text;
+  const auto add = [&](const char* what, std::string_view declaration) {
+    if (declaration.empty()) return;
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", what, declaration);
+  };
+  add("position", track.position_by);
+  add("height", track.height_by);
+  add("velocity", track.velocity_by);
+  add("climb", track.climb_by);
+  return text;
+}
+
+std::string alert_line(const AlertContext& context, const MonitorEvent& event) {
+  std::string line = fmt::format(R"({{"event": "{}", "time": {}, )", name_of(event.kind),
+                                 json_time(context.times, event.time));
+  if (event.kind == MonitorEventKind::verdict) return line + verdict_fields(context, event) + "}\n";
+  line += fmt::format(R"("track": {})", json_text(context.names.text(event.first)));
+  const NamedTrack* const track = context.names.find(event.first);
+  if (event.kind == MonitorEventKind::contradiction) {
+    line += fmt::format(R"(, "position_excess": {}, "velocity_excess": {})",
+                        json_number(event.position_excess), json_number(event.velocity_excess));
+    if (track != nullptr)
+      line += fmt::format(R"(, "rests_on": {{"track": {}, "both": {}}})", json_text(declarations_of(*track)),
+                          json_text(context.settings.promise));
+  }
+  return line + "}\n";
+}
+
+}  // namespace kinesphere::program

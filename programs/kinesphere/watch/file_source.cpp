@@ -1,0 +1,135 @@
+// A file or standard input as it comes in, plain or gzipped.
+#include "watch/file_source.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "program_error.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+constexpr std::size_t source_block = std::size_t{1} << 16;
+
+}  // namespace
+
+/// Unpacks as much as has come. Several gzip files may follow each other.
+class FileSource::Inflater {
+ public:
+  Inflater() : unpacked_(4 * source_block) { start(); }
+  ~Inflater() { inflateEnd(&stream_); }
+  Inflater(const Inflater&) = delete;
+  Inflater& operator=(const Inflater&) = delete;
+
+  void feed(const char* bytes, std::size_t count) {
+    stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes));
+    stream_.avail_in = static_cast<uInt>(count);
+  }
+  /// What can be unpacked of what was fed; empty when that is all. `damaged` is set when it cannot be.
+  std::string_view next(bool& damaged) {
+    while (stream_.avail_in > 0 || pending_) {
+      if (is_between_) {
+        if (stream_.avail_in == 0) break;
+        inflateReset(&stream_);
+        is_between_ = false;
+      }
+      stream_.next_out = reinterpret_cast<Bytef*>(unpacked_.data());
+      stream_.avail_out = static_cast<uInt>(unpacked_.size());
+      const int result = inflate(&stream_, Z_NO_FLUSH);
+      const std::size_t count = unpacked_.size() - stream_.avail_out;
+      pending_ = stream_.avail_out == 0;
+      if (result == Z_STREAM_END) {
+        is_between_ = true;
+        pending_ = false;
+      } else if (result != Z_OK && result != Z_BUF_ERROR) {
+        damaged = true;
+        return {};
+      }
+      if (count > 0) return {unpacked_.data(), count};
+      if (result == Z_BUF_ERROR) break;
+    }
+    return {};
+  }
+  bool is_whole() const { return is_between_; }
+
+ private:
+  void start() {
+    constexpr int gzip_alone = 16 + MAX_WBITS;
+    if (inflateInit2(&stream_, gzip_alone) != Z_OK) throw std::bad_alloc();
+  }
+
+  z_stream stream_{};
+  std::vector<char> unpacked_;
+  bool pending_ = false;
+  bool is_between_ = false;  ///< one gzip file has ended, and no other has begun
+};
+
+FileSource::FileSource(const std::string& path, const StopSignals& stop)
+    : path_(path), stop_(stop), buffer_(source_block) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) fail("expected a file, but it is a folder");
+  descriptor_ = path == "-" ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor_ < 0) fail(std::strerror(errno));
+}
+
+FileSource::~FileSource() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void FileSource::fail(std::string_view reason) const {
+  throw ProgramError(fmt::format("{}: cannot read: {}", name(), reason));
+}
+
+ReportSource::Outcome FileSource::read_some(std::chrono::milliseconds patience) {
+  pollfd ready[2] = {{descriptor_, POLLIN, 0}, {stop_.descriptor(), POLLIN, 0}};
+  const int count = ::poll(ready, 2, static_cast<int>(patience.count()));
+  if (count < 0 && errno != EINTR) fail(std::strerror(errno));
+  if (count <= 0 || ready[0].revents == 0) return Outcome::quiet;
+  const auto got = ::read(descriptor_, buffer_.data() + filled_, buffer_.size() - filled_);
+  if (got < 0) {
+    if (errno == EINTR || errno == EAGAIN) return Outcome::quiet;
+    fail(std::strerror(errno));
+  }
+  filled_ += static_cast<std::size_t>(got);
+  return got == 0 ? Outcome::end : Outcome::text;
+}
+
+ReportSource::Outcome FileSource::next(std::chrono::milliseconds patience, std::string_view& text) {
+  bool damaged = false;
+  if (inflater_) {
+    text = inflater_->next(damaged);
+    if (damaged) fail("damaged gzip data");
+    if (!text.empty()) return Outcome::text;
+    filled_ = 0;
+  }
+  if (has_begun_) filled_ = 0;
+  const Outcome outcome = read_some(patience);
+  if (outcome == Outcome::quiet) return outcome;
+  if (outcome == Outcome::end && inflater_ && !inflater_->is_whole())
+    fail("damaged gzip data (it ends too early)");
+  if (!has_begun_) {
+    // A gzip file begins with these two bytes.
+    if (outcome == Outcome::text && filled_ < 2 && buffer_[0] == '\x1f') return Outcome::quiet;
+    has_begun_ = true;
+    if (filled_ >= 2 && buffer_[0] == '\x1f' && buffer_[1] == '\x8b')
+      inflater_ = std::make_unique<Inflater>();
+  }
+  if (filled_ == 0) return Outcome::end;
+  if (!inflater_) {
+    text = {buffer_.data(), filled_};
+    return Outcome::text;
+  }
+  inflater_->feed(buffer_.data(), filled_);
+  text = inflater_->next(damaged);
+  if (damaged) fail("damaged gzip data");
+  return text.empty() ? Outcome::quiet : Outcome::text;
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,77 @@
+// Reading JSON with simdjson: values that are what was expected, or nothing.
+#pragma once
+
+#include <simdjson.h>
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "kinesphere/vec3.hpp"
+#include "tracks/time_text.hpp"
+#include "watch/report_format.hpp"
+
+namespace kinesphere::program {
+
+namespace ondemand = simdjson::ondemand;
+
+/// Keeps the text of a document with the room behind it that simdjson reads.
+class JsonDocumentReader {
+ public:
+  /// The document is valid until the next call. Throws MalformedRecord.
+  ondemand::document open(std::string_view text) {
+    text_.assign(text);
+    text_.reserve(text.size() + simdjson::SIMDJSON_PADDING);
+    ondemand::document document;
+    if (const auto error = parser_.iterate(text_.data(), text_.size(), text_.capacity()).get(document))
+      throw MalformedRecord(std::string("expected JSON: ") + simdjson::error_message(error));
+    return document;
+  }
+
+ private:
+  ondemand::parser parser_;
+  std::string text_;
+};
+
+/// A number; nothing for null. Sets `wrong` to `name` for anything else.
+inline std::optional<double> number_in(ondemand::value value, const char* name, const char*& wrong) {
+  const ondemand::json_type type = value.type();
+  if (type == ondemand::json_type::number) return double(value.get_double());
+  if (type != ondemand::json_type::null) wrong = name;
+  return std::nullopt;
+}
+
+/// Its text is valid as long as the document.
+inline std::optional<std::string_view> text_in(ondemand::value value, const char* name, const char*& wrong) {
+  const ondemand::json_type type = value.type();
+  if (type == ondemand::json_type::string) return std::string_view(value.get_string());
+  if (type != ondemand::json_type::null) wrong = name;
+  return std::nullopt;
+}
+
+/// Up to 2^61 seconds.
+inline FileTime time_of(double seconds) {
+  const double whole = std::floor(seconds);
+  return {static_cast<std::int64_t>(whole), seconds - whole};
+}
+
+inline FileTime later_by(FileTime time, double seconds) {
+  const double fraction = time.fraction + seconds;
+  const double whole = std::floor(fraction);
+  return {time.whole + static_cast<std::int64_t>(whole), fraction - whole};
+}
+
+inline bool is_time(double seconds) { return std::abs(seconds) < 0x1p61; }
+
+inline bool is_place(double longitude, double latitude) {
+  return std::abs(latitude) <= 90.0 && std::abs(longitude) <= 360.0;
+}
+
+/// A speed over ground and the direction it goes to, in degrees clockwise from north.
+inline Vec3 going(double speed, double course, double climb) {
+  constexpr double degree = 3.14159265358979323846 / 180.0;
+  return {speed * std::sin(course * degree), speed * std::cos(course * degree), climb};
+}
+
+}  // namespace kinesphere::program

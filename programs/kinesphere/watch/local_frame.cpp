@@ -1,0 +1,130 @@
+// A plane map of a part of the earth, and how wrong it can be.
+#include "watch/local_frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "program_error.hpp"
+
+#ifdef KINESPHERE_WITH_GEOGRAPHICLIB
+#include <GeographicLib/AzimuthalEquidistant.hpp>
+#endif
+
+namespace kinesphere::program {
+namespace {
+
+constexpr double polar_radius = 6356752.0;  // rounded down
+constexpr double mean_radius = 6371000.0;
+constexpr double degree_of_arc = 3.14159265358979323846 / 180.0;
+
+}  // namespace
+
+#ifdef KINESPHERE_WITH_GEOGRAPHICLIB
+
+class LocalFrame::Projector {
+ public:
+  struct Point {
+    double x = 0, y = 0;
+    double azimuth = 0;           ///< of the way from the origin, where it arrives
+    double reciprocal_scale = 0;  ///< m / r
+  };
+  Point forward(double latitude, double longitude, const Vec3& geographic) const {
+    Point point;
+    map_.Forward(latitude, longitude, geographic.y, geographic.x, point.x, point.y, point.azimuth,
+                 point.reciprocal_scale);
+    return point;
+  }
+  Vec3 reverse(double latitude, double longitude, const Vec3& position) const {
+    Vec3 result{0, 0, position.z};
+    map_.Reverse(latitude, longitude, position.x, position.y, result.y, result.x);
+    return result;
+  }
+
+ private:
+  GeographicLib::AzimuthalEquidistant map_;
+};
+
+#else
+
+class LocalFrame::Projector {
+ public:
+  struct Point {
+    double x = 0, y = 0, azimuth = 0, reciprocal_scale = 1;
+  };
+  Projector() {
+    throw ProgramError(
+        "watch: latitudes and longitudes need GeographicLib, and this program was built without it "
+        "(libgeographiclib-dev)");
+  }
+  Point forward(double, double, const Vec3&) const { return {}; }
+  Vec3 reverse(double, double, const Vec3&) const { return {}; }
+};
+
+#endif
+
+LocalFrame::LocalFrame(double latitude, double longitude, double radius, double margin)
+    : latitude_(latitude),
+      longitude_(longitude),
+      radius_(radius),
+      outer_radius_(radius + margin),
+      projector_(std::make_unique<Projector>()) {
+  // The disc must stay convex.
+  const double angle = std::min(outer_radius_ / polar_radius, 1.5);
+  stretch_ = angle / std::sin(angle) * (1.0 + 1e-12);
+}
+
+LocalFrame::~LocalFrame() = default;
+LocalFrame::LocalFrame(LocalFrame&&) noexcept = default;
+LocalFrame& LocalFrame::operator=(LocalFrame&&) noexcept = default;
+
+std::optional<LocalFrame::Placed> LocalFrame::place(const Vec3& geographic, bool has_height,
+                                                    const Vec3& velocity) const {
+  const auto point = projector_->forward(latitude_, longitude_, geographic);
+  const double distance = std::hypot(point.x, point.y);
+  if (!(distance <= radius_) || std::abs(geographic.z) > largest_height) return std::nullopt;
+  const double height = has_height ? geographic.z : 0.0;
+  const double on_ground = mean_radius / (mean_radius + height);
+  const double along_azimuth = point.azimuth * degree_of_arc;
+  const Vec3 along{std::sin(along_azimuth), std::cos(along_azimuth), 0.0};
+  const Vec3 across{along.y, -along.x, 0.0};
+  const double speed_along = dot(velocity, along) * on_ground;
+  const double speed_across = dot(velocity, across) * on_ground / point.reciprocal_scale;
+  // At the origin itself, where there is no way to it, GeographicLib tells an azimuth of 0.
+  const Vec3 outward = distance > 0.0 ? Vec3{point.x / distance, point.y / distance, 0.0} : along;
+  const Vec3 sideward{outward.y, -outward.x, 0.0};
+  Placed placed;
+  placed.state.position = {point.x, point.y, geographic.z};
+  placed.state.velocity = outward * speed_along + sideward * speed_across;
+  placed.state.velocity.z = velocity.z;
+  const double uncertain_height = has_height ? 1500.0 + 0.01 * std::abs(height) : largest_height;
+  placed.velocity_error = stretch_ * std::hypot(velocity.x, velocity.y) * uncertain_height / polar_radius;
+  return placed;
+}
+
+Vec3 LocalFrame::geographic(const Vec3& position) const {
+  return projector_->reverse(latitude_, longitude_, position);
+}
+
+TrackClass LocalFrame::promise(const Spread& acceleration, const Spread& largest_speed) const {
+  TrackClass promise;
+  const double fastest = largest_speed.horizontal(), steepest = largest_speed.vertical();
+  if (std::isfinite(largest_speed.total()))
+    promise.largest_speed = Spread::cylinder(stretch_ * fastest, steepest);
+  if (std::isfinite(acceleration.total())) {
+    const double curving = 1.2 * stretch_ * stretch_ * outer_radius_ / (polar_radius * polar_radius) +
+                           largest_height / (polar_radius * polar_radius);
+    promise.acceleration_limit =
+        Spread::cylinder(stretch_ * acceleration.horizontal() + curving * fastest * fastest +
+                             fastest * steepest / polar_radius,
+                         acceleration.vertical());
+  }
+  return promise;
+}
+
+Separation LocalFrame::separation(const Separation& separation) const {
+  Separation on_map = separation;
+  on_map.horizontal *= stretch_;
+  return on_map;
+}
+
+}  // namespace kinesphere::program

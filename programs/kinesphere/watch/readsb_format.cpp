@@ -1,0 +1,171 @@
+// aircraft.json of readsb, dump1090 and tar1090: what a receiver of ADS-B knows of all aircraft at one time.
+#include <fmt/format.h>
+
+#include <array>
+
+#include "watch/json_reading.hpp"
+#include "watch/measures.hpp"
+#include "watch/report_format.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+constexpr double unknown_accuracy = std::numeric_limits<double>::infinity();
+
+// 95 % of errors are less (DO-260B, tables 2-71 and 2-72): metres and metres per second.
+constexpr std::array position_accuracies{
+    unknown_accuracy, 18520.0, 7408.0, 3704.0, 1852.0, 926.0, 555.6, 185.2, 92.6, 30.0, 10.0, 3.0};
+constexpr std::array velocity_accuracies{unknown_accuracy, 10.0, 3.0, 1.0, 0.3};
+constexpr std::array climb_accuracies{unknown_accuracy, 50.0 * foot, 15.0 * foot, 5.0 * foot, 1.5 * foot};
+constexpr std::array height_accuracies{unknown_accuracy, 150.0, 45.0};
+
+template <std::size_t count>
+double accuracy(const std::array<double, count>& accuracies, double category) {
+  if (!(category >= 0.0 && category < static_cast<double>(count))) return unknown_accuracy;
+  return accuracies[static_cast<std::size_t>(category)];
+}
+
+/// One object of the list "aircraft", in its own units.
+struct AircraftEntry {
+  std::optional<std::string_view> hex;
+  std::optional<double> lat, lon, alt_baro, alt_geom, gs, track, baro_rate, geom_rate, seen_pos, rc, nac_p,
+      nac_v, gva;
+  const char* wrong = nullptr;
+
+  void read(ondemand::object object) {
+    for (auto field : object) {
+      const std::string_view key = field.unescaped_key();
+      ondemand::value value = field.value();
+      if (key == "hex") {
+        hex = text_in(value, "hex", wrong);
+      } else if (key == "alt_baro") {
+        // "ground" is no height.
+        if (value.type() == ondemand::json_type::number) alt_baro = double(value.get_double());
+      } else {
+        for (const auto& [name, place] : numbers)
+          if (key == name) {
+            this->*place = number_in(value, name, wrong);
+            break;
+          }
+      }
+    }
+  }
+
+  struct Number {
+    const char* name;
+    std::optional<double> AircraftEntry::*place;
+  };
+  static const std::array<Number, 12> numbers;
+};
+
+const std::array<AircraftEntry::Number, 12> AircraftEntry::numbers{{{"lat", &AircraftEntry::lat},
+                                                                    {"lon", &AircraftEntry::lon},
+                                                                    {"gs", &AircraftEntry::gs},
+                                                                    {"track", &AircraftEntry::track},
+                                                                    {"seen_pos", &AircraftEntry::seen_pos},
+                                                                    {"rc", &AircraftEntry::rc},
+                                                                    {"nac_p", &AircraftEntry::nac_p},
+                                                                    {"nac_v", &AircraftEntry::nac_v},
+                                                                    {"baro_rate", &AircraftEntry::baro_rate},
+                                                                    {"alt_geom", &AircraftEntry::alt_geom},
+                                                                    {"geom_rate", &AircraftEntry::geom_rate},
+                                                                    {"gva", &AircraftEntry::gva}}};
+
+class ReadsbFormat final : public ReportFormat {
+ public:
+  explicit ReadsbFormat(const FormatChoices& choices)
+      : choices_(choices),
+        nac_p_(fmt::format("{} times the 95 % of nac_p", choices.containment)),
+        nac_v_(fmt::format("{} times the 95 % of nac_v", choices.containment)),
+        gva_(fmt::format("{} times the 95 % of gva", choices.containment)) {}
+
+  void read(const Record& record, ReportSink& sink) override try {
+    if (!record.is_whole) throw MalformedRecord("expected a whole JSON document, but it is cut off");
+    ondemand::document document = reader_.open(record.text);
+    ondemand::object all = document.get_object();
+    double now = 0.0;
+    if (all["now"].get(now) || !is_time(now)) throw MalformedRecord("expected \"now\": seconds");
+    const FileTime arrival = time_of(now);
+    sink.time_is(arrival, TimeKind::number);
+    ondemand::array list;
+    if (all["aircraft"].get(list)) throw MalformedRecord("expected \"aircraft\": a list");
+    for (ondemand::value element : list) {
+      ondemand::object object;
+      if (element.get_object().get(object)) throw MalformedRecord("expected objects in \"aircraft\"");
+      AircraftEntry entry;
+      entry.read(object);
+      hand_over(entry, arrival, record.line, sink);
+    }
+  } catch (const simdjson::simdjson_error& error) {
+    throw MalformedRecord(std::string("expected JSON: ") + error.what());
+  }
+
+ private:
+  void hand_over(const AircraftEntry& entry, const FileTime& arrival, std::size_t line, ReportSink& sink) {
+    if (entry.wrong != nullptr || !entry.hex || entry.hex->empty())
+      return sink.refuse(
+          line, entry.wrong == nullptr || !entry.hex
+                    ? std::string("expected \"hex\" in each aircraft")
+                    : fmt::format("expected a number as \"{}\" of aircraft {}", entry.wrong, *entry.hex));
+    if (!entry.lat || !entry.lon || !entry.seen_pos) return sink.pass_over(Passed::no_position);
+    if (!is_place(*entry.lon, *entry.lat) || !(*entry.seen_pos >= 0.0 && *entry.seen_pos < 1e9))
+      return sink.refuse(
+          line,
+          fmt::format(
+              "expected a latitude, a longitude and seen_pos >= 0 of aircraft {}, but got {}, {} and {}",
+              *entry.hex, *entry.lat, *entry.lon, *entry.seen_pos));
+    SourceReport report{.id = *entry.hex, .stamp = later_by(arrival, -*entry.seen_pos), .arrival = arrival};
+    report.geographic = true;
+    report.position = {*entry.lon, *entry.lat, 0.0};
+    // The same place again is told as one tenth of a second earlier or later.
+    report.same_within = 0.25;
+    add_errors(entry, report);
+    if (report.position_error && std::isinf(report.position_error->bound))
+      return sink.pass_over(Passed::no_bound);
+    add_height(entry, report);
+    sink.take(report);
+  }
+
+  void add_errors(const AircraftEntry& entry, SourceReport& report) const {
+    const bool has_radius = entry.rc && *entry.rc > 0.0;
+    if (has_radius &&
+        (choices_.position_bound == FormatChoices::PositionBound::containment_radius || !entry.nac_p))
+      report.position_error = {*entry.rc, "rc"};
+    else if (entry.nac_p)
+      report.position_error = {choices_.containment * accuracy(position_accuracies, *entry.nac_p), nac_p_};
+    else if (entry.rc)
+      report.position_error = {unknown_accuracy, "rc"};
+    if (entry.nac_v) {
+      report.velocity_error = {choices_.containment * accuracy(velocity_accuracies, *entry.nac_v), nac_v_};
+      report.climb_error = {choices_.containment * accuracy(climb_accuracies, *entry.nac_v), nac_v_};
+    }
+  }
+
+  void add_height(const AircraftEntry& entry, SourceReport& report) const {
+    const bool barometric = choices_.altitude == FormatChoices::Altitude::barometric;
+    const auto& height = barometric ? entry.alt_baro : entry.alt_geom;
+    if (height) {
+      report.position.z = *height * foot;
+      report.has_height = true;
+      if (!barometric && entry.gva && *entry.gva > 0.0)
+        report.height_error = {choices_.containment * accuracy(height_accuracies, *entry.gva), gva_};
+    }
+    auto climb = barometric ? entry.baro_rate : entry.geom_rate;
+    if (!climb) climb = barometric ? entry.geom_rate : entry.baro_rate;
+    report.has_climb = climb.has_value();
+    if (entry.gs && entry.track)
+      report.velocity = going(*entry.gs * knot, *entry.track, climb.value_or(0.0) * foot / 60.0);
+  }
+
+  FormatChoices choices_;
+  std::string nac_p_, nac_v_, gva_;
+  JsonDocumentReader reader_;
+};
+
+}  // namespace
+
+std::unique_ptr<ReportFormat> make_readsb_format(const FormatChoices& choices) {
+  return std::make_unique<ReadsbFormat>(choices);
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,165 @@
+// The formats of streams: their names, what they look like, and what is taken for granted in them.
+#include "watch/report_format.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "tracks/column_names.hpp"
+#include "watch/measures.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+constexpr std::pair<std::string_view, StreamFormat> stream_formats[] = {
+    {"readsb", StreamFormat::readsb}, {"sbs", StreamFormat::sbs}, {"opensky", StreamFormat::opensky},
+    {"ais", StreamFormat::ais},       {"csv", StreamFormat::csv}, {"jsonl", StreamFormat::jsonl}};
+
+/// 92.6 m and 10 m/s (both 95 %) are what 14 CFR 91.227 and (EU) 1207/2011 ask of those who must have ADS-B
+/// (NACp 8, NACv 1); 75 m is what ICAO Doc 9574 allows an altimeter to be off, and half of 25 ft is the step
+/// of its reports.
+FormatDefaults of_aircraft() {
+  constexpr double declared = 2.5;
+  return {.acceleration = Spread::cylinder(6.0, 3.0),
+          .largest_speed = Spread::cylinder(400.0, 60.0),
+          .position_error = declared * 92.6,
+          .height_error = 75.0 + 12.5 * foot,
+          .velocity_error = declared * 10.0,
+          .climb_error = declared * 50.0 * foot,
+          .stamp_error = 0.6,
+          .velocity_age = 2.0,
+          .silence = 15.0,
+          .forget = 60.0,
+          .window = 1.0};
+}
+
+FormatDefaults of_vessels() {
+  constexpr double declared = 2.5;
+  return {.dimensions = 2,
+          .acceleration = Spread(0.3),
+          .largest_speed = Spread(30.0),
+          .position_error = declared * 10.0,
+          .height_error = 0.0,
+          .velocity_error = declared * 0.5,
+          .climb_error = 0.0,
+          .stamp_error = 1.0,
+          .silence = 210.0,
+          .forget = 600.0,
+          .window = 16.0};
+}
+
+/// Whether an object that begins with `line` has this key, not inside of another.
+bool has_key(std::string_view line, std::string_view key) {
+  int depth = 0;
+  for (std::size_t at = 0; at < line.size(); ++at) {
+    const char c = line[at];
+    if (c == '{' || c == '[') ++depth;
+    if (c == '}' || c == ']') --depth;
+    if (c != '"') continue;
+    const std::size_t begin = at + 1;
+    for (at = begin; at < line.size() && line[at] != '"'; ++at)
+      if (line[at] == '\\') ++at;
+    if (at >= line.size()) return false;
+    if (depth == 1 && line.substr(begin, at - begin) == key) {
+      const std::size_t next = line.find_first_not_of(" \t", at + 1);
+      if (next != std::string_view::npos && line[next] == ':') return true;
+    }
+  }
+  return false;
+}
+
+bool has_column(std::string_view header, std::string_view name) {
+  while (!header.empty()) {
+    std::string_view field = header.substr(0, header.find(','));
+    header.remove_prefix(std::min(field.size() + 1, header.size()));
+    if (same_name(field, name)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string_view name_of(StreamFormat format) {
+  for (const auto& [name, each] : stream_formats)
+    if (each == format) return name;
+  return "unknown";
+}
+
+std::optional<StreamFormat> stream_format_named(std::string_view name) {
+  for (const auto& [each, format] : stream_formats)
+    if (each == name) return format;
+  return std::nullopt;
+}
+
+FormatDefaults defaults_of(StreamFormat format) {
+  switch (format) {
+    case StreamFormat::readsb:
+    case StreamFormat::sbs:
+      return of_aircraft();
+    case StreamFormat::opensky: {
+      FormatDefaults defaults = of_aircraft();
+      // Whole seconds, and snapshots that are about ten seconds apart.
+      defaults.stamp_error = 1.0;
+      defaults.silence = 30.0;
+      defaults.forget = 120.0;
+      defaults.window = 8.0;
+      return defaults;
+    }
+    case StreamFormat::ais:
+      return of_vessels();
+    case StreamFormat::csv:
+    case StreamFormat::jsonl:
+      break;
+  }
+  return {.geographic = false};
+}
+
+RecordCutter::Kind records_of(StreamFormat format) {
+  return format == StreamFormat::readsb || format == StreamFormat::opensky ? RecordCutter::Kind::documents
+                                                                           : RecordCutter::Kind::lines;
+}
+
+std::optional<StreamFormat> recognised_format(std::string_view beginning) {
+  if (beginning.starts_with("\xEF\xBB\xBF")) beginning.remove_prefix(3);
+  const std::size_t first = beginning.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos) return std::nullopt;
+  std::string_view line = beginning.substr(first);
+  line = line.substr(0, line.find('\n'));
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  for (const std::string_view type : {"MSG,", "SEL,", "ID,", "AIR,", "STA,", "CLK,"})
+    if (line.starts_with(type)) return StreamFormat::sbs;
+  if (line.starts_with('{')) {
+    if (has_key(line, "aircraft") || has_key(line, "now")) return StreamFormat::readsb;
+    if (has_key(line, "states") || has_key(line, "time")) return StreamFormat::opensky;
+    if (has_key(line, "stamp")) return StreamFormat::jsonl;
+    return std::nullopt;
+  }
+  if (has_column(line, "MMSI") && (has_column(line, "BaseDateTime") || has_column(line, "base_date_time")))
+    return StreamFormat::ais;
+  // A header of names.
+  const bool has_letters =
+      std::any_of(line.begin(), line.end(), [](char c) { return ('a' <= (c | 32) && (c | 32) <= 'z'); });
+  if (has_letters && line.find_first_of(",;\t") != std::string_view::npos && !line.starts_with('!') &&
+      !line.starts_with('$') && !line.starts_with('\\'))
+    return StreamFormat::csv;
+  return std::nullopt;
+}
+
+std::unique_ptr<ReportFormat> make_format(StreamFormat format, const FormatChoices& choices) {
+  switch (format) {
+    case StreamFormat::readsb:
+      return make_readsb_format(choices);
+    case StreamFormat::sbs:
+      return make_sbs_format(choices);
+    case StreamFormat::opensky:
+      return make_opensky_format(choices);
+    case StreamFormat::ais:
+      return make_ais_format(choices);
+    case StreamFormat::csv:
+      return make_csv_format(choices);
+    case StreamFormat::jsonl:
+      break;
+  }
+  return make_json_lines_format(choices);
+}
+
+}  // namespace kinesphere::program

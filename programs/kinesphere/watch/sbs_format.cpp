@@ -1,0 +1,136 @@
+// SBS-1 BaseStation messages, as dump1090 and readsb give them out on port 30003. A message tells either
+// where an aircraft is or how it moves: the two are put together here.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "number_text.hpp"
+#include "watch/json_reading.hpp"
+#include "watch/line_fields.hpp"
+#include "watch/measures.hpp"
+#include "watch/report_format.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+/// Places of fields.
+namespace sbs {
+constexpr std::size_t message = 0, type = 1, hex = 4, made_date = 6, made_time = 7, logged_date = 8,
+                      logged_time = 9, altitude = 11, speed = 12, course = 13, latitude = 14, longitude = 15,
+                      climb = 16, count = 17;
+}
+
+double seconds_after(const FileTime& later, const FileTime& earlier) {
+  return static_cast<double>(later.whole - earlier.whole) + (later.fraction - earlier.fraction);
+}
+
+class SbsFormat final : public ReportFormat {
+ public:
+  explicit SbsFormat(FormatChoices choices) : choices_(std::move(choices)) {}
+
+  void read(const Record& record, ReportSink& sink) override {
+    if (!record.is_whole) throw MalformedRecord("expected a line, but it is too long");
+    if (!split_fields(record.text, ',', fields_)) throw MalformedRecord("expected a quote that ends a field");
+    const std::string_view message = fields_[sbs::message];
+    for (const std::string_view other : {"SEL", "ID", "AIR", "STA", "CLK"})
+      if (message == other) return;
+    if (message != "MSG")
+      throw MalformedRecord(
+          fmt::format("expected a message of SBS (MSG,...), but got '{}'", message.substr(0, 20)));
+    if (fields_.size() < sbs::count)
+      throw MalformedRecord(fmt::format("expected 22 fields, but got {}", fields_.size()));
+    const std::string_view type = fields_[sbs::type];
+    const bool is_position = type == "2" || type == "3", is_velocity = type == "4";
+    if (!is_position && !is_velocity) return;
+    if (fields_[sbs::hex].empty()) throw MalformedRecord("expected the address of an aircraft (field 5)");
+    const TimeField made = time_at(sbs::made_date, sbs::made_time);
+    const TimeField logged = time_at(sbs::logged_date, sbs::logged_time);
+    forget_old(logged.time);
+    if (is_velocity) return keep_velocity(made.time);
+    if (fields_[sbs::latitude].empty() || fields_[sbs::longitude].empty())
+      return sink.pass_over(Passed::no_position);
+    sink.take(report_at(made, logged.time));
+  }
+
+ private:
+  struct Velocity {
+    FileTime time;
+    Vec3 velocity;
+    bool has_climb = false;
+  };
+
+  TimeField time_at(std::size_t date, std::size_t clock) {
+    text_.assign(fields_[date]);
+    std::replace(text_.begin(), text_.end(), '/', '-');
+    text_ += 'T';
+    text_ += fields_[clock];
+    const auto parsed = parse_date_time(text_);
+    if (!parsed)
+      throw MalformedRecord(
+          fmt::format("expected a date and a time (fields {} and {}), but got '{}' and '{}'", date + 1,
+                      clock + 1, fields_[date], fields_[clock]));
+    return {parsed->time, TimeKind::date};
+  }
+  double number_at(std::size_t place, const char* what) const {
+    if (const auto number = parse_number(fields_[place])) return *number;
+    throw MalformedRecord(
+        fmt::format("expected a number as {} (field {}), but got '{}'", what, place + 1, fields_[place]));
+  }
+
+  void keep_velocity(const FileTime& time) {
+    if (fields_[sbs::speed].empty() || fields_[sbs::course].empty()) return;
+    const bool has_climb = !fields_[sbs::climb].empty();
+    const double climb = has_climb ? number_at(sbs::climb, "a climb") * foot / 60.0 : 0.0;
+    const double speed = number_at(sbs::speed, "a speed") * knot, course = number_at(sbs::course, "a course");
+    velocities_[std::string(fields_[sbs::hex])] = {time, going(speed, course, climb), has_climb};
+  }
+
+  SourceReport report_at(const TimeField& made, const FileTime& logged) {
+    SourceReport report{
+        .id = fields_[sbs::hex], .stamp = made.time, .arrival = logged, .time_kind = made.kind};
+    report.geographic = true;
+    report.position = {number_at(sbs::longitude, "a longitude"), number_at(sbs::latitude, "a latitude"), 0.0};
+    if (!is_place(report.position.x, report.position.y))
+      throw MalformedRecord(
+          fmt::format("expected a latitude and a longitude (fields 15 and 16), but got {} and {}",
+                      report.position.y, report.position.x));
+    report.has_height = !fields_[sbs::altitude].empty();
+    if (report.has_height) report.position.z = number_at(sbs::altitude, "an altitude") * foot;
+    text_.assign(report.id);
+    if (const auto known = velocities_.find(text_); known != velocities_.end()) {
+      const double age = std::abs(seconds_after(made.time, known->second.time));
+      if (age <= choices_.velocity_age) {
+        report.velocity = known->second.velocity;
+        report.has_climb = known->second.has_climb;
+        report.velocity_age = age;
+      }
+    }
+    return report;
+  }
+
+  /// Velocities that are too old for any report to come: from time to time, so that it costs next to nothing.
+  void forget_old(const FileTime& now) {
+    if (++messages_ % 65536 != 0) return;
+    std::erase_if(velocities_, [&](const auto& entry) {
+      return std::abs(seconds_after(now, entry.second.time)) > choices_.velocity_age + 60.0;
+    });
+  }
+
+  FormatChoices choices_;
+  std::vector<std::string_view> fields_;
+  std::string text_;
+  std::unordered_map<std::string, Velocity> velocities_;
+  std::uint64_t messages_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<ReportFormat> make_sbs_format(const FormatChoices& choices) {
+  return std::make_unique<SbsFormat>(choices);
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,21 @@
+// Separations of the command line.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinesphere/monitor/separation.hpp"
+
+namespace kinesphere::program {
+
+struct NamedSeparation {
+  std::string name;  ///< as it was given
+  Separation separation;
+};
+
+/// "sphere:50", "cylinder:5NM:1000ft", "ellipsoid:5NM:1000ft"; blanks will do instead of colons. Throws
+/// ProgramError.
+NamedSeparation parse_separation(const std::string& text);
+
+}  // namespace kinesphere::program

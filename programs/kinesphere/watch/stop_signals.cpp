@@ -1,0 +1,61 @@
+#include "watch/stop_signals.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <string>
+
+#include "program_error.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+volatile std::sig_atomic_t stop_was_asked = 0;
+int stop_pipe[2] = {-1, -1};
+
+/// Calls nothing but what a handler may call.
+void ask_to_stop(int) {
+  const int error = errno;
+  stop_was_asked = 1;
+  // When the pipe is full it can be read from already.
+  [[maybe_unused]] const auto ignored = ::write(stop_pipe[1], "", 1);
+  errno = error;
+}
+
+void handle_stops(void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  // What is being written goes on to be written; poll() returns. A second signal stops the program at once.
+  action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
+  ::sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
+}
+
+}  // namespace
+
+StopSignals::StopSignals() {
+  if (::pipe(stop_pipe) != 0)
+    throw ProgramError(std::string("watch: cannot make a pipe: ") + std::strerror(errno));
+  for (const int end : stop_pipe) {
+    ::fcntl(end, F_SETFL, O_NONBLOCK);
+    ::fcntl(end, F_SETFD, FD_CLOEXEC);
+  }
+  stop_was_asked = 0;
+  handle_stops(ask_to_stop);
+}
+
+StopSignals::~StopSignals() {
+  handle_stops(SIG_DFL);
+  for (int& end : stop_pipe) {
+    ::close(end);
+    end = -1;
+  }
+}
+
+bool StopSignals::asked() const { return stop_was_asked != 0; }
+int StopSignals::descriptor() const { return stop_pipe[0]; }
+
+}  // namespace kinesphere::program

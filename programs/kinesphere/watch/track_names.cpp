@@ -1,0 +1,27 @@
+// The tracks of a watch by their ids in the stream.
+#include "watch/track_names.hpp"
+
+namespace kinesphere::program {
+
+TrackId track_id_of(std::string_view text) {
+  // FNV-1a, and the mixing of splitmix64 behind it.
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9u;
+  hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebu;
+  return hash ^ (hash >> 31);
+}
+
+const std::string& TrackNames::text(TrackId id) const {
+  static const std::string none;
+  const NamedTrack* const track = find(id);
+  return track != nullptr ? track->text : none;
+}
+
+NamedTrack& TrackNames::add(TrackId id, std::string_view text) {
+  NamedTrack& track = names_[id];
+  track.text.assign(text);
+  return track;
+}
+
+}  // namespace kinesphere::program

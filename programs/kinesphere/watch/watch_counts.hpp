@@ -1,0 +1,39 @@
+// What came of a stream.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kinesphere/monitor/monitor.hpp"
+
+namespace kinesphere::program {
+
+struct MalformedLine {
+  std::size_t line = 0;
+  std::string reason;
+};
+
+struct WatchCounts {
+  // Reports that were not taken.
+  std::uint64_t repeated = 0;  ///< the same place at the same time as before
+  std::uint64_t stale = 0;     ///< from before the time at which their track would have been forgotten
+  std::uint64_t ahead = 0;     ///< stamped ahead by more than the limit, and not confirmed
+  std::uint64_t outside = 0;   ///< beyond the radius of the map
+  std::uint64_t no_position = 0;
+  std::uint64_t no_height = 0;
+  std::uint64_t no_bound = 0;
+  std::uint64_t malformed = 0;
+  std::vector<MalformedLine> first_malformed;  ///< ten at most
+
+  std::uint64_t alerts = 0;
+  std::array<std::uint64_t, 6> events{};  ///< by MonitorEventKind
+  /// Verdicts, by separation: that two turned undecided, within, and apart again.
+  struct Turns {
+    std::uint64_t apart = 0, undecided = 0, within = 0;
+  };
+  std::vector<Turns> turns;
+};
+
+}  // namespace kinesphere::program

@@ -1,0 +1,114 @@
+// From the command line to what a watch goes by.
+#include "watch/watch_options.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "number_text.hpp"
+#include "program_error.hpp"
+#include "watch/local_frame.hpp"
+#include "watch/measures.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+constexpr double no_promise = std::numeric_limits<double>::infinity();
+
+std::string spread_text(const Spread& spread) {
+  if (!std::isfinite(spread.total())) return "any";
+  return spread.horizontal() == spread.vertical()
+             ? fmt::format("{:.4g}", spread.horizontal())
+             : fmt::format("{:.4g}:{:.4g}", spread.horizontal(), spread.vertical());
+}
+
+/// "3" or "3:1".
+void set_errors(const std::string& given, Measure measure, std::string_view option, FallbackError& flat,
+                FallbackError& upright) {
+  if (given.empty()) return;
+  const Spread spread = parse_spread(given, measure, option);
+  const bool has_upright = given.find(':') != std::string::npos;
+  flat = {spread.horizontal(), fmt::format("{:.4g} ({})", spread.horizontal(), option)};
+  if (has_upright)
+    upright = {spread.vertical(), fmt::format("{:.4g} ({})", spread.vertical(), option)};
+  else if (upright.bound)
+    upright = flat;
+}
+
+WatchSettings::Clock clock_named(const std::string& name) {
+  if (name == "stream") return WatchSettings::Clock::stream;
+  if (name == "stamps") return WatchSettings::Clock::stamps;
+  if (name == "arrival") return WatchSettings::Clock::machine;
+  throw ProgramError(fmt::format("--clock: expected stream, stamps or arrival, but got '{}'", name));
+}
+
+/// LAT,LON
+WatchSettings::Origin parse_origin(const std::string& text) {
+  const std::size_t comma = std::min(text.find(','), text.size());
+  const auto latitude = parse_number(std::string_view(text).substr(0, comma));
+  const auto longitude = parse_number(std::string_view(text).substr(std::min(comma + 1, text.size())));
+  if (!latitude || !longitude || std::abs(*latitude) > 90.0 || std::abs(*longitude) > 360.0)
+    throw ProgramError(fmt::format("--origin: expected LATITUDE,LONGITUDE in degrees, but got '{}'", text));
+  return {*latitude, *longitude};
+}
+
+double positive_time(const std::string& given, std::string_view option, double otherwise) {
+  if (given.empty()) return otherwise;
+  const double time = parse_measure(given, Measure::time, option);
+  if (time > 0.0) return time;
+  throw ProgramError(fmt::format("{}: expected a time > 0, but got '{}'", option, given));
+}
+
+}  // namespace
+
+WatchSettings settings_of(const WatchOptions& options, StreamFormat format, const std::string& source) {
+  const FormatDefaults defaults = defaults_of(format);
+  WatchSettings settings;
+  settings.source = source;
+  for (const std::string& text : options.separations) settings.separations.push_back(parse_separation(text));
+  settings.dimensions = options.dimensions;
+  if (!settings.dimensions && defaults.geographic) settings.dimensions = defaults.dimensions;
+  const auto promised = [&](const std::string& given, Measure measure, std::string_view option,
+                            const std::optional<Spread>& otherwise) {
+    return given.empty() ? otherwise.value_or(Spread(no_promise)) : parse_spread(given, measure, option);
+  };
+  settings.acceleration =
+      promised(options.acceleration, Measure::acceleration, "--acceleration", defaults.acceleration);
+  settings.largest_speed =
+      promised(options.largest_speed, Measure::speed, "--largest-speed", defaults.largest_speed);
+  if (!std::isfinite(settings.acceleration.total()) && !std::isfinite(settings.largest_speed.total()))
+    throw ProgramError(fmt::format(
+        "--acceleration, --largest-speed: expected one of them, because {} does not say how tracks move",
+        name_of(format)));
+  settings.promise = fmt::format("acceleration: {}; speed: {}", spread_text(settings.acceleration),
+                                 spread_text(settings.largest_speed));
+  const auto by_default = [&](const std::optional<double>& bound) {
+    return FallbackError{bound, bound ? fmt::format("{:.4g} (default of {})", *bound, name_of(format)) : ""};
+  };
+  settings.position_error = by_default(defaults.position_error);
+  settings.height_error = by_default(defaults.height_error);
+  settings.velocity_error = by_default(defaults.velocity_error);
+  settings.climb_error = by_default(defaults.climb_error);
+  set_errors(options.position_error, Measure::length, "--position-error", settings.position_error,
+             settings.height_error);
+  set_errors(options.velocity_error, Measure::speed, "--velocity-error", settings.velocity_error,
+             settings.climb_error);
+  settings.stamp_error = options.stamp_error.empty()
+                             ? defaults.stamp_error
+                             : parse_measure(options.stamp_error, Measure::time, "--stamp-error");
+  settings.velocity_age = defaults.velocity_age;
+  settings.silence = positive_time(options.silence, "--silence", defaults.silence);
+  settings.forget = positive_time(options.forget, "--forget", defaults.forget);
+  settings.window = defaults.window;
+  settings.leap = positive_time(options.leap, "--leap", settings.leap);
+  settings.clock = clock_named(options.clock);
+  if (!options.origin.empty()) settings.origin = parse_origin(options.origin);
+  if (!options.radius.empty()) settings.radius = parse_measure(options.radius, Measure::length, "--radius");
+  if (!(settings.radius > 0.0 && settings.radius <= LocalFrame::largest_radius))
+    throw ProgramError(fmt::format("--radius: expected a radius > 0, at most {:.0f} km, but got '{}'",
+                                   LocalFrame::largest_radius / 1e3, options.radius));
+  if (options.most_malformed) settings.most_malformed = *options.most_malformed;
+  return settings;
+}
+
+}  // namespace kinesphere::program

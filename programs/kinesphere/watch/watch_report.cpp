@@ -1,0 +1,195 @@
+// What came of a watch, for a person and as JSON; its state, and metrics.
+#include "watch/watch_report.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "json_text.hpp"
+#include "summary.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+/// Names are those of the JSON and of the metrics.
+struct WatchCount {
+  const char* name;
+  const char* label;
+  const char* note;
+  std::uint64_t count;
+};
+
+std::vector<WatchCount> counts_of(const Watcher& watcher) {
+  const WatchCounts& counts = watcher.counts();
+  const MonitorCounters monitor = watcher.monitor_counters();
+  const auto events = [&](MonitorEventKind kind) { return counts.events[static_cast<std::size_t>(kind)]; };
+  return {
+      {"reports", "reports", "taken", monitor.reports},
+      {"late", "", "of them late: older than one before of the same track", monitor.late},
+      {"repeated", "", "repeated", counts.repeated + monitor.repeated},
+      {"stale", "", "too old: from before their track would have been forgotten (--forget)", counts.stale},
+      {"ahead", "", "stamped ahead, and not confirmed by others (--leap)", counts.ahead},
+      {"outside", "", "beyond the radius of the map (--radius, --origin)", counts.outside},
+      {"no_position", "", "without a position or its time", counts.no_position},
+      {"no_height", "", "without a height, on the ground for example", counts.no_height},
+      {"no_bound", "", "of unknown accuracy", counts.no_bound},
+      {"malformed", "", "malformed", counts.malformed},
+      {"alerts", "alerts", "", counts.alerts},
+      {"verdicts", "", "changes of what is certain", events(MonitorEventKind::verdict)},
+      {"contradictions", "", "contradictions", events(MonitorEventKind::contradiction)},
+      {"resolved", "", "contradictions resolved", events(MonitorEventKind::resolved)},
+      {"silent", "", "tracks fell silent", events(MonitorEventKind::silent)},
+      {"heard", "", "were heard again", events(MonitorEventKind::heard)},
+      {"left", "", "left", events(MonitorEventKind::left)},
+  };
+}
+
+bool is_always_shown(const WatchCount& count) { return *count.label != '\0'; }
+
+std::string place_fields(const Watcher& watcher, const TrackView::Place& place) {
+  const auto& frame = watcher.frame();
+  const Vec3 at = frame ? frame->geographic(place.centre) : place.centre;
+  const char* const position = frame ? R"("lon": {}, "lat": {}, "alt": {})" : R"("x": {}, "y": {}, "z": {})";
+  return fmt::format(
+      fmt::runtime(std::string("{{") + position + R"(, "velocity": [{}, {}, {}], "radius": [{}, {}]}})"),
+      json_number(at.x), json_number(at.y), json_number(at.z), json_number(place.velocity.x),
+      json_number(place.velocity.y), json_number(place.velocity.z), json_number(place.radius.horizontal()),
+      json_number(place.radius.vertical()));
+}
+
+void add_tracks(std::string& text, const Watcher& watcher) {
+  const AlertContext context = watcher.context();
+  const char* separator = "\n";
+  for (const TrackId id : context.monitor.tracks()) {
+    const TrackView view = context.monitor.track(id).value();
+    text += fmt::format(R"({}{{"id": {}, "stamp": {}, "silent": {}, "places": [)", separator,
+                        json_text(context.names.text(id)), json_time(context.times, view.stamp), view.silent);
+    const char* between = "";
+    for (const TrackView::Place& place : view.places) {
+      text += between + place_fields(watcher, place);
+      between = ", ";
+    }
+    text += "]}";
+    separator = ",\n";
+  }
+}
+
+void add_pairs(std::string& text, const Watcher& watcher) {
+  const AlertContext context = watcher.context();
+  const char* separator = "\n";
+  for (const OpenPair& pair : context.monitor.open_pairs()) {
+    const auto [first, second] = in_text_order(context.names, pair.first, pair.second);
+    text += fmt::format(
+        R"({}{{"first": {}, "second": {}, "separation": {}, "level": {}, "verdict": "{}", "since": {}, {}}})",
+        separator, json_text(context.names.text(first)), json_text(context.names.text(second)),
+        json_text(context.settings.separations[pair.level].name), pair.level, name_of(pair.verdict),
+        json_time(context.times, pair.since),
+        answer_fields(context, context.monitor.answer(pair.first, pair.second, pair.level).value()));
+    separator = ",\n";
+  }
+}
+
+void add_needs(std::string& text, const Watcher& watcher) {
+  const AlertContext context = watcher.context();
+  const char* separator = "\n";
+  for (const ReportNeed& need : context.monitor.needed(context.monitor.time() + context.settings.window)) {
+    text += fmt::format(R"({}{{"track": {}, "by": {}, "other": {}}})", separator,
+                        json_text(context.names.text(need.track)), json_time(context.times, need.by),
+                        json_text(context.names.text(need.other)));
+    separator = ",\n";
+  }
+}
+
+}  // namespace
+
+std::string watch_summary_text(const Watcher& watcher, std::string_view format, double real_seconds) {
+  Summary summary;
+  const WatchSettings& settings = watcher.settings();
+  summary.row("stream", settings.source, std::string(format));
+  summary.row("time", fmt::format("{} s", number(watcher.time_covered())),
+              fmt::format("{} to {}", watcher.first_time(), watcher.last_time()));
+  if (const auto& frame = watcher.frame())
+    summary.row("map", fmt::format("{} km", number(frame->radius() / 1e3)),
+                fmt::format("around {:.4f}, {:.4f}; its lengths are at most {:.2g} % too long",
+                            frame->latitude(), frame->longitude(), 100.0 * (frame->stretch() - 1.0)));
+  for (const WatchCount& count : counts_of(watcher))
+    if (is_always_shown(count) || count.count > 0) summary.row(count.label, grouped(count.count), count.note);
+  for (std::size_t level = 0; level < settings.separations.size(); ++level) {
+    const auto& turns = watcher.counts().turns[level];
+    summary.row("separation", settings.separations[level].name,
+                fmt::format("{} times undecided, {} times within, {} times apart again",
+                            grouped(turns.undecided), grouped(turns.within), grouped(turns.apart)));
+  }
+  for (const MalformedLine& line : watcher.counts().first_malformed)
+    summary.row("malformed", fmt::format("line {}", line.line), line.reason);
+  const double reports = static_cast<double>(watcher.monitor_counters().reports);
+  summary.row("real time", fmt::format("{} s", number(real_seconds)),
+              fmt::format("{} reports a second", number(reports / real_seconds)));
+  return summary.text();
+}
+
+std::string watch_summary_json(const Watcher& watcher, std::string_view format, double real_seconds) {
+  const WatchSettings& settings = watcher.settings();
+  std::string text = fmt::format(R"({{"stream": {}, "format": "{}", "from": {}, "to": {}, "seconds": {})",
+                                 json_text(settings.source), format, watcher.first_time(),
+                                 watcher.last_time(), json_number(watcher.time_covered()));
+  for (const WatchCount& count : counts_of(watcher))
+    text += fmt::format(R"(, "{}": {})", count.name, count.count);
+  text += fmt::format(R"(, "tracks": {}, "separations": [)", watcher.names().size());
+  const char* separator = "";
+  for (std::size_t level = 0; level < settings.separations.size(); ++level) {
+    const auto& turns = watcher.counts().turns[level];
+    text +=
+        fmt::format(R"({}{{"separation": {}, "undecided": {}, "within": {}, "apart": {}}})", separator,
+                    json_text(settings.separations[level].name), turns.undecided, turns.within, turns.apart);
+    separator = ", ";
+  }
+  text += R"(], "first_malformed": [)";
+  separator = "";
+  for (const MalformedLine& line : watcher.counts().first_malformed) {
+    text += fmt::format(R"({}{{"line": {}, "reason": {}}})", separator, line.line, json_text(line.reason));
+    separator = ", ";
+  }
+  return text + fmt::format("], \"real_seconds\": {}}}\n", json_number(real_seconds));
+}
+
+std::string watch_state_json(const Watcher& watcher) {
+  if (!watcher.monitor()) return "{\"time\": null, \"tracks\": [], \"pairs\": [], \"needed\": []}\n";
+  const AlertContext context = watcher.context();
+  std::string text =
+      fmt::format(R"({{"time": {}, "tracks": [)", json_time(context.times, context.monitor.time()));
+  add_tracks(text, watcher);
+  text += "],\n\"pairs\": [";
+  add_pairs(text, watcher);
+  text += "],\n\"needed\": [";
+  add_needs(text, watcher);
+  return text + "]}\n";
+}
+
+std::string watch_metrics(const Watcher& watcher) {
+  std::string text;
+  const auto add = [&](std::string_view name, std::string_view type, std::string_view help, double value) {
+    fmt::format_to(
+        std::back_inserter(text),
+        "# HELP kinesphere_watch_{0} {1}\n# TYPE kinesphere_watch_{0} {2}\nkinesphere_watch_{0} {3}\n", name,
+        help, type, value);
+  };
+  for (const WatchCount& count : counts_of(watcher))
+    add(std::string(count.name) + "_total", "counter", *count.note != '\0' ? count.note : "lines written",
+        static_cast<double>(count.count));
+  std::size_t silent = 0, undecided = 0, within = 0;
+  if (const auto& monitor = watcher.monitor()) {
+    for (const TrackId id : monitor->tracks()) silent += monitor->track(id).value().silent ? 1 : 0;
+    for (const OpenPair& pair : monitor->open_pairs())
+      ++(pair.verdict == Verdict::within ? within : undecided);
+  }
+  add("tracks", "gauge", "tracks that are watched", static_cast<double>(watcher.names().size()));
+  add("tracks_silent", "gauge", "of them silent", static_cast<double>(silent));
+  add("pairs_undecided", "gauge", "pairs and separations that are undecided", static_cast<double>(undecided));
+  add("pairs_within", "gauge", "pairs and separations that are certainly within",
+      static_cast<double>(within));
+  add("stream_seconds", "gauge", "time of the stream that has been watched", watcher.time_covered());
+  return text;
+}
+
+}  // namespace kinesphere::program

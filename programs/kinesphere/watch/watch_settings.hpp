@@ -1,0 +1,46 @@
+// What a watch goes by.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinesphere/monitor/report.hpp"
+#include "watch/separations.hpp"
+
+namespace kinesphere::program {
+
+/// A bound that holds where the stream has none, and who declares it.
+struct FallbackError {
+  std::optional<double> bound{};
+  std::string declaration{};
+};
+
+struct WatchSettings {
+  std::vector<NamedSeparation> separations;
+  std::optional<int> dimensions;  ///< empty: three if the first report has a height
+  // Promises. Infinite: none.
+  Spread acceleration = std::numeric_limits<double>::infinity();
+  Spread largest_speed = std::numeric_limits<double>::infinity();
+  std::string promise;  ///< both, as alerts tell them
+  FallbackError position_error, height_error, velocity_error, climb_error;
+  double stamp_error = 0.0;
+  double velocity_age = 0.0;
+  double silence = 0.0, forget = 0.0;
+  double window = 1.0;
+  double leap = 60.0;
+  enum class Clock {
+    stream,  ///< times of arrival that the stream tells, else stamps
+    stamps,
+    machine,  ///< that of this machine
+  } clock = Clock::stream;
+  struct Origin {
+    double latitude = 0.0, longitude = 0.0;
+  };
+  std::optional<Origin> origin;  ///< empty: the first position
+  double radius = 500e3;
+  std::size_t most_malformed = std::numeric_limits<std::size_t>::max();
+  std::string source;  ///< the stream's name, for messages
+};
+
+}  // namespace kinesphere::program

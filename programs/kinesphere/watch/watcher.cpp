@@ -1,0 +1,377 @@
+// A watch: takes the reports of a stream, whatever its format, and tells what is certain.
+#include "watch/watcher.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "program_error.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+/// Held while their times are not believed. A document of all aircraft on earth has fewer.
+constexpr std::size_t most_held = 65536;
+
+/// Horizontal and upright; where nobody said anything about the latter, in all directions.
+Spread spread_of(double flat, const std::optional<double>& upright) {
+  return upright ? Spread::cylinder(flat, *upright) : Spread(flat);
+}
+
+}  // namespace
+
+Watcher::Watcher(WatchSettings settings, Tell tell)
+    : settings_(std::move(settings)),
+      tell_(std::move(tell)),
+      clock_(settings_.clock == WatchSettings::Clock::stamps ? StreamClock::Source::stamps
+                                                             : StreamClock::Source::arrivals,
+             settings_.leap),
+      clock_is_chosen_(settings_.clock != WatchSettings::Clock::stream) {
+  counts_.turns.resize(settings_.separations.size());
+}
+
+// What comes in.
+
+void Watcher::take(const SourceReport& report) {
+  if (!clock_is_chosen_) {
+    clock_is_chosen_ = true;
+    clock_.set_source(report.arrival ? StreamClock::Source::arrivals : StreamClock::Source::stamps);
+  }
+  // The machine's clock has been told before the record was read.
+  if (settings_.clock == WatchSettings::Clock::machine) return deliver(report);
+  const bool by_arrival = clock_.source() == StreamClock::Source::arrivals;
+  if (by_arrival && !report.arrival)
+    return refuse(fmt::format("expected a time of arrival of {}, as reports before had one", report.id));
+  const FileTime& time = by_arrival ? *report.arrival : report.stamp;
+  if (!clock_.believes(time)) {
+    const bool confirmed = clock_.confirms(time, std::string(report.id), names_.size() > 1);
+    hold(report);
+    if (confirmed) {
+      start(time, report.time_kind);
+      deliver_held();
+    }
+    return;
+  }
+  drop_held();
+  go_on(time);
+  deliver(report);
+}
+
+void Watcher::time_is(const FileTime& arrival, TimeKind kind) {
+  if (settings_.clock != WatchSettings::Clock::stream) return;
+  if (!clock_is_chosen_) {
+    clock_is_chosen_ = true;
+    clock_.set_source(StreamClock::Source::arrivals);
+  }
+  if (clock_.source() != StreamClock::Source::arrivals) return;
+  if (clock_.believes(arrival)) {
+    drop_held();
+    go_on(arrival);
+  } else {
+    const bool confirmed = clock_.confirms(arrival, "", true);
+    if (clock_.in_a_row() == 1) drop_held();
+    if (confirmed) {
+      start(arrival, kind);
+      deliver_held();
+    }
+  }
+}
+
+void Watcher::machine_time_is(const FileTime& now) {
+  if (!clock_.has_begun()) start(now, TimeKind::number);
+  go_on(now);
+}
+
+void Watcher::pass_over(Passed reason) {
+  switch (reason) {
+    case Passed::no_position:
+      ++counts_.no_position;
+      break;
+    case Passed::no_bound:
+      ++counts_.no_bound;
+      break;
+  }
+}
+
+void Watcher::refuse(std::size_t line, const std::string& reason) {
+  constexpr std::size_t most_told = 10;
+  ++counts_.malformed;
+  if (counts_.first_malformed.size() < most_told) counts_.first_malformed.push_back({line, reason});
+  if (counts_.malformed > settings_.most_malformed)
+    throw ProgramError(fmt::format("{}:{}: {}; that makes {} malformed, and --most-malformed allows {}",
+                                   settings_.source, line, reason, counts_.malformed,
+                                   settings_.most_malformed));
+}
+
+void Watcher::end_record() {
+  if (monitor_) advance(monitor_->time());
+}
+
+void Watcher::finish() {
+  // A stream may be too short for its times to confirm each other.
+  if (!clock_.has_begun() && !held_.empty()) {
+    const SourceReport& first = held_.front().report;
+    start(clock_.source() == StreamClock::Source::arrivals ? *first.arrival : first.stamp, first.time_kind);
+    deliver_held();
+  }
+  drop_held();
+  end_record();
+}
+
+// Times that are not believed yet.
+
+void Watcher::hold(const SourceReport& report) {
+  if (clock_.in_a_row() == 1) drop_held();
+  if (held_.size() == most_held) {
+    ++counts_.ahead;
+    return;
+  }
+  held_.push_back({std::string(report.id), report});
+}
+
+void Watcher::drop_held() {
+  if (held_.empty()) return;
+  counts_.ahead += held_.size();
+  held_.clear();
+}
+
+void Watcher::deliver_held() {
+  clock_.interrupt();
+  std::vector<HeldReport> reports = std::move(held_);
+  held_.clear();
+  for (HeldReport& held : reports) {
+    held.report.id = held.id;
+    const bool by_arrival = clock_.source() == StreamClock::Source::arrivals;
+    go_on(by_arrival ? *held.report.arrival : held.report.stamp);
+    deliver(held.report);
+  }
+}
+
+// Time.
+
+void Watcher::start(const FileTime& time, TimeKind kind) {
+  if (!clock_.has_begun()) {
+    times_ = TimeScale(kind);
+    // Enough for years.
+    constexpr std::int64_t span = std::int64_t{1} << 20;
+    FileTime first = time;
+    for (const HeldReport& held : held_) {
+      const bool by_arrival = clock_.source() == StreamClock::Source::arrivals;
+      const FileTime& each = by_arrival && held.report.arrival ? *held.report.arrival : held.report.stamp;
+      if (seconds_between(each, first) > 0.0) first = each;
+    }
+    times_.set_origin(first, {first.whole + span, 0.0});
+    first_time_ = times_.seconds(first);
+    clock_.go_on(first);
+    return;
+  }
+  FileTime first = time;
+  if (!held_.empty()) {
+    const SourceReport& held = held_.front().report;
+    first = clock_.source() == StreamClock::Source::arrivals ? *held.arrival : held.stamp;
+  }
+  go_on(first);
+}
+
+void Watcher::go_on(const FileTime& time) {
+  clock_.interrupt();
+  clock_.go_on(time);
+  if (monitor_) advance(std::max(monitor_->time(), times_.seconds(clock_.now())));
+}
+
+void Watcher::advance(double until) {
+  for (;;) {
+    const auto event = require(monitor_->advance(until));
+    if (!event) return;
+    tell(*event);
+  }
+}
+
+void Watcher::tell(const MonitorEvent& event) {
+  ++counts_.alerts;
+  ++counts_.events[static_cast<std::size_t>(event.kind)];
+  if (event.kind == MonitorEventKind::verdict) {
+    auto& turns = counts_.turns[event.level];
+    ++(event.verdict == Verdict::apart       ? turns.apart
+       : event.verdict == Verdict::undecided ? turns.undecided
+                                             : turns.within);
+  }
+  tell_(alert_line(context(), event));
+  if (event.kind == MonitorEventKind::left) names_.remove(event.first);
+}
+
+AlertContext Watcher::context() const {
+  return {settings_, times_, names_, *monitor_, frame_ ? frame_->stretch() : 1.0};
+}
+
+std::string Watcher::first_time() const {
+  return clock_.has_begun() ? json_time(times_, first_time_) : "null";
+}
+std::string Watcher::last_time() const {
+  return clock_.has_begun() ? json_time(times_, times_.seconds(clock_.now())) : "null";
+}
+double Watcher::time_covered() const {
+  return clock_.has_begun() ? times_.seconds(clock_.now()) - first_time_ : 0.0;
+}
+
+// Reports.
+
+void Watcher::begin_monitor(const SourceReport& report) {
+  is_geographic_ = report.geographic;
+  dimensions_ = settings_.dimensions.value_or(report.has_height ? 3 : 2);
+  MonitorDefinition definition{.dimensions = dimensions_,
+                               .start_time = times_.seconds(clock_.now()),
+                               .window = settings_.window,
+                               .silence_after = settings_.silence,
+                               .forget_after = settings_.forget};
+  double least = unbounded;
+  SeparationRule rule;
+  if (is_geographic_) {
+    // A track is forgotten before it gets farther beyond the radius.
+    const double margin = settings_.largest_speed.horizontal() * settings_.forget;
+    if (!std::isfinite(margin))
+      throw ProgramError(
+          "--largest-speed, --forget: expected finite ones, which latitudes and longitudes need: the error "
+          "of the "
+          "map rests upon them");
+    if (settings_.radius + margin > LocalFrame::largest_radius)
+      throw ProgramError(
+          fmt::format("--radius: expected a radius that is, together with the way that a track goes at its "
+                      "largest speed before "
+                      "it is forgotten ({:.0f} km), at most {:.0f} km, but got {:.0f} km",
+                      margin / 1e3, LocalFrame::largest_radius / 1e3, settings_.radius / 1e3));
+    const auto origin =
+        settings_.origin.value_or(WatchSettings::Origin{report.position.y, report.position.x});
+    frame_.emplace(origin.latitude, origin.longitude, settings_.radius, margin);
+    definition.classes = {frame_->promise(settings_.acceleration, settings_.largest_speed)};
+  } else {
+    definition.classes = {
+        {.acceleration_limit = settings_.acceleration, .largest_speed = settings_.largest_speed}};
+  }
+  for (const NamedSeparation& named : settings_.separations) {
+    const Separation& separation = named.separation;
+    rule.levels.push_back(frame_ ? frame_->separation(separation) : separation);
+    least = std::min(least, separation.horizontal);
+    if (dimensions_ == 3) least = std::min(least, separation.vertical);
+  }
+  definition.tolerance = 1e-4 * least;
+  definition.separations = {std::move(rule)};
+  monitor_.emplace(require(Monitor::create(definition)));
+}
+
+void Watcher::deliver(const SourceReport& report) {
+  const double age = seconds_between(report.stamp, clock_.now());
+  if (age > settings_.forget) {
+    ++counts_.stale;
+    return;
+  }
+  if (-age > settings_.leap) {
+    ++counts_.ahead;
+    return;
+  }
+  if (!monitor_) begin_monitor(report);
+  if (report.geographic != is_geographic_)
+    return refuse(fmt::format("expected the position of {} in the same words as the first: {}", report.id,
+                              is_geographic_ ? "latitude and longitude" : "x and y"));
+  if (dimensions_ == 3 && !report.has_height) {
+    ++counts_.no_height;
+    return;
+  }
+  const TrackId id = track_id_of(report.id);
+  NamedTrack* const known = names_.find(id);
+  if (known != nullptr) {
+    if (known->text != report.id)
+      return refuse(fmt::format("the ids {} and {} cannot be told apart", known->text, report.id));
+    if (known->position == report.position &&
+        std::abs(seconds_between(known->stamp, report.stamp)) <= report.same_within) {
+      ++counts_.repeated;
+      return;
+    }
+  }
+  NamedTrack track;
+  const auto on_map = this->on_map(report, track);
+  if (!on_map) {
+    ++counts_.outside;
+    return;
+  }
+  if (const auto taken = monitor_->report(id, *on_map); !taken)
+    return refuse(fmt::format("{}: {}", report.id, taken.error().message));
+  NamedTrack& named = known != nullptr ? *known : names_.add(id, report.id);
+  if (known == nullptr || seconds_between(named.stamp, report.stamp) >= 0.0) {
+    named.stamp = report.stamp;
+    named.position = report.position;
+    named.position_by = track.position_by;
+    named.height_by = track.height_by;
+    named.velocity_by = track.velocity_by;
+    named.climb_by = track.climb_by;
+  }
+}
+
+std::optional<TrackReport> Watcher::on_map(const SourceReport& report, NamedTrack& track) {
+  TrackReport result{.stamp = times_.seconds(report.stamp)};
+  double added_velocity_error = 0.0;
+  if (is_geographic_) {
+    const auto placed = frame_->place(report.position, report.has_height, report.velocity.value_or(Vec3{}));
+    if (!placed) return std::nullopt;
+    result.state = placed->state;
+    added_velocity_error = placed->velocity_error;
+  } else {
+    result.state = {report.position, report.velocity.value_or(Vec3{})};
+  }
+  add_errors(report, added_velocity_error, result, track);
+  return result;
+}
+
+double Watcher::needed_bound(const FallbackError& fallback, const char* option) const {
+  if (fallback.bound) return *fallback.bound;
+  throw ProgramError(fmt::format("{}: expected it, because {} does not say how far off its reports may be",
+                                 option, settings_.source));
+}
+
+void Watcher::add_errors(const SourceReport& report, double added_velocity_error, TrackReport& result,
+                         NamedTrack& track) const {
+  // What the stream says, else what the options say; and who says so.
+  const auto said = [](const std::optional<DeclaredError>& error, const FallbackError& fallback,
+                       std::string_view& declaration) -> std::optional<double> {
+    declaration = error ? error->declaration : fallback.bound ? std::string_view(fallback.declaration) : "";
+    return error ? std::optional(error->bound) : fallback.bound;
+  };
+  auto flat = said(report.position_error, settings_.position_error, track.position_by);
+  if (!flat) flat = needed_bound(settings_.position_error, "--position-error");
+  const auto upright = said(report.height_error, settings_.height_error, track.height_by);
+  result.position_error = frame_ ? Spread::cylinder(frame_->position_error(*flat), upright.value_or(*flat))
+                                 : spread_of(*flat, upright);
+  result.stamp_error = report.stamp_error.value_or(settings_.stamp_error);
+  if (!report.velocity) {
+    result.velocity_error = Spread(unbounded);
+    return;
+  }
+  auto turning = said(report.velocity_error, settings_.velocity_error, track.velocity_by);
+  if (!turning) turning = needed_bound(settings_.velocity_error, "--velocity-error");
+  auto climbing = said(report.climb_error, settings_.climb_error, track.climb_by);
+  if (!report.has_climb) {
+    climbing = dimensions_ == 2 ? 0.0 : settings_.largest_speed.vertical();
+    track.climb_by = "largest speed";
+  }
+  if (!std::isfinite(*turning)) {
+    result.velocity_error = Spread(unbounded);
+    return;
+  }
+  // It was measured a little before or after the position.
+  const double age = std::max(report.velocity_age, settings_.velocity_age);
+  if (age > 0.0 && std::isfinite(settings_.acceleration.total())) {
+    *turning += age * settings_.acceleration.horizontal();
+    climbing = climbing.value_or(*turning) + age * settings_.acceleration.vertical();
+  }
+  if (frame_)
+    result.velocity_error = Spread::cylinder(frame_->velocity_error(*turning) + added_velocity_error,
+                                             climbing.value_or(*turning));
+  else
+    result.velocity_error = spread_of(*turning, climbing);
+}
+
+}  // namespace kinesphere::program

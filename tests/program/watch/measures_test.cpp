@@ -1,0 +1,50 @@
+// Numbers with units, and separations made of them.
+#include "watch/measures.hpp"
+
+#include <gtest/gtest.h>
+
+#include "program/support.hpp"
+#include "watch/separations.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+TEST(Measures, HaveUnits) {
+  EXPECT_DOUBLE_EQ(parse_measure("5NM", Measure::length, "--x"), 9260.0);
+  EXPECT_DOUBLE_EQ(parse_measure("1000 ft", Measure::length, "--x"), 304.8);
+  EXPECT_DOUBLE_EQ(parse_measure("1.5e3", Measure::length, "--x"), 1500.0);
+  EXPECT_DOUBLE_EQ(parse_measure("2.5km", Measure::length, "--x"), 2500.0);
+  EXPECT_DOUBLE_EQ(parse_measure("10m/s", Measure::speed, "--x"), 10.0);
+  EXPECT_DOUBLE_EQ(parse_measure("3600kt", Measure::speed, "--x"), 1852.0);
+  EXPECT_DOUBLE_EQ(parse_measure("3 m/s2", Measure::acceleration, "--x"), 3.0);
+  EXPECT_DOUBLE_EQ(parse_measure("2g", Measure::acceleration, "--x"), 19.6133);
+  EXPECT_DOUBLE_EQ(parse_measure("2min", Measure::time, "--x"), 120.0);
+}
+
+TEST(Measures, RefuseOthers) {
+  for (const char* const text : {"", "NM", "5 parsecs", "-1", "5 m 3", "nan", "1e999", "5NM5"}) {
+    const std::string error = error_of([&] { parse_measure(text, Measure::length, "--radius"); });
+    EXPECT_NE(error.find("--radius"), std::string::npos) << error;
+    EXPECT_NE(error.find(std::string("'") + text + "'"), std::string::npos) << error;
+    EXPECT_NE(error.find("NM"), std::string::npos) << error;
+  }
+  error_of([] { parse_measure("5kt", Measure::length, "--radius"); });
+}
+
+TEST(Measures, AreBallsOrCylinders) {
+  EXPECT_EQ(parse_spread("3", Measure::length, "--x"), Spread(3.0));
+  EXPECT_EQ(parse_spread("3:1ft", Measure::length, "--x"), Spread::cylinder(3.0, foot));
+}
+
+TEST(Separations, AreShapesWithLengths) {
+  EXPECT_EQ(parse_separation("sphere:50").separation, Separation::sphere(50.0));
+  EXPECT_EQ(parse_separation("sphere 50m").name, "sphere 50m");
+  EXPECT_EQ(parse_separation("cylinder:5NM:1000ft").separation, Separation::cylinder(9260.0, 304.8));
+  EXPECT_EQ(parse_separation("cylinder 5NM 1000ft").separation, Separation::cylinder(9260.0, 304.8));
+  EXPECT_EQ(parse_separation("ellipsoid:10:5").separation, Separation::ellipsoid(10.0, 5.0));
+  for (const char* const text : {"", "50", "cube:50", "sphere", "sphere:0", "cylinder:5", "sphere:1:2"})
+    EXPECT_NE(error_of([&] { parse_separation(text); }).find("--separation"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace kinesphere::program

@@ -1,0 +1,66 @@
+// Whose time is believed.
+#include "watch/stream_clock.hpp"
+
+#include <gtest/gtest.h>
+
+namespace kinesphere::program {
+namespace {
+
+using Source = StreamClock::Source;
+
+FileTime at(double seconds) {
+  const auto whole = static_cast<std::int64_t>(seconds);
+  return {whole, seconds - static_cast<double>(whole)};
+}
+
+TEST(StreamClock, GoesOnWithTheLatest) {
+  StreamClock clock(Source::stamps, 60.0);
+  EXPECT_FALSE(clock.believes(at(100))) << "nothing confirms the first";
+  clock.go_on(at(100));
+  EXPECT_TRUE(clock.believes(at(160)));
+  EXPECT_FALSE(clock.believes(at(160.5)));
+  clock.go_on(at(90));
+  EXPECT_EQ(seconds_between(at(100), clock.now()), 0.0);
+}
+
+TEST(StreamClock, BelievesThreeStampsOfTwoTracks) {
+  StreamClock clock(Source::stamps, 60.0);
+  clock.go_on(at(0));
+  EXPECT_FALSE(clock.confirms(at(1000), "a", true));
+  EXPECT_FALSE(clock.confirms(at(1001), "a", true));
+  EXPECT_TRUE(clock.confirms(at(1002), "b", true));
+}
+
+TEST(StreamClock, BelievesTenStampsOfOne) {
+  StreamClock clock(Source::stamps, 60.0);
+  clock.go_on(at(0));
+  for (int k = 1; k < 10; ++k) EXPECT_FALSE(clock.confirms(at(1000 + k), "a", true)) << k;
+  EXPECT_TRUE(clock.confirms(at(1010), "a", true));
+  clock.interrupt();
+  EXPECT_FALSE(clock.confirms(at(1000), "a", false));
+  EXPECT_FALSE(clock.confirms(at(1001), "a", false));
+  EXPECT_TRUE(clock.confirms(at(1002), "a", false)) << "there is no other track";
+}
+
+TEST(StreamClock, BeginsAgainWhereTimesDiffer) {
+  StreamClock clock(Source::stamps, 60.0);
+  clock.go_on(at(0));
+  EXPECT_FALSE(clock.confirms(at(1000), "a", true));
+  EXPECT_FALSE(clock.confirms(at(5000), "b", true));
+  EXPECT_EQ(clock.in_a_row(), 1u);
+  EXPECT_FALSE(clock.confirms(at(5001), "b", true));
+  EXPECT_TRUE(clock.confirms(at(5002), "c", true));
+  clock.interrupt();
+  EXPECT_FALSE(clock.confirms(at(5000), "d", true));
+}
+
+TEST(StreamClock, BelievesTwoArrivalsThatDiffer) {
+  StreamClock clock(Source::arrivals, 60.0);
+  clock.go_on(at(0));
+  for (int k = 0; k < 20; ++k)
+    EXPECT_FALSE(clock.confirms(at(1000), std::to_string(k), true)) << "one document";
+  EXPECT_TRUE(clock.confirms(at(1001), "a", true));
+}
+
+}  // namespace
+}  // namespace kinesphere::program

@@ -1,0 +1,529 @@
+// `kinesphere watch` as it is used: alerts, their times, what is refused, how it ends, what it serves.
+#include <csignal>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "kinesphere/monitor/monitor.hpp"
+#include "kinesphere/random.hpp"
+#include "program/support.hpp"
+
+#ifdef KINESPHERE_WITH_HTTPLIB
+#include <httplib.h>
+#endif
+
+namespace kinesphere::program {
+namespace {
+
+using Json = nlohmann::json;
+
+std::vector<Json> json_lines(const std::string& text) {
+  std::vector<Json> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(Json::parse(line));
+  return lines;
+}
+
+/// Two that fly towards each other along x, a report each second, and meet at the time 10.
+std::string head_on(double seconds = 20) {
+  std::ostringstream text;
+  for (int t = 0; t <= seconds; ++t) {
+    text << R"({"id": "west", "stamp": )" << t << R"(, "position": [)" << 10 * (t - 10)
+         << R"(, 0, 0], "velocity": [10, 0, 0]})"
+         << "\n";
+    text << R"({"id": "east", "stamp": )" << t + 0.5 << R"(, "position": [)" << -10 * (t + 0.5 - 10)
+         << R"(, 1, 0], "velocity": [-10, 0, 0]})"
+         << "\n";
+  }
+  return text.str();
+}
+
+const std::string promises = " --acceleration 1 --position-error 0.5 --velocity-error 0.1 ";
+
+class WatchProgram : public ProgramTest {
+ protected:
+  /// The alerts of a run that must succeed.
+  std::vector<Json> alerts(const std::string& arguments) {
+    const ProgramRun result = run("watch " + arguments + " --summary '" + path("summary.json") + "'");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    err_ = result.err;
+    summary_ = Json::parse(read_text(path("summary.json")));
+    std::filesystem::remove(path("summary.json"));
+    return json_lines(result.out);
+  }
+  Json summary_;
+  std::string err_;
+};
+
+TEST_F(WatchProgram, TellsOfAnEncounter) {
+  const std::string file = write("s.jsonl", head_on());
+  const auto lines = alerts(file + " --separation sphere:30" + promises);
+  ASSERT_EQ(lines.size(), 4u) << err_;
+  const std::vector<std::string> expected{"undecided", "within", "undecided", "apart"};
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(lines[k]["event"], "verdict");
+    EXPECT_EQ(lines[k]["verdict"], expected[k]);
+    EXPECT_EQ(lines[k]["first"], "east");
+    EXPECT_EQ(lines[k]["second"], "west");
+    EXPECT_EQ(lines[k]["separation"], "sphere:30");
+    EXPECT_EQ(lines[k]["since"], k > 0 ? lines[k - 1]["time"] : Json());
+  }
+  // They are 30 m apart from 8.5 to 11.5.
+  EXPECT_LT(lines[0]["time"], 8.5);
+  EXPECT_GT(lines[1]["time"], 8.5);
+  EXPECT_LT(lines[2]["time"], 11.5);
+  EXPECT_GT(lines[3]["time"], 11.5);
+  EXPECT_LT(lines[0]["distance"][0], 30.0 + 1e-3);
+  EXPECT_GT(lines[0]["distance"][1], 30.0);
+  EXPECT_NEAR(lines[0]["closest_distance"].get<double>(), 1.0, 0.1);
+  EXPECT_NEAR(lines[0]["closest_time"].get<double>(), 10.0, 0.1);
+  EXPECT_NEAR(lines[0]["likely_time"].get<double>(), 8.5, 0.1);
+  EXPECT_TRUE(lines[0]["ask"] == "east" || lines[0]["ask"] == "west");
+  EXPECT_EQ(lines[0]["ask_by"], lines[0]["time"]) << "it is needed now";
+  EXPECT_EQ(lines[1]["until"], lines[1]["ask_by"]);
+  EXPECT_EQ(lines[0]["rests_on"]["first"],
+            "position: 0.5 (--position-error); velocity: 0.1 (--velocity-error)");
+  EXPECT_EQ(lines[0]["rests_on"]["both"], "acceleration: 1; speed: any");
+  EXPECT_EQ(summary_["reports"], 42);
+  EXPECT_EQ(summary_["alerts"], 4);
+  EXPECT_EQ(summary_["from"], 0);
+  EXPECT_EQ(summary_["to"], 20.5);
+  EXPECT_EQ(summary_["separations"][0],
+            (Json{{"separation", "sphere:30"}, {"undecided", 2}, {"within", 1}, {"apart", 1}}));
+  EXPECT_NE(err_.find("reports  "), std::string::npos) << err_;
+}
+
+TEST_F(WatchProgram, TellsOfEachSeparation) {
+  const std::string file = write("s.jsonl", head_on());
+  const auto lines = alerts(file + " --separation cylinder:60:20 --separation 'sphere 30'" + promises);
+  EXPECT_EQ(
+      std::count_if(lines.begin(), lines.end(),
+                    [](const Json& line) { return line["separation"] == "sphere 30" && line["level"] == 1; }),
+      4);
+  EXPECT_EQ(std::count_if(lines.begin(), lines.end(),
+                          [](const Json& line) {
+                            return line["separation"] == "cylinder:60:20" && line["level"] == 0;
+                          }),
+            4);
+}
+
+/// The same reports to a monitor by itself.
+TEST_F(WatchProgram, TellsWhatAMonitorTells) {
+  std::ostringstream text;
+  Random random(7);
+  std::vector<std::pair<TrackId, TrackReport>> reports;
+  std::vector<State> states;
+  for (int k = 0; k < 30; ++k)
+    states.push_back({40.0 * random.point_in_ball(), 5.0 * random.point_in_ball()});
+  for (int t = 0; t < 20; ++t) {
+    for (std::size_t k = 0; k < states.size(); ++k) {
+      const double stamp = t + static_cast<double>(k) / 32.0;
+      State& state = states[k];
+      TrackReport report{.stamp = stamp, .state = {state.position + state.velocity * stamp, state.velocity}};
+      report.position_error = 0.25;
+      report.velocity_error = 0.125;
+      // Late ones and jumps, too.
+      if (k == 3 && t == 9) report.state.position.x += 50.0;
+      if (k == 5 && t > 12) continue;
+      reports.push_back({k, report});
+      text << R"({"id": ")" << k << R"(", "stamp": )" << Json(stamp).dump() << R"(, "position": )"
+           << Json({report.state.position.x, report.state.position.y, report.state.position.z}).dump()
+           << R"(, "velocity": )" << Json({state.velocity.x, state.velocity.y, state.velocity.z}).dump()
+           << "}\n";
+    }
+  }
+  MonitorDefinition definition{.classes = {{.acceleration_limit = 1.0}},
+                               .separations = {{0, 0, {Separation::sphere(12.0), Separation::sphere(6.0)}}},
+                               .tolerance = 6e-4,
+                               .silence_after = 3.0,
+                               .forget_after = 5.0};
+  Monitor monitor = Monitor::create(definition).value();
+  std::vector<std::string> expected;
+  const auto go_on = [&](double time) {
+    for (const MonitorEvent& event : monitor.events(time)) {
+      std::string line =
+          std::string(name_of(event.kind)) + " " + Json(std::round(event.time * 1e6) / 1e6).dump() + " ";
+      if (event.kind == MonitorEventKind::verdict) {
+        std::string a = std::to_string(event.first), b = std::to_string(event.second);
+        line += std::min(a, b) + " " + std::max(a, b) + " " + std::to_string(event.level) + " " +
+                std::string(name_of(event.verdict)) + " " + std::string(name_of(event.before));
+      } else {
+        line += std::to_string(event.first);
+      }
+      expected.push_back(line);
+    }
+  };
+  for (const auto& [id, report] : reports) {
+    go_on(std::max(monitor.time(), report.stamp));
+    monitor.report(id, report).value();
+    go_on(monitor.time());
+  }
+  std::vector<std::string> told;
+  for (const Json& line :
+       alerts(write("s.jsonl", text.str()) +
+              " --separation sphere:12 --separation sphere:6 --acceleration 1 --position-error 0.25 "
+              "--velocity-error 0.125 --silence 3 --forget 5")) {
+    std::string each = line["event"].get<std::string>() + " " +
+                       Json(std::round(line["time"].get<double>() * 1e6) / 1e6).dump() + " ";
+    if (line["event"] == "verdict")
+      each += line["first"].get<std::string>() + " " + line["second"].get<std::string>() + " " +
+              line["level"].dump() + " " + line["verdict"].get<std::string>() + " " +
+              line["before"].get<std::string>();
+    else
+      each += line["track"].get<std::string>();
+    told.push_back(each);
+  }
+  // At one instant they come in the order of the tracks' numbers, which are others here.
+  std::sort(expected.begin(), expected.end());
+  std::sort(told.begin(), told.end());
+  EXPECT_EQ(told, expected);
+  EXPECT_GT(expected.size(), 50u);
+  EXPECT_EQ(summary_["tracks"], monitor.size()) << "those that left are forgotten";
+  for (const char* kind : {"contradiction", "resolved", "silent", "left", "verdict"})
+    EXPECT_TRUE(std::any_of(expected.begin(), expected.end(), [&](const std::string& line) {
+      return line.starts_with(kind);
+    })) << kind;
+}
+
+TEST_F(WatchProgram, CountsWhatItDoesNotTake) {
+  std::string text = head_on(5);
+  text += R"({"id": "west", "stamp": 5, "position": [-50, 0, 0], "velocity": [10, 0, 0]})"
+          "\n";  // again
+  text += R"({"id": "west", "stamp": 4.5, "position": [-55, 0, 0], "velocity": [10, 0, 0]})"
+          "\n";  // late
+  text += R"({"id": "west", "stamp": 5000, "position": [0, 0, 0], "velocity": [10, 0, 0]})"
+          "\n";  // ahead
+  text += R"({"id": "west", "stamp": 6, "position": [-40, 0, 0], "velocity": [10, 0, 0]})"
+          "\n";
+  text += R"({"id": "west", "stamp": -500, "position": [-40, 0, 0], "velocity": [10, 0, 0]})"
+          "\n";  // stale
+  text += R"({"id": "west", "stamp": 6})"
+          "\n";
+  text += "mumble\n";
+  const auto lines = alerts(write("s.jsonl", text) + " --separation sphere:3" + promises);
+  EXPECT_TRUE(lines.empty());
+  EXPECT_EQ(summary_["reports"], 14);
+  EXPECT_EQ(summary_["late"], 1);
+  EXPECT_EQ(summary_["repeated"], 1);
+  EXPECT_EQ(summary_["ahead"], 1);
+  EXPECT_EQ(summary_["stale"], 1);
+  EXPECT_EQ(summary_["no_position"], 1);
+  EXPECT_EQ(summary_["malformed"], 1);
+  EXPECT_EQ(summary_["first_malformed"][0]["line"], 19);
+  EXPECT_NE(err_.find("s.jsonl:19: expected a JSON object"), std::string::npos) << err_;
+}
+
+TEST_F(WatchProgram, BelievesALeapThatOthersConfirm) {
+  std::string text = head_on(5);
+  for (const char* id : {"west", "east", "west"})
+    text += std::string(R"({"id": ")") + id + R"(", "stamp": 5000, "position": [0, 0, 0]})" + "\n";
+  alerts(write("s.jsonl", text) + " --separation sphere:3 --largest-speed 20 --forget 10" + promises);
+  EXPECT_EQ(summary_["to"], 5000);
+  EXPECT_EQ(summary_["ahead"], 0);
+  EXPECT_EQ(summary_["left"], 2);
+}
+
+TEST_F(WatchProgram, GoesByTimesOfArrival) {
+  std::string text;
+  const auto report = [&](const char* id, double stamp, double arrival) {
+    text += Json{{"id", id}, {"stamp", stamp}, {"arrival", arrival}, {"position", {0, 0, 0}}}.dump() + "\n";
+  };
+  report("a", 0, 1);
+  report("b", 900, 1);  // ahead, and waits with the first
+  report("b", 1, 2);
+  report("a", 2, 1000);  // this arrival is not confirmed
+  report("b", 3, 4);
+  report("a", 900, 5);
+  report("a", 5, 7);
+  text += R"({"id": "a", "stamp": 6, "position": [0, 0, 0]})"
+          "\n";
+  alerts(write("s.jsonl", text) + " --separation sphere:3 --largest-speed 1 --position-error 1");
+  EXPECT_EQ(summary_["reports"], 4);
+  EXPECT_EQ(summary_["ahead"], 3);
+  EXPECT_EQ(summary_["malformed"], 1);
+  EXPECT_EQ(summary_["from"], 1);
+  EXPECT_EQ(summary_["to"], 7);
+  // By the stamps: the first one is not confirmed either.
+  alerts(path("s.jsonl") + " --clock stamps --separation sphere:3 --largest-speed 1 --position-error 1");
+  EXPECT_EQ(summary_["reports"], 5);
+  EXPECT_EQ(summary_["ahead"], 3);
+  EXPECT_EQ(summary_["to"], 6);
+}
+
+TEST_F(WatchProgram, StopsAtTooManyMalformedLines) {
+  std::string text = head_on(5);
+  for (int k = 0; k < 15; ++k) text += "mumble " + std::to_string(k) + "\n";
+  const std::string file = write("s.jsonl", text);
+  alerts(file + " --separation sphere:3" + promises);
+  EXPECT_EQ(summary_["malformed"], 15);
+  EXPECT_EQ(summary_["first_malformed"].size(), 10u);
+  alerts(file + " --separation sphere:3 --most-malformed 15" + promises);
+  const ProgramRun stopped =
+      run("watch " + file + " --separation sphere:3 --most-malformed 14 --quiet --summary '" +
+          path("sum.json") + "'" + promises);
+  EXPECT_EQ(stopped.exit_code, 2);
+  EXPECT_NE(stopped.err.find("s.jsonl:27: expected a JSON object"), std::string::npos) << stopped.err;
+  EXPECT_NE(stopped.err.find("--most-malformed allows 14"), std::string::npos) << stopped.err;
+  EXPECT_EQ(Json::parse(read_text(path("sum.json")))["reports"], 12);
+  expect_wrong_input("watch " + write("bad.txt", "mumble\nmumble\n") +
+                         " --format jsonl --quiet --separation sphere:3" + promises,
+                     {"bad.txt", "expected reports of format jsonl", "2 malformed"});
+}
+
+TEST_F(WatchProgram, RefusesWrongOptions) {
+  const std::string file = write("s.jsonl", head_on(2));
+  expect_wrong_input("watch " + file, {"--separation"});
+  expect_wrong_input("watch " + file + " --separation cube:3" + promises, {"--separation", "cube:3"});
+  expect_wrong_input("watch " + file + " --separation sphere:3 --position-error 1",
+                     {"--acceleration, --largest-speed", "jsonl"});
+  expect_wrong_input("watch " + file + " --separation sphere:3 --acceleration 1",
+                     {"--position-error", "s.jsonl"});
+  expect_wrong_input("watch " + file + " --separation sphere:3 --acceleration 1 --position-error 1",
+                     {"--velocity-error"});
+  expect_wrong_input("watch " + file + " --separation sphere:3 --acceleration 1kt",
+                     {"--acceleration", "1kt", "m/s2"});
+  expect_wrong_input("watch " + file + " --separation sphere:3 --format xml" + promises,
+                     {"--format", "readsb|sbs|opensky|ais|csv|jsonl", "xml"});
+  expect_wrong_input("watch " + file + " --separation sphere:3 --clock mine" + promises, {"--clock", "mine"});
+  expect_wrong_input("watch " + file + " --separation sphere:3 --silence 0" + promises, {"--silence", "0"});
+  expect_wrong_input("watch " + file + " --separation sphere:3 --origin north" + promises,
+                     {"--origin", "north"});
+  expect_wrong_input("watch " + file + " --separation sphere:3 --radius 7000km" + promises,
+                     {"--radius", "7000km"});
+  expect_wrong_input("watch " + file + " --separation sphere:3 --containment 0.5" + promises,
+                     {"--containment"});
+  expect_wrong_input("watch " + file + " --separation sphere:3 --summary " + file + promises,
+                     {"--summary", "s.jsonl"});
+  expect_wrong_input("watch " + path("none") + " --separation sphere:3" + promises, {"none", "cannot read"});
+  expect_wrong_input("watch " + path(".") + " --separation sphere:3" + promises, {"it is a folder"});
+  expect_wrong_input("watch " + write("empty", "") + " --separation sphere:3" + promises,
+                     {"empty", "it is empty"});
+  expect_wrong_input("watch " + write("odd", "1,2,3,4\n") + " --separation sphere:3" + promises,
+                     {"odd", "--format"});
+  expect_wrong_input("watch " + write("nmea", "!AIVDM,1,1,,A,13u?etPv2;0n:dDPwUM1U1Cb069D,0*23\n") +
+                         " --separation sphere:3" + promises,
+                     {"NMEA", "gpsdecode"});
+  const std::string earth = write("e.jsonl", R"({"id": "a", "stamp": 1, "lat": 50, "lon": 8})"
+                                             "\n");
+  expect_wrong_input("watch " + earth + " --separation sphere:3" + promises, {"--largest-speed, --forget"});
+  expect_wrong_input(
+      "watch " + earth + " --separation sphere:3 --largest-speed 400 --radius 4990km --forget 60" + promises,
+      {"--radius", "24 km"});
+}
+
+TEST_F(WatchProgram, ReadsGzippedAndStandardInput) {
+  const std::string file = write("s.jsonl", head_on());
+  const std::string options = " --separation sphere:30 --quiet" + promises;
+  const std::string plain = run("watch " + file + options).out;
+  EXPECT_EQ(run("watch" + options, "cat '" + file + "' | ").out, plain);
+  ASSERT_EQ(run_shell("gzip -k '" + file + "'").exit_code, 0);
+  EXPECT_EQ(run("watch " + file + ".gz" + options).out, plain);
+  EXPECT_EQ(run("watch - " + options, "gzip -c '" + file + "' | ").out, plain);
+  const std::string packed = read_text(file + ".gz");
+  const ProgramRun damaged = run("watch " + write("cut.gz", packed.substr(0, packed.size() / 2)) + options);
+  EXPECT_EQ(damaged.exit_code, 2);
+  EXPECT_NE(damaged.err.find("cut.gz: cannot read: damaged gzip data"), std::string::npos) << damaged.err;
+}
+
+constexpr std::string_view two_aircraft = R"({ "now" : 1700000000.1, "aircraft" : [
+{"hex":"4ca1fa","alt_baro":35000,"gs":450,"track":90,"baro_rate":0,"lat":51.5,"lon":-0.1,"seen_pos":0.2,"rc":75,"nac_v":2},
+{"hex":"400a01","alt_baro":35000,"gs":450,"track":270,"baro_rate":0,"lat":51.5,"lon":0.1,"seen_pos":0.5,"nac_p":10,"nac_v":2},
+{"hex":"400a02","alt_baro":35000,"gs":450,"track":270,"baro_rate":0,"lat":51.5,"lon":20,"seen_pos":0.5,"nac_p":10}]}
+{"now": 1700000001.1, "aircraft": [
+{"hex":"4ca1fa","alt_baro":35000,"gs":450,"track":90,"baro_rate":0,"lat":51.5,"lon":-0.1,"seen_pos":1.2,"rc":75,"nac_v":2}]}
+)";
+
+TEST_F(WatchProgram, WatchesAircraft) {
+  const auto lines = alerts(write("aircraft.json", two_aircraft) +
+                            " --separation cylinder:10NM:1000ft --separation cylinder:5NM:1000ft");
+  ASSERT_GE(lines.size(), 1u);
+  EXPECT_EQ(lines[0]["verdict"], "within");
+  EXPECT_EQ(lines[0]["first"], "400a01");
+  EXPECT_EQ(lines[0]["time"], 1700000000.1);
+  EXPECT_EQ(lines[0]["rests_on"]["first"],
+            "position: 2.5 times the 95 % of nac_p; height: 78.81 (default of readsb); velocity: 2.5 times "
+            "the 95 % of nac_v; "
+            "climb: 2.5 times the 95 % of nac_v");
+  EXPECT_EQ(lines[0]["rests_on"]["second"].get<std::string>().substr(0, 13), "position: rc;");
+  // 0.2 degrees at 51.5 north are 13.89 km, and they have come nearer since.
+  EXPECT_LT(lines[0]["distance"][0], 13890.0);
+  EXPECT_GT(lines[0]["distance"][1], 13890.0 - 0.7 * 2 * 232);
+  EXPECT_EQ(summary_["outside"], 1);
+  EXPECT_EQ(summary_["repeated"], 1);
+  EXPECT_EQ(summary_["format"], "readsb");
+}
+
+TEST_F(WatchProgram, WatchesVesselsWithDates) {
+  std::string text = "MMSI,BaseDateTime,LAT,LON,SOG,COG,Heading\n";
+  for (int t = 10; t < 60; t += 10) {
+    text += "367000001,2023-01-01T00:00:" + std::to_string(t) + ",29.9,-90.0100,0.0,0.0,511\n";
+    text += "367000002,2023-01-01T00:00:" + std::to_string(t) + ",29.9,-90.0105,0.0,0.0,511\n";
+  }
+  const auto lines = alerts(write("ais.csv", text) + " --separation sphere:500m");
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0]["time"], "2023-01-01T00:00:10");
+  EXPECT_EQ(lines[0]["first"], "367000001");
+  EXPECT_EQ(lines[0]["verdict"], "within");
+  EXPECT_EQ(summary_["to"], "2023-01-01T00:00:50");
+}
+
+/// A program that reads what the test writes, as it comes.
+class Live {
+ public:
+  explicit Live(const std::string& arguments, const std::string& folder) : err_(folder) {
+    int in[2], out[2];
+    if (::pipe(in) != 0 || ::pipe(out) != 0) std::abort();
+    process_ = ::fork();
+    if (process_ == 0) {
+      ::dup2(in[0], 0);
+      ::dup2(out[1], 1);
+      for (const int end : {in[0], in[1], out[0], out[1]}) ::close(end);
+      const std::string command = std::string("exec timeout --foreground 60 '") + KINESPHERE_PROGRAM +
+                                  "' watch " + arguments + " 2>'" + err_ + "'";
+      ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+      ::_exit(127);
+    }
+    ::close(in[0]);
+    ::close(out[1]);
+    in_ = in[1];
+    out_ = ::fdopen(out[0], "r");
+  }
+  Live(const Live&) = delete;
+  Live& operator=(const Live&) = delete;
+  ~Live() {
+    if (in_ >= 0) ::close(in_);
+    if (process_ > 0) wait();
+    std::fclose(out_);
+  }
+
+  void write(const std::string& text) const {
+    ASSERT_EQ(::write(in_, text.data(), text.size()), static_cast<ssize_t>(text.size()));
+  }
+  std::string line() const {
+    char text[4096];
+    return std::fgets(text, sizeof text, out_) != nullptr ? text : "";
+  }
+  void end_input() {
+    ::close(in_);
+    in_ = -1;
+  }
+  void signal(int number) const { ::kill(process_, number); }
+  /// The exit code.
+  int wait() {
+    int status = 0;
+    ::waitpid(process_, &status, 0);
+    process_ = 0;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  std::string err() const { return read_text(err_); }
+
+ private:
+  std::string err_;
+  pid_t process_ = 0;
+  int in_ = -1;
+  FILE* out_ = nullptr;
+};
+
+TEST_F(WatchProgram, TellsAtOnceAndEndsWhenAskedTo) {
+  for (const int signal : {SIGTERM, SIGINT}) {
+    Live live("--separation sphere:30 --summary '" + path("sum.json") + "'" + promises, path("err"));
+    const std::string text = head_on();
+    live.write(text);
+    for (const char* verdict : {"undecided", "within", "undecided", "apart"})
+      EXPECT_EQ(Json::parse(live.line())["verdict"], verdict) << "though the stream goes on";
+    live.signal(signal);
+    EXPECT_EQ(live.wait(), 0);
+    const Json summary = Json::parse(read_text(path("sum.json")));
+    EXPECT_EQ(summary["reports"], 42);
+    EXPECT_EQ(summary["alerts"], 4);
+    EXPECT_NE(live.err().find("42"), std::string::npos) << live.err();
+  }
+}
+
+TEST_F(WatchProgram, WaitsForNothingThatIsNotNeeded) {
+  Live live("--separation sphere:30" + promises, path("err"));
+  // Times that confirm each other, and then two that meet.
+  for (const char* id : {"far", "away", "here"})
+    live.write(std::string(R"({"id": ")") + id + R"(", "stamp": 1, "position": [)" +
+               (*id == 'h'   ? "0"
+                : *id == 'f' ? "1e5"
+                             : "-1e5") +
+               R"(, 0, 0], "velocity": [0, 0, 0]})" + "\n");
+  live.write(R"({"id": "there", "stamp": 2, "position": [5, 0, 0], "velocity": [0, 0, 0]})"
+             "\n");
+  const Json alert = Json::parse(live.line());
+  EXPECT_EQ(alert["verdict"], "within");
+  EXPECT_EQ(alert["time"], 2);
+  live.end_input();
+  EXPECT_EQ(live.wait(), 0);
+}
+
+TEST_F(WatchProgram, LetsTimePassByTheClockOfTheMachine) {
+  using namespace std::chrono;
+  Live live("--separation sphere:30 --clock arrival --silence 200ms --forget 400ms" + promises, path("err"));
+  const double now = duration<double>(system_clock::now().time_since_epoch()).count();
+  live.write(R"({"id": "only", "stamp": )" + Json(now).dump() +
+             R"(, "position": [0, 0, 0], "velocity": [0, 0, 0]})" + "\n");
+  const Json silent = Json::parse(live.line());
+  EXPECT_EQ(silent["event"], "silent");
+  EXPECT_EQ(silent["track"], "only");
+  EXPECT_NEAR(silent["time"].get<double>(), now + 0.2, 1e-3);
+  EXPECT_EQ(Json::parse(live.line())["event"], "left");
+  live.write(R"({"id": "only", "stamp": )" + Json(now + 1e4).dump() +
+             R"(, "position": [0, 0, 0], "velocity": [0, 0, 0]})" + "\n");
+  live.end_input();
+  EXPECT_EQ(live.wait(), 0);
+  EXPECT_NE(live.err().find("stamped ahead"), std::string::npos) << live.err();
+}
+
+#ifdef KINESPHERE_WITH_HTTPLIB
+
+TEST_F(WatchProgram, ServesItsState) {
+  Live live("--separation sphere:30 --serve 0" + promises, path("err"));
+  live.write(head_on(9));
+  EXPECT_EQ(Json::parse(live.line())["verdict"], "undecided");
+  EXPECT_EQ(Json::parse(live.line())["verdict"], "within");
+  const std::string said = live.err();
+  const std::string before = "http://127.0.0.1:";
+  ASSERT_NE(said.find(before), std::string::npos) << said;
+  const int port = std::stoi(said.substr(said.find(before) + before.size()));
+  httplib::Client client("127.0.0.1", port);
+  Json state;
+  // The last report may still be on its way.
+  for (int k = 0; k < 100 && (state.is_null() || state["time"] != 9.5); ++k) {
+    const auto answer = client.Get("/state.json");
+    ASSERT_TRUE(answer);
+    ASSERT_EQ(answer->status, 200);
+    EXPECT_EQ(answer->get_header_value("Content-Type"), "application/json");
+    state = Json::parse(answer->body);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_EQ(state["time"], 9.5);
+  ASSERT_EQ(state["tracks"].size(), 2u);
+  EXPECT_EQ(state["tracks"][0]["places"].size(), 1u);
+  EXPECT_GE(state["tracks"][0]["places"][0]["radius"][0], 0.5);
+  ASSERT_EQ(state["pairs"].size(), 1u);
+  EXPECT_EQ(state["pairs"][0]["verdict"], "within");
+  EXPECT_EQ(state["pairs"][0]["first"].get<std::string>() < state["pairs"][0]["second"].get<std::string>(),
+            true);
+  const auto metrics = client.Get("/metrics");
+  ASSERT_TRUE(metrics);
+  EXPECT_TRUE(metrics->get_header_value("Content-Type").starts_with("text/plain"));
+  for (const char* line :
+       {"\n# TYPE kinesphere_watch_reports_total counter\nkinesphere_watch_reports_total 20\n",
+        "\nkinesphere_watch_tracks 2\n", "\nkinesphere_watch_pairs_within 1\n",
+        "\nkinesphere_watch_alerts_total 2\n"})
+    EXPECT_NE(metrics->body.find(line), std::string::npos) << line << metrics->body;
+  EXPECT_EQ(client.Get("/", {{"Host", "example.org"}})->status, 403);
+  EXPECT_EQ(client.Get("/nothing")->status, 404);
+  expect_wrong_input("watch --separation sphere:30 --serve " + std::to_string(port) + promises,
+                     {"--serve", std::to_string(port)}, "echo '{\"id\": 1, \"stamp\": 1}' | ");
+  live.signal(SIGTERM);
+  EXPECT_EQ(live.wait(), 0);
+}
+
+#endif
+
+}  // namespace
+}  // namespace kinesphere::program
