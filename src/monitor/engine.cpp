@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "bound/rounding.hpp"
+#include "engine/while_true.hpp"
 #include "input/input_check.hpp"
 #include "kinesphere/limits.hpp"
 #include "number/powers.hpp"
@@ -466,7 +467,10 @@ Result<void> Monitor::Engine::ask(std::span<const std::uint32_t> numbers, const 
   std::vector<TrackId> ids;
   for (const std::uint32_t number : numbers) ids.push_back(tracks_[number].id);
   std::vector<std::optional<TrackReport>> reports(ids.size());
-  poll(ids, time_, reports);
+  {
+    const WhileTrue asking(asking_);
+    poll(ids, time_, reports);
+  }
   counters_.polls += ids.size();
   for (std::size_t k = 0; k < ids.size(); ++k)
     if (reports[k])

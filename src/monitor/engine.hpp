@@ -36,6 +36,8 @@ class Monitor::Engine {
   const MonitorCounters& counters() const { return counters_; }
   double time() const { return time_; }
   const TrackTable& tracks() const { return tracks_; }
+  /// In a Poll.
+  bool is_asking() const { return asking_; }
 
   Result<void> report(TrackId id, const TrackReport& report);
   Result<void> remove(TrackId id);
@@ -103,6 +105,7 @@ class Monitor::Engine {
   Windows windows_;
   Agenda agenda_;
   std::deque<MonitorEvent> events_;  ///< of the present time, that have not been told yet
+  bool asking_ = false;
   std::vector<HotPair> read_pairs_;  ///< of a snapshot, on their way into the agenda
   Windows::Scratch scratch_;
   std::vector<std::optional<RoomyBound>> bounds_;  ///< of those that start, by place

@@ -47,37 +47,63 @@ Monitor::Monitor(Monitor&&) noexcept = default;
 Monitor& Monitor::operator=(Monitor&&) noexcept = default;
 Monitor::~Monitor() = default;
 
-Result<void> Monitor::report(TrackId id, const TrackReport& report) { return engine_->report(id, report); }
-Result<void> Monitor::remove(TrackId id) { return engine_->remove(id); }
-
-Result<std::optional<MonitorEvent>> Monitor::advance(double until) {
-  InputCheck check("advance");
-  check.finite({"until"}, until)
-      .require(until >= time(), ErrorCode::time_backwards, {"until"},
-               "must not lie before the time of the monitor,", time(), until);
-  if (check.error()) return *check.error();
-  return engine_->advance(until, nullptr);
+Monitor::Engine& Monitor::engine(const char* call) const {
+  if (!engine_)
+    throw BadResult(
+        {ErrorCode::moved_from, "monitor", no_body, std::string(call) + ": the monitor has been moved from"});
+  return *engine_;
 }
+
+Result<void> Monitor::check_idle(const char* call) const {
+  if (!engine_)
+    return Error{ErrorCode::moved_from, "monitor", no_body,
+                 std::string(call) + ": the monitor has been moved from"};
+  if (engine_->is_asking())
+    return Error{
+        ErrorCode::probe_in_progress, "monitor", no_body,
+        std::string(call) + ": the monitor is asking for reports, and cannot be changed by whom it asks"};
+  return {};
+}
+
+Result<void> Monitor::report(TrackId id, const TrackReport& report) {
+  if (const Result<void> idle = check_idle("report"); !idle) return idle;
+  return engine_->report(id, report);
+}
+
+Result<void> Monitor::remove(TrackId id) {
+  if (const Result<void> idle = check_idle("remove"); !idle) return idle;
+  return engine_->remove(id);
+}
+
+Result<std::optional<MonitorEvent>> Monitor::advance(double until) { return go_on(until, nullptr); }
 
 Result<std::optional<MonitorEvent>> Monitor::advance(double until, const Poll& poll) {
-  InputCheck check("advance");
-  check.finite({"until"}, until)
-      .require(until >= time(), ErrorCode::time_backwards, {"until"},
-               "must not lie before the time of the monitor,", time(), until)
-      .require(static_cast<bool>(poll), ErrorCode::null_probe, {"poll"}, "must be a function", "empty");
-  if (check.error()) return *check.error();
-  return engine_->advance(until, &poll);
+  if (!poll)
+    return *InputCheck("advance")
+                .require(false, ErrorCode::null_probe, {"poll"}, "must be a function", "empty")
+                .error();
+  return go_on(until, &poll);
 }
 
-double Monitor::time() const { return engine_->time(); }
-const MonitorDefinition& Monitor::definition() const { return engine_->definition(); }
-const MonitorCounters& Monitor::counters() const { return engine_->counters(); }
-std::vector<TrackId> Monitor::tracks() const { return engine_->tracks().ids(); }
-std::size_t Monitor::size() const { return engine_->tracks().size(); }
-bool Monitor::contains(TrackId id) const { return engine_->tracks().find(id).has_value(); }
+Result<std::optional<MonitorEvent>> Monitor::go_on(double until, const Poll* poll) {
+  if (const Result<void> idle = check_idle("advance"); !idle) return idle.error();
+  const auto check = InputCheck("advance")
+                         .finite({"until"}, until)
+                         .require(until >= time(), ErrorCode::time_backwards, {"until"},
+                                  "must not lie before the time of the monitor,", time(), until);
+  if (check.error()) return *check.error();
+  return engine_->advance(until, poll);
+}
+
+double Monitor::time() const { return engine("time").time(); }
+const MonitorDefinition& Monitor::definition() const { return engine("definition").definition(); }
+const MonitorCounters& Monitor::counters() const { return engine("counters").counters(); }
+std::vector<TrackId> Monitor::tracks() const { return engine("tracks").tracks().ids(); }
+std::size_t Monitor::size() const { return engine("size").tracks().size(); }
+bool Monitor::contains(TrackId id) const { return engine("contains").tracks().find(id).has_value(); }
 
 Result<TrackView> Monitor::track(TrackId id) const {
-  const auto number = engine_->tracks().find(id);
+  const auto number = engine("track").tracks().find(id);
   if (!number)
     return Error{ErrorCode::unknown_body, "id", no_body, "track: there is no track " + std::to_string(id)};
   const Track& track = engine_->tracks()[*number];
@@ -94,12 +120,12 @@ Result<TrackView> Monitor::track(TrackId id) const {
 }
 
 Result<PairAnswer> Monitor::answer(TrackId first, TrackId second, std::uint32_t level) const {
-  return engine_->answer(first, second, level);
+  return engine("answer").answer(first, second, level);
 }
-std::vector<OpenPair> Monitor::open_pairs() const { return engine_->open_pairs(); }
-std::vector<ReportNeed> Monitor::needed(double until) const { return engine_->needed(until); }
+std::vector<OpenPair> Monitor::open_pairs() const { return engine("open_pairs").open_pairs(); }
+std::vector<ReportNeed> Monitor::needed(double until) const { return engine("needed").needed(until); }
 
-std::vector<std::byte> Monitor::save() const { return engine_->save(); }
+std::vector<std::byte> Monitor::save() const { return engine("save").save(); }
 
 Result<Monitor> Monitor::restore(std::span<const std::byte> snapshot) {
   auto engine = Engine::restore(snapshot);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace kinesphere {
@@ -387,6 +388,35 @@ TEST(Monitor, AfterABadAnswerOrAnExceptionItGoesOn) {
   EXPECT_THROW(static_cast<void>(monitor.advance(10.0, throws)), std::runtime_error);
   EXPECT_EQ(monitor.time(), stopped);
   EXPECT_EQ(all(monitor.events(10.0)).size(), 1u);
+}
+
+TEST(Monitor, CannotBeChangedByWhomItAsks) {
+  Monitor monitor = made(definition(2.0));
+  monitor.report(1, at(0.0, {0, 0, 0})).value();
+  monitor.report(2, at(0.0, {26, 0, 0})).value();
+  int asked = 0;
+  const Poll poll = [&](std::span<const TrackId> ids, double time, std::span<std::optional<TrackReport>>) {
+    ++asked;
+    expect_refused(monitor.report(ids[0], at(time, {})), ErrorCode::probe_in_progress, "report");
+    expect_refused(monitor.remove(ids[0]), ErrorCode::probe_in_progress, "remove");
+    expect_refused(monitor.advance(time), ErrorCode::probe_in_progress, "advance");
+    EXPECT_EQ(monitor.time(), time);
+    EXPECT_TRUE(monitor.track(ids[0]));
+  };
+  all(monitor.events(5.0, poll));
+  EXPECT_GT(asked, 0);
+  monitor.report(1, at(5.0, {0, 0, 0})).value();
+}
+
+TEST(Monitor, ThatHasBeenMovedFromSaysSo) {
+  Monitor monitor = made(definition(2.0));
+  Monitor other = std::move(monitor);
+  expect_refused(monitor.report(1, at(0.0, {})), ErrorCode::moved_from, "report");
+  expect_refused(monitor.advance(1.0), ErrorCode::moved_from, "advance");
+  EXPECT_THROW(static_cast<void>(monitor.time()), BadResult);
+  EXPECT_THROW(static_cast<void>(monitor.save()), BadResult);
+  monitor = std::move(other);
+  EXPECT_EQ(monitor.time(), 0.0);
 }
 
 // Wrong use.

@@ -135,7 +135,10 @@ using Poll =
 class MonitorEventRange;
 
 /// One thread at a time may use a monitor; const calls may run at the same time as other const calls. Every
-/// call checks what it is handed, and one that returns an error has changed nothing.
+/// call checks what it is handed, and one that returns an error has changed nothing. Calls that change a
+/// monitor fail with probe_in_progress inside its own Poll, which may ask it everything else. A monitor that
+/// has been moved from answers with moved_from, or throws BadResult where a call returns no Result or answers
+/// a question; it may be assigned to and destroyed.
 class Monitor {
  public:
   /// Errors: not_finite or out_of_range, naming the field.
@@ -194,6 +197,9 @@ class Monitor {
  private:
   class Engine;
   explicit Monitor(std::unique_ptr<Engine> engine);
+  Engine& engine(const char* call) const;
+  Result<void> check_idle(const char* call) const;
+  Result<std::optional<MonitorEvent>> go_on(double until, const Poll* poll);
   std::unique_ptr<Engine> engine_;
 };
 
