@@ -100,10 +100,17 @@ void Watcher::pass_over(Passed reason) {
 void Watcher::refuse(std::size_t line, const std::string& reason) {
   constexpr std::size_t most_told = 10;
   ++counts_.malformed;
-  if (counts_.first_malformed.size() < most_told) counts_.first_malformed.push_back({line, reason});
-  if (counts_.malformed > settings_.most_malformed)
+  const bool is_too_much = counts_.malformed > settings_.most_malformed;
+  if (counts_.first_malformed.size() == most_told && !is_too_much) return;
+  // What the stream has may not make more lines of it, or move the cursor.
+  std::string text = reason;
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; },
+      ' ');
+  if (counts_.first_malformed.size() < most_told) counts_.first_malformed.push_back({line, text});
+  if (is_too_much)
     throw ProgramError(fmt::format("{}:{}: {}; that makes {} malformed, and --most-malformed allows {}",
-                                   settings_.source, line, reason, counts_.malformed,
+                                   settings_.source, line, text, counts_.malformed,
                                    settings_.most_malformed));
 }
 
