@@ -21,8 +21,8 @@ struct Track {
   /// Of the hypotheses that have a capsule of their own, a bit for each slot. The others need none, as long
   /// as those that were there before them have theirs.
   std::uint32_t placed = 0;
-  std::uint32_t expected =
-      0;  ///< how often it was put on the agenda to be heard; what is from before is void
+  /// How often it was put on the agenda to be heard of: what is from before is void.
+  std::uint32_t expected = 0;
   Knowledge knowledge{};
   std::vector<std::uint32_t> open;  ///< partners in pairs that are not certainly apart
 

@@ -117,6 +117,8 @@ TEST(Monitor, CountsTheErrorsOfEachReportByItself) {
   auto events = all(monitor.events(0.0));
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].verdict, Verdict::undecided);
+  EXPECT_NEAR(monitor.answer(1, 2)->lower, 9.0, 1e-9);
+  EXPECT_NEAR(monitor.answer(1, 2)->upper, 19.0, 1e-9);
   monitor.report(1, at(0.5, {0.5, 0, 0})).value();
   events = all(monitor.events(0.5));
   ASSERT_EQ(events.size(), 1u);
@@ -125,6 +127,23 @@ TEST(Monitor, CountsTheErrorsOfEachReportByItself) {
   rough.stamp = 0.75;
   monitor.report(1, rough).value();
   EXPECT_TRUE(all(monitor.events(2.0)).empty());
+}
+
+TEST(Monitor, AReportEndsNoCertainty) {
+  Monitor monitor = made(definition(2.0));
+  monitor.report(1, at(0.0, {0, 0, 0})).value();
+  monitor.report(2, at(0.0, {5, 0, 0})).value();
+  all(monitor.events(1.4));
+  // Within until 5 + 2 1/2 2 t^2 = 10. By itself this report, which will soon say more than the first one,
+  // would leave it open.
+  TrackReport rough = at(1.4, {0, 0, 0});
+  rough.position_error = 5.0;
+  rough.plan = TrackReport::Plan{.acceleration = {}, .acceleration_limit = 0.0};
+  monitor.report(1, rough).value();
+  const auto events = all(monitor.events(5.0));
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].before, Verdict::within);
+  EXPECT_NEAR(events[0].time, std::sqrt(2.5), 2e-3);
 }
 
 TEST(Monitor, TakesReportsFromThePastInAnyOrder) {

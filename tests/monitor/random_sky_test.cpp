@@ -111,6 +111,12 @@ TEST_P(RandomSky, IsNeverWrongWhereItIsCertain) {
     std::map<std::tuple<TrackId, TrackId, std::uint32_t>, Verdict> verdicts;
     std::map<TrackId, TrackReport> latest;
     int undecided_needlessly = 0;
+    // What answers promised of the truth, whatever the monitor says later.
+    struct Promise {
+      Verdict verdict;
+      double until;
+    };
+    std::map<std::tuple<TrackId, TrackId, std::uint32_t>, Promise> promises;
     const auto go_to = [&](double time) {
       for (const MonitorEvent& event : monitor.events(time)) {
         ASSERT_EQ(event.kind, MonitorEventKind::verdict);
@@ -140,6 +146,16 @@ TEST_P(RandomSky, IsNeverWrongWhereItIsCertain) {
             const Verdict verdict = at == verdicts.end() ? Verdict::apart : at->second;
             ++seen_verdicts[verdict];
             const Vec3 way = x.position - y.position;
+            if (const auto promised = promises.find({id, other, level});
+                promised != promises.end() && time < promised->second.until) {
+              EXPECT_EQ(is_within(separation, sky.dimensions, way,
+                                  promised->second.verdict == Verdict::apart ? -1e-9 : 1.01e-3),
+                        promised->second.verdict == Verdict::within)
+                  << id << " and " << other << " at " << time;
+            } else if (const PairAnswer answer = monitor.answer(id, other, level).value();
+                       answer.verdict != Verdict::undecided) {
+              promises[{id, other, level}] = {answer.verdict, answer.until};
+            }
             if (verdict == Verdict::apart) {
               EXPECT_FALSE(is_within(separation, sky.dimensions, way, -1e-9))
                   << id << " and " << other << " at " << time << ", " << norm(way) << " apart";

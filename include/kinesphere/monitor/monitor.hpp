@@ -76,8 +76,9 @@ struct PairAnswer {
   Verdict verdict = Verdict::apart;
   /// From when on it was so: of a pair that was apart all the time, -infinity.
   double since = 0.0;
-  /// A certain verdict holds until then whatever is reported or not. An undecided one may be decided by the
-  /// passing of time no earlier than this. In [time(), +infinity].
+  /// A certain verdict is true until then, whatever is reported; it may be told to end sooner, where reports
+  /// that come say less. An undecided one may be decided by the passing of time no earlier than this. In
+  /// [time(), +infinity].
   double until = 0.0;
   /// Limits of the distance now (length). For a cylinder that in the plane.
   double lower = 0.0;
