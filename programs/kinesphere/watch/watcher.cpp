@@ -318,11 +318,21 @@ void Watcher::deliver(const SourceReport& report) {
   }
 }
 
+double Watcher::velocity_age_of(const SourceReport& report) const {
+  return std::max(report.velocity_age, settings_.velocity_age);
+}
+
 std::optional<TrackReport> Watcher::on_map(const SourceReport& report, NamedTrack& track) {
   TrackReport result{.stamp = times_.seconds(report.stamp)};
   double added_velocity_error = 0.0;
   if (is_geographic_) {
-    const auto placed = frame_->place(report.position, report.has_height, report.velocity.value_or(Vec3{}));
+    // Where the velocity was measured the track was a little before or after, and it is drawn where the track
+    // is reported to be.
+    const double error =
+        report.position_error ? report.position_error->bound : settings_.position_error.bound.value_or(0.0);
+    const double time = report.stamp_error.value_or(settings_.stamp_error) + velocity_age_of(report);
+    const auto placed = frame_->place(report.position, report.has_height, report.velocity.value_or(Vec3{}),
+                                      error + settings_.largest_speed.horizontal() * time);
     if (!placed) return std::nullopt;
     result.state = placed->state;
     added_velocity_error = placed->velocity_error;
@@ -369,7 +379,7 @@ void Watcher::add_errors(const SourceReport& report, double added_velocity_error
     return;
   }
   // It was measured a little before or after the position.
-  const double age = std::max(report.velocity_age, settings_.velocity_age);
+  const double age = velocity_age_of(report);
   if (age > 0.0 && std::isfinite(settings_.acceleration.total())) {
     *turning += age * settings_.acceleration.horizontal();
     climbing = climbing.value_or(*turning) + age * settings_.acceleration.vertical();
