@@ -116,5 +116,19 @@ TEST(MonitorSoak, MissesNothingWhateverGoesWrong) {
   }
 }
 
+class WatchSoak : public ProgramTest {};
+
+TEST_F(WatchSoak, TheProgramMissesNothingEither) {
+  const std::string soak = "bench soak --reports 150000 --tracks 1500 --width 7000 --seed 5";
+  const ProgramRun watched = run(
+      "watch --format jsonl --quiet --separation sphere:60 --acceleration 1 > '" + path("alerts.jsonl") + "'",
+      "'" KINESPHERE_PROGRAM "' " + soak + " --write 2>'" + path("faults.txt") + "' | ");
+  EXPECT_EQ(watched.exit_code, 0) << watched.err;
+  EXPECT_NE(read_text(path("faults.txt")).find(" 150 malformed lines"), std::string::npos);
+  const ProgramRun compared = run(soak + " --alerts '" + path("alerts.jsonl") + "'");
+  EXPECT_EQ(compared.exit_code, 0) << compared.out << compared.err;
+  EXPECT_NE(compared.out.find("approaches"), std::string::npos) << compared.out;
+}
+
 }  // namespace
 }  // namespace kinesphere::program

@@ -18,7 +18,7 @@ struct BenchCommands {
   BenchOptions gas{.output = "bench-gas", .only = {}};
   VesselOptions vessels;
   MonitoringOptions monitoring;
-  SoakSettings soak;
+  SoakOptions soak;
   SatelliteOptions satellites;
 };
 

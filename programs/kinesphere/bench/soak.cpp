@@ -2,16 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 
+#include "lab/monitoring/verdict_check.hpp"
 #include "program_error.hpp"
 #include "progress.hpp"
+#include "standard_output.hpp"
 #include "summary.hpp"
 #include "validators.hpp"
 
 namespace kinesphere::program {
 
-void add_bench_soak_command(CLI::App& bench, SoakSettings& settings) {
+void add_bench_soak_command(CLI::App& bench, SoakOptions& options) {
+  SoakSettings& settings = options.settings;
   CLI::App* const command = bench.add_subcommand(
       "soak", "Feed a monitor with faulty reports for long, and hold it against the truth");
   command->add_option("--reports", settings.reports, "How many come in")
@@ -29,9 +34,93 @@ void add_bench_soak_command(CLI::App& bench, SoakSettings& settings) {
   command->add_option("--seed", settings.faults.seed, "Of all random numbers")
       ->check(whole_number(std::numeric_limits<std::uint64_t>::max()))
       ->capture_default_str();
+  CLI::Option* const write = command->add_flag(
+      "--write", options.write,
+      "Only write the reports to standard output, some lines cut off, for `kinesphere watch`");
+  command
+      ->add_option(
+          "--alerts", options.alerts,
+          "Only compare the alerts of `kinesphere watch` with the truth; the other options as in --write")
+      ->excludes(write);
 }
 
-int bench_soak(const SoakSettings& settings) {
+namespace {
+
+/// One line in so many is cut off.
+constexpr std::uint64_t lines_between_malformed = 1000;
+
+int write_reports(const SoakSettings& settings) {
+  FaultyReports reports(settings.faults);
+  std::string line;
+  std::uint64_t malformed = 0;
+  for (std::uint64_t k = 0; k < settings.reports; ++k) {
+    const auto [time, track, report] = reports.next();
+    const auto& [position, velocity] = report.state;
+    line = fmt::format(
+        R"({{"id":"{}","stamp":{},"arrival":{},"position":[{},{},{}],"velocity":[{},{},{}],"position_error":{},)"
+        R"("velocity_error":{},"stamp_error":{}}})",
+        track, report.stamp, time, position.x, position.y, position.z, velocity.x, velocity.y, velocity.z,
+        report.position_error.total(), report.velocity_error.total(), report.stamp_error);
+    // In place of nothing: the report itself comes next.
+    if (k % lines_between_malformed == lines_between_malformed / 2) {
+      ++malformed;
+      write_output(line.substr(0, line.size() / 2) + "\n");
+    }
+    write_output(line + "\n");
+  }
+  finish_output();
+  fmt::print(stderr, "{} reports, {} malformed lines, {} repeated, {} outliers, {} swapped, {} gaps\n",
+             reports.counts().reports, malformed, reports.counts().repeated, reports.counts().outliers,
+             reports.counts().swapped, reports.counts().gaps);
+  return exit_fine;
+}
+
+Verdict verdict_named(const std::string& name) {
+  for (const Verdict verdict : {Verdict::apart, Verdict::undecided, Verdict::within})
+    if (name == name_of(verdict)) return verdict;
+  throw ProgramError(fmt::format("'{}' is no verdict", name));
+}
+
+int compare_alerts(const SoakOptions& options) {
+  const SoakSettings& settings = options.settings;
+  FaultyReports reports(settings.faults);
+  double end = 0.0;
+  VerdictCheck check(settings.faults, reports.motion(), settings.distance, settings.tolerance);
+  for (std::uint64_t k = 0; k < settings.reports; ++k) end = reports.next().time;
+  std::ifstream file(options.alerts);
+  if (!file) throw ProgramError(options.alerts + " cannot be read");
+  std::uint64_t alerts = 0;
+  std::string line;
+  while (std::getline(file, line)) {
+    ++alerts;
+    const nlohmann::json alert = nlohmann::json::parse(line);
+    if (alert.at("event") != "verdict") continue;
+    const MonitorEvent event{.time = alert.at("time"),
+                             .kind = MonitorEventKind::verdict,
+                             .first = std::stoull(alert.at("first").get<std::string>()),
+                             .second = std::stoull(alert.at("second").get<std::string>()),
+                             .verdict = verdict_named(alert.at("verdict")),
+                             .before = verdict_named(alert.at("before"))};
+    check.compare(event.time, std::span(&event, 1));
+  }
+  check.compare(end, {});
+  Summary summary;
+  summary.row("alerts", grouped(alerts));
+  summary.row("warnings", grouped(check.warnings), "of pairs that were apart before");
+  summary.row("approaches", grouped(check.approaches),
+              fmt::format("nearer than {}", number(settings.distance)));
+  summary.row("  missed", grouped(check.missed), "told to be apart at some time");
+  summary.row("wrongly within", grouped(check.wrongly_within));
+  fmt::print("{}", summary.text());
+  return check.missed == 0 && check.wrongly_within == 0 ? exit_fine : exit_disagreement;
+}
+
+}  // namespace
+
+int bench_soak(const SoakOptions& options) {
+  if (options.write) return write_reports(options.settings);
+  if (!options.alerts.empty()) return compare_alerts(options);
+  const SoakSettings& settings = options.settings;
   Progress progress(0.0, static_cast<double>(settings.reports));
   const Soak result =
       soak(settings, [&](std::uint64_t reports) { progress.show(static_cast<double>(reports)); });

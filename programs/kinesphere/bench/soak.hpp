@@ -2,14 +2,21 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <string>
 
 #include "lab/monitoring/soak.hpp"
 
 namespace kinesphere::program {
 
-/// `settings` must live until the command line has been parsed.
-void add_bench_soak_command(CLI::App& bench, SoakSettings& settings);
+struct SoakOptions {
+  SoakSettings settings;
+  bool write = false;  ///< the reports, for `kinesphere watch`
+  std::string alerts;  ///< what it told of them
+};
+
+/// `options` must live until the command line has been parsed.
+void add_bench_soak_command(CLI::App& bench, SoakOptions& options);
 /// Returns the exit code, which tells whether anything was missed or wrong. Throws ProgramError.
-int bench_soak(const SoakSettings& settings);
+int bench_soak(const SoakOptions& options);
 
 }  // namespace kinesphere::program
