@@ -82,6 +82,12 @@ StreamFormat format_of(const WatchOptions& options, ReportSource& source, Record
                                  stream_format_names));
 }
 
+FormatChoices choices_of(const WatchOptions& options) {
+  FormatChoices choices = options.choices;
+  choices.position_error_is_said = !options.position_error.empty();
+  return choices;
+}
+
 /// A stream that is read to its end.
 class Watch {
  public:
@@ -91,7 +97,7 @@ class Watch {
         format_(format_of(options, *source_, cutter_, stop_)),
         watcher_(settings_of(options, format_, source_->name()),
                  [this](std::string_view line) { output_.write(line); }),
-        reader_(make_format(format_, options.choices)) {
+        reader_(make_format(format_, choices_of(options))) {
     cutter_.set_kind(records_of(format_));
     if (!options.serve) return;
     server_ = std::make_unique<StateServer>(watcher_, *options.serve);

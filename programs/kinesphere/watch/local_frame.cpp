@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "program_error.hpp"
 
@@ -15,6 +16,7 @@ namespace {
 
 constexpr double polar_radius = 6356752.0;  // rounded down
 constexpr double mean_radius = 6371000.0;
+constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double degree_of_arc = 3.14159265358979323846 / 180.0;
 
 }  // namespace
@@ -77,8 +79,12 @@ LocalFrame::~LocalFrame() = default;
 LocalFrame::LocalFrame(LocalFrame&&) noexcept = default;
 LocalFrame& LocalFrame::operator=(LocalFrame&&) noexcept = default;
 
+double LocalFrame::curving() const {
+  return 1.2 * stretch_ * stretch_ * outer_radius_ / (polar_radius * polar_radius);
+}
+
 std::optional<LocalFrame::Placed> LocalFrame::place(const Vec3& geographic, bool has_height,
-                                                    const Vec3& velocity) const {
+                                                    const Vec3& velocity, double away) const {
   const auto point = projector_->forward(latitude_, longitude_, geographic);
   const double distance = std::hypot(point.x, point.y);
   if (!(distance <= radius_) || std::abs(geographic.z) > largest_height) return std::nullopt;
@@ -97,7 +103,14 @@ std::optional<LocalFrame::Placed> LocalFrame::place(const Vec3& geographic, bool
   placed.state.velocity = outward * speed_along + sideward * speed_across;
   placed.state.velocity.z = velocity.z;
   const double uncertain_height = has_height ? 1500.0 + 0.01 * std::abs(height) : largest_height;
-  placed.velocity_error = stretch_ * std::hypot(velocity.x, velocity.y) * uncertain_height / polar_radius;
+  const double speed = stretch_ * std::hypot(velocity.x, velocity.y);
+  placed.velocity_error = speed * uncertain_height / polar_radius;
+  if (away > 0.0) {
+    // At a pole no direction is certain.
+    const double latitude = std::abs(geographic.y) * degree_of_arc + away / polar_radius;
+    const double north_turns = latitude < 1.57 ? std::tan(latitude) / polar_radius : infinite;
+    placed.velocity_error += speed * std::min(2.0, away * (north_turns + curving()));
+  }
   return placed;
 }
 
@@ -111,12 +124,11 @@ TrackClass LocalFrame::promise(const Spread& acceleration, const Spread& largest
   if (std::isfinite(largest_speed.total()))
     promise.largest_speed = Spread::cylinder(stretch_ * fastest, steepest);
   if (std::isfinite(acceleration.total())) {
-    const double curving = 1.2 * stretch_ * stretch_ * outer_radius_ / (polar_radius * polar_radius) +
-                           largest_height / (polar_radius * polar_radius);
-    promise.acceleration_limit =
-        Spread::cylinder(stretch_ * acceleration.horizontal() + curving * fastest * fastest +
-                             fastest * steepest / polar_radius,
-                         acceleration.vertical());
+    promise.acceleration_limit = Spread::cylinder(
+        stretch_ * acceleration.horizontal() +
+            (curving() + largest_height / (polar_radius * polar_radius)) * fastest * fastest +
+            fastest * steepest / polar_radius,
+        acceleration.vertical());
   }
   return promise;
 }

@@ -34,6 +34,9 @@ namespace kinesphere::program {
 ///    height h has the velocity v a / (a + h) on the ellipsoid below, with a radius of curvature a in [b^2/e,
 ///    e^2/b], where e is the equatorial radius: 6335 to 6400 km. With 6371 km that is wrong by less than 0.01
 ///    h/b. A height above the sea, or of pressure, is within 1500 m of the one above the ellipsoid.
+///    A velocity in terms of east and north that was measured at most a distance d away from where it is
+///    drawn has turned meanwhile: east and north by d tan(latitude) / b, and the map, as in 3, by 1.2 kappa^2
+///    (t/b) d.
 /// 3. A path whose acceleration on the earth, in the plane that touches it, is at most A has on the map at
 /// most
 ///        kappa A + 1.2 kappa^2 (t/b) V^2
@@ -67,9 +70,10 @@ class LocalFrame {
     State state;
     double velocity_error = 0.0;  ///< what the transformation of the velocity adds
   };
-  /// Degrees east and north, and metres of height (if they are known) in a Vec3. Nothing for a place beyond
-  /// the radius.
-  std::optional<Placed> place(const Vec3& geographic, bool has_height, const Vec3& velocity) const;
+  /// Degrees east and north, and metres of height (if they are known) in a Vec3. The velocity may have been
+  /// measured so far away from there. Nothing for a place beyond the radius.
+  std::optional<Placed> place(const Vec3& geographic, bool has_height, const Vec3& velocity,
+                              double away = 0.0) const;
   /// Degrees east and north, and metres.
   Vec3 geographic(const Vec3& position) const;
 
@@ -84,6 +88,9 @@ class LocalFrame {
  private:
   /// Metres: GeographicLib's geodesics are right to 15 nanometres.
   static constexpr double rounding = 1e-6;
+
+  /// How fast a straight way turns on the map, at most: 1 / metre.
+  double curving() const;
 
   class Projector;
   double latitude_, longitude_, radius_;

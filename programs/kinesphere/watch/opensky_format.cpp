@@ -13,7 +13,8 @@ namespace {
 /// Places in a state vector, as the documentation of OpenSky's REST API numbers them.
 namespace state_vector {
 constexpr std::size_t icao24 = 0, time_position = 3, longitude = 5, latitude = 6, baro_altitude = 7,
-                      velocity = 9, true_track = 10, vertical_rate = 11, geo_altitude = 13, count = 17;
+                      velocity = 9, true_track = 10, vertical_rate = 11, geo_altitude = 13,
+                      position_source = 16, count = 17;
 }
 
 class OpenskyFormat final : public ReportFormat {
@@ -63,6 +64,9 @@ class OpenskyFormat final : public ReportFormat {
       return sink.refuse(
           line, fmt::format("expected a time, a longitude and a latitude of {}, but got {}, {} and {}", *id,
                             *time, *longitude, *latitude));
+    // 0 is ADS-B; others are radar, and receivers on the ground.
+    if (numbers[at::position_source].value_or(0.0) != 0.0 && !choices_.position_error_is_said)
+      return sink.pass_over(Passed::no_bound);
     SourceReport report{.id = *id, .stamp = time_of(*time), .arrival = arrival};
     report.geographic = true;
     report.position = {*longitude, *latitude, 0.0};

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double unknown_accuracy = std::numeric_limits<double>::infinity();
 
-// 95 % of errors are less (DO-260B, tables 2-71 and 2-72): metres and metres per second.
+// 95 % of errors are less, as DO-260B and ICAO Doc 9871 encode it: metres and metres per second.
 constexpr std::array position_accuracies{
     unknown_accuracy, 18520.0, 7408.0, 3704.0, 1852.0, 926.0, 555.6, 185.2, 92.6, 30.0, 10.0, 3.0};
 constexpr std::array velocity_accuracies{unknown_accuracy, 10.0, 3.0, 1.0, 0.3};
@@ -29,7 +29,9 @@ double accuracy(const std::array<double, count>& accuracies, double category) {
 struct AircraftEntry {
   std::optional<std::string_view> hex;
   std::optional<double> lat, lon, alt_baro, alt_geom, gs, track, baro_rate, geom_rate, seen_pos, rc, nac_p,
-      nac_v, gva;
+      nac_v, gva, sil;
+  /// The aircraft itself has told its position, and no radar or receivers on the ground.
+  bool is_from_aircraft = true;
   const char* wrong = nullptr;
 
   void read(ondemand::object object) {
@@ -38,6 +40,18 @@ struct AircraftEntry {
       ondemand::value value = field.value();
       if (key == "hex") {
         hex = text_in(value, "hex", wrong);
+      } else if (key == "type") {
+        const char* ignored = nullptr;
+        const auto type = text_in(value, "type", ignored);
+        if (type && !type->starts_with("adsb") && !type->starts_with("adsr")) is_from_aircraft = false;
+      } else if (key == "mlat" || key == "tisb") {
+        // Names of fields that come from there.
+        ondemand::array names;
+        if (value.get_array().get(names)) continue;
+        for (auto name : names) {
+          std::string_view text;
+          if (!name.get_string().get(text) && text == "lat") is_from_aircraft = false;
+        }
       } else if (key == "alt_baro") {
         // "ground" is no height.
         if (value.type() == ondemand::json_type::number) alt_baro = double(value.get_double());
@@ -55,10 +69,10 @@ struct AircraftEntry {
     const char* name;
     std::optional<double> AircraftEntry::*place;
   };
-  static const std::array<Number, 12> numbers;
+  static const std::array<Number, 13> numbers;
 };
 
-const std::array<AircraftEntry::Number, 12> AircraftEntry::numbers{{{"lat", &AircraftEntry::lat},
+const std::array<AircraftEntry::Number, 13> AircraftEntry::numbers{{{"lat", &AircraftEntry::lat},
                                                                     {"lon", &AircraftEntry::lon},
                                                                     {"gs", &AircraftEntry::gs},
                                                                     {"track", &AircraftEntry::track},
@@ -69,7 +83,8 @@ const std::array<AircraftEntry::Number, 12> AircraftEntry::numbers{{{"lat", &Air
                                                                     {"baro_rate", &AircraftEntry::baro_rate},
                                                                     {"alt_geom", &AircraftEntry::alt_geom},
                                                                     {"geom_rate", &AircraftEntry::geom_rate},
-                                                                    {"gva", &AircraftEntry::gva}}};
+                                                                    {"gva", &AircraftEntry::gva},
+                                                                    {"sil", &AircraftEntry::sil}}};
 
 class ReadsbFormat final : public ReportFormat {
  public:
@@ -119,7 +134,10 @@ class ReadsbFormat final : public ReportFormat {
     report.position = {*entry.lon, *entry.lat, 0.0};
     // The same place again is told as one tenth of a second earlier or later.
     report.same_within = 0.25;
-    add_errors(entry, report);
+    if (entry.is_from_aircraft)
+      add_errors(entry, report);
+    else if (!choices_.position_error_is_said)
+      return sink.pass_over(Passed::no_bound);
     if (report.position_error && std::isinf(report.position_error->bound))
       return sink.pass_over(Passed::no_bound);
     add_height(entry, report);
@@ -127,7 +145,8 @@ class ReadsbFormat final : public ReportFormat {
   }
 
   void add_errors(const AircraftEntry& entry, SourceReport& report) const {
-    const bool has_radius = entry.rc && *entry.rc > 0.0;
+    // Of a source without integrity the radius contains nothing for certain.
+    const bool has_radius = entry.rc && *entry.rc > 0.0 && entry.sil.value_or(1.0) > 0.0;
     if (has_radius &&
         (choices_.position_bound == FormatChoices::PositionBound::containment_radius || !entry.nac_p))
       report.position_error = {*entry.rc, "rc"};

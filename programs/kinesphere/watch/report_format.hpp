@@ -58,6 +58,9 @@ struct FormatChoices {
   } position_bound = PositionBound::containment_radius;
   /// So many times a 95 % accuracy is declared to contain all errors.
   double containment = 2.5;
+  /// Positions that the aircraft has not told itself, but radar or receivers on the ground, have no bound
+  /// unless one was said.
+  bool position_error_is_said = false;
   double velocity_age = 5.0;  ///< sbs: an older velocity is not used (seconds)
 };
 

@@ -81,12 +81,13 @@ class SbsFormat final : public ReportFormat {
         fmt::format("expected a number as {} (field {}), but got '{}'", what, place + 1, fields_[place]));
   }
 
+  Vec3 velocity_here() const {
+    const double climb = fields_[sbs::climb].empty() ? 0.0 : number_at(sbs::climb, "a climb") * foot / 60.0;
+    return going(number_at(sbs::speed, "a speed") * knot, number_at(sbs::course, "a course"), climb);
+  }
   void keep_velocity(const FileTime& time) {
     if (fields_[sbs::speed].empty() || fields_[sbs::course].empty()) return;
-    const bool has_climb = !fields_[sbs::climb].empty();
-    const double climb = has_climb ? number_at(sbs::climb, "a climb") * foot / 60.0 : 0.0;
-    const double speed = number_at(sbs::speed, "a speed") * knot, course = number_at(sbs::course, "a course");
-    velocities_[std::string(fields_[sbs::hex])] = {time, going(speed, course, climb), has_climb};
+    velocities_[std::string(fields_[sbs::hex])] = {time, velocity_here(), !fields_[sbs::climb].empty()};
   }
 
   SourceReport report_at(const TimeField& made, const FileTime& logged) {
@@ -100,6 +101,12 @@ class SbsFormat final : public ReportFormat {
                       report.position.y, report.position.x));
     report.has_height = !fields_[sbs::altitude].empty();
     if (report.has_height) report.position.z = number_at(sbs::altitude, "an altitude") * foot;
+    // Some receivers tell both in one message.
+    if (!fields_[sbs::speed].empty() && !fields_[sbs::course].empty()) {
+      report.velocity = velocity_here();
+      report.has_climb = !fields_[sbs::climb].empty();
+      return report;
+    }
     text_.assign(report.id);
     if (const auto known = velocities_.find(text_); known != velocities_.end()) {
       const double age = std::abs(seconds_after(made.time, known->second.time));

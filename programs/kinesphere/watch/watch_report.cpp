@@ -44,6 +44,11 @@ std::vector<WatchCount> counts_of(const Watcher& watcher) {
   };
 }
 
+std::string without_quotes(std::string text) {
+  std::erase(text, '"');
+  return text;
+}
+
 bool is_always_shown(const WatchCount& count) { return *count.label != '\0'; }
 
 std::string place_fields(const Watcher& watcher, const TrackView::Place& place) {
@@ -106,8 +111,9 @@ std::string watch_summary_text(const Watcher& watcher, std::string_view format, 
   Summary summary;
   const WatchSettings& settings = watcher.settings();
   summary.row("stream", settings.source, std::string(format));
-  summary.row("time", fmt::format("{} s", number(watcher.time_covered())),
-              fmt::format("{} to {}", watcher.first_time(), watcher.last_time()));
+  summary.row(
+      "time", fmt::format("{} s", number(watcher.time_covered())),
+      fmt::format("{} to {}", without_quotes(watcher.first_time()), without_quotes(watcher.last_time())));
   if (const auto& frame = watcher.frame())
     summary.row("map", fmt::format("{} km", number(frame->radius() / 1e3)),
                 fmt::format("around {:.4f}, {:.4f}; its lengths are at most {:.2g} % too long",

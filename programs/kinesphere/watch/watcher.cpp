@@ -100,10 +100,17 @@ void Watcher::pass_over(Passed reason) {
 void Watcher::refuse(std::size_t line, const std::string& reason) {
   constexpr std::size_t most_told = 10;
   ++counts_.malformed;
-  if (counts_.first_malformed.size() < most_told) counts_.first_malformed.push_back({line, reason});
-  if (counts_.malformed > settings_.most_malformed)
+  const bool is_too_much = counts_.malformed > settings_.most_malformed;
+  if (counts_.first_malformed.size() == most_told && !is_too_much) return;
+  // What the stream has may not make more lines of it, or move the cursor.
+  std::string text = reason;
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; },
+      ' ');
+  if (counts_.first_malformed.size() < most_told) counts_.first_malformed.push_back({line, text});
+  if (is_too_much)
     throw ProgramError(fmt::format("{}:{}: {}; that makes {} malformed, and --most-malformed allows {}",
-                                   settings_.source, line, reason, counts_.malformed,
+                                   settings_.source, line, text, counts_.malformed,
                                    settings_.most_malformed));
 }
 
@@ -311,11 +318,21 @@ void Watcher::deliver(const SourceReport& report) {
   }
 }
 
+double Watcher::velocity_age_of(const SourceReport& report) const {
+  return std::max(report.velocity_age, settings_.velocity_age);
+}
+
 std::optional<TrackReport> Watcher::on_map(const SourceReport& report, NamedTrack& track) {
   TrackReport result{.stamp = times_.seconds(report.stamp)};
   double added_velocity_error = 0.0;
   if (is_geographic_) {
-    const auto placed = frame_->place(report.position, report.has_height, report.velocity.value_or(Vec3{}));
+    // Where the velocity was measured the track was a little before or after, and it is drawn where the track
+    // is reported to be.
+    const double error =
+        report.position_error ? report.position_error->bound : settings_.position_error.bound.value_or(0.0);
+    const double time = report.stamp_error.value_or(settings_.stamp_error) + velocity_age_of(report);
+    const auto placed = frame_->place(report.position, report.has_height, report.velocity.value_or(Vec3{}),
+                                      error + settings_.largest_speed.horizontal() * time);
     if (!placed) return std::nullopt;
     result.state = placed->state;
     added_velocity_error = placed->velocity_error;
@@ -362,7 +379,7 @@ void Watcher::add_errors(const SourceReport& report, double added_velocity_error
     return;
   }
   // It was measured a little before or after the position.
-  const double age = std::max(report.velocity_age, settings_.velocity_age);
+  const double age = velocity_age_of(report);
   if (age > 0.0 && std::isfinite(settings_.acceleration.total())) {
     *turning += age * settings_.acceleration.horizontal();
     climbing = climbing.value_or(*turning) + age * settings_.acceleration.vertical();

@@ -110,6 +110,26 @@ TEST(ReadsbFormat, DeclaresAsItIsTold) {
   EXPECT_DOUBLE_EQ(report.height_error->bound, 180.0);
 }
 
+TEST(ReadsbFormat, TakesNoPositionsOfOthersUnlessTheirErrorIsSaid) {
+  constexpr std::string_view text = R"({"now": 100, "aircraft": [
+{"hex":"a","type":"mlat","alt_baro":1000,"lat":51.0,"lon":0.0,"seen_pos":1,"rc":0},
+{"hex":"b","alt_baro":1000,"lat":51.0,"lon":0.0,"seen_pos":1,"mlat":["gs","lat","lon"],"tisb":[]},
+{"hex":"c","type":"tisb_icao","alt_baro":1000,"lat":51.0,"lon":0.0,"seen_pos":1,"nac_p":8,"tisb":["lat"]},
+{"hex":"d","type":"adsr_icao","alt_baro":1000,"lat":51.0,"lon":0.0,"seen_pos":1,"nac_p":8,"mlat":[],"tisb":[]},
+{"hex":"e","type":"adsb_icao","alt_baro":1000,"lat":51.0,"lon":0.0,"seen_pos":1,"rc":75,"sil":0,"nac_p":8}]})";
+  const Kept kept = read_all(StreamFormat::readsb, text);
+  ASSERT_EQ(kept.reports.size(), 2u);
+  EXPECT_EQ(kept.reports[0].id, "d");
+  EXPECT_EQ(kept.reports[1].id, "e");
+  EXPECT_DOUBLE_EQ(kept.reports[1].report.position_error->bound, 2.5 * 92.6) << "rc is of no integrity";
+  EXPECT_EQ(kept.passed, std::vector(3, Passed::no_bound));
+  FormatChoices choices;
+  choices.position_error_is_said = true;
+  const Kept all = read_all(StreamFormat::readsb, text, choices);
+  ASSERT_EQ(all.reports.size(), 5u);
+  EXPECT_FALSE(all.reports[2].report.position_error) << "that of the option";
+}
+
 TEST(ReadsbFormat, RefusesWhatIsNoAircraftJson) {
   for (const char* const text :
        {R"({"aircraft": []})", R"({"now": "noon", "aircraft": []})", R"({"now": 1})",
@@ -126,6 +146,7 @@ TEST(OpenskyFormat, ReadsStateVectors) {
   const Kept kept = read_all(StreamFormat::opensky, R"({"time":1458564121,"states":[
     ["ab1644","UAL421  ","United States",1458564120,1458564120,-81.1264,35.4021,11277.6,false,240.5,180.0,-1.5,null,11500.2,"1712",false,0],
     ["ac96b8","","United States",null,1458564000,null,null,null,true,0,0,null,null,null,null,false,0],
+    ["ad0002","","X",1458564119,1458564120,-81,35,1000,false,10,0,null,null,null,null,false,2],
     ["ad0001","","X",1458564119,1458564120,-81,35,null,true,10,0,null,null,null,null,false,0],
     [7]]}
 {"time":1458564131,"states":null}
@@ -139,10 +160,10 @@ TEST(OpenskyFormat, ReadsStateVectors) {
   expect_near(*report.velocity, {0.0, -240.5, -1.5});
   EXPECT_FALSE(kept.reports[1].report.has_height);
   EXPECT_FALSE(kept.reports[1].report.has_climb);
-  EXPECT_EQ(kept.passed, (std::vector{Passed::no_position}));
+  EXPECT_EQ(kept.passed, (std::vector{Passed::no_position, Passed::no_bound}));
   EXPECT_EQ(kept.times.size(), 2u);
   ASSERT_EQ(kept.refused.size(), 2u);
-  EXPECT_EQ(kept.refused[1], "7: expected \"time\": seconds");
+  EXPECT_EQ(kept.refused[1], "8: expected \"time\": seconds");
 }
 
 TEST(SbsFormat, PutsPositionsAndVelocitiesTogether) {
@@ -175,6 +196,17 @@ TEST(SbsFormat, PutsPositionsAndVelocitiesTogether) {
   EXPECT_EQ(kept.refused[0], "8: expected a number as a latitude (field 15), but got 'north'");
   EXPECT_EQ(kept.refused[1], "9: expected 22 fields, but got 3");
   EXPECT_EQ(kept.refused[2], "10: expected a message of SBS (MSG,...), but got 'mumble'");
+}
+
+TEST(SbsFormat, TakesVelocitiesOfPositionMessages) {
+  const Kept kept = read_all(
+      StreamFormat::sbs,
+      "MSG,3, 0,  0,4006B3,      "
+      "0,2009/06/19,06:15:05.984,2009/06/19,06:20:05.984,,18225,390,090,51.4870,-1.9225,-2400,4244,0,0,0,0\n"
+      "ID ,,64,522,4006B3,1509068,2009/06/19,07:12:42.179,2009/06/19,07:12:42.179,BAW4J\n");
+  ASSERT_EQ(kept.reports.size(), 1u);
+  expect_near(*kept.reports[0].report.velocity, {390 * knot, 0, -40.0 * foot});
+  EXPECT_TRUE(kept.refused.empty());
 }
 
 TEST(AisFormat, ReadsMarinecadastre) {

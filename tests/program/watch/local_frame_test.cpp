@@ -163,6 +163,24 @@ INSTANTIATE_TEST_SUITE_P(Everywhere, LocalFrameOf,
                                          Map{{-89.0, 20.0}, 300e3}, Map{{2.0, 10.0}, 3000e3},
                                          Map{{60.0, -150.0}, 5000e3}));
 
+/// A velocity in terms of east and north that was measured elsewhere.
+TEST_P(LocalFrameOf, KnowsHowFarVelocitiesTurnOnTheWay) {
+  const LocalFrame frame = this->frame();
+  Random random(6);
+  for (int k = 0; k < 2000; ++k) {
+    const Going here = somewhere(random, 0.98);
+    const double away = 2000.0 * random.uniform(0.0, 1.0), speed = 250.0;
+    Going there = gone(here, away);
+    const State truth = on(frame, here, speed);
+    there.azimuth = here.azimuth;
+    const auto drawn = frame.place(there.place(), true, there.velocity(speed), away);
+    if (!drawn) continue;
+    const double limit =
+        drawn->velocity_error - frame.place(there.place(), true, there.velocity(speed))->velocity_error;
+    ASSERT_LE(norm(drawn->state.velocity - truth.velocity), limit + 1e-9) << there.latitude;
+  }
+}
+
 TEST(LocalFrame, KnowsThatThereIsRoomAtTheTop) {
   const LocalFrame frame(50.0, 8.0, 500e3, 20e3);
   // 12 km above, the same angle is 0.19 % more way.

@@ -116,12 +116,14 @@ TEST_P(FlightsOverTheEarth, AreToldOfWithCertainty) {
     bool operator<(const Waiting& other) const { return arrival > other.arrival; }
   };
   std::priority_queue<Waiting> waiting;
+  std::vector<std::vector<Vec3>> past(flights.size());
   int checked = 0, decided = 0;
   for (int k = 0; k < 1200; ++k) {
     const double time = 1000.0 + k * tick;
     for (std::size_t n = 0; n < flights.size(); ++n) {
       Flight& flight = flights[n];
       if (k > 0) flight.go_on();
+      past[n].push_back(flight.velocity());
       if (random.uniform(0.0, 1.0) > tick) continue;
       // Once in a second, about; with errors of every part, and up to a second on its way.
       Flight seen = flight;
@@ -135,8 +137,13 @@ TEST_P(FlightsOverTheEarth, AreToldOfWithCertainty) {
       report.position = {seen.longitude, seen.latitude,
                          seen.height + height_error * random.uniform(-1.0, 1.0)};
       report.has_height = report.has_climb = true;
-      report.velocity = flight.velocity() + Vec3{wrong * std::sin(direction), wrong * std::cos(direction),
-                                                 climb_error * random.uniform(-1.0, 1.0)};
+      // Some velocities are older than the position.
+      const std::size_t age =
+          std::min<std::size_t>(random.uniform(0.0, 1.0) < 0.5 ? 0 : 20, past[n].size() - 1);
+      report.velocity_age = static_cast<double>(age) * tick;
+      report.velocity =
+          past[n][past[n].size() - 1 - age] + Vec3{wrong * std::sin(direction), wrong * std::cos(direction),
+                                                   climb_error * random.uniform(-1.0, 1.0)};
       waiting.push({seconds_between({}, *report.arrival), "flight " + std::to_string(10 + n), report});
     }
     while (!waiting.empty() && waiting.top().arrival <= time) {
@@ -180,7 +187,7 @@ TEST_P(FlightsOverTheEarth, AreToldOfWithCertainty) {
 
 INSTANTIATE_TEST_SUITE_P(Everywhere, FlightsOverTheEarth,
                          testing::Values(Place{51.5, -0.5, 500e3}, Place{-5.0, 179.0, 1500e3},
-                                         Place{78.0, 20.0, 4500e3}));
+                                         Place{78.0, 20.0, 4500e3}, Place{86.0, 20.0, 500e3}));
 
 }  // namespace
 }  // namespace kinesphere::program
