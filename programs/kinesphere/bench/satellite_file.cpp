@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, 6> state_columns{"x", "y", "z", "vx", "vy
 
 }  // namespace
 
-std::vector<Orbit> read_satellites(const std::string& path) {
+std::vector<State> read_satellites(const std::string& path) {
   TextTable table(read_input(path), path);
   std::array<std::size_t, state_columns.size()> places{};
   for (std::size_t k = 0; k < state_columns.size(); ++k) {
@@ -28,7 +28,7 @@ std::vector<Orbit> read_satellites(const std::string& path) {
       throw ProgramError(fmt::format("{}: expected a column {}, but there is none", path, state_columns[k]));
     places[k] = static_cast<std::size_t>(at - table.header().begin());
   }
-  std::vector<Orbit> orbits;
+  std::vector<State> states;
   for (TableRow row; table.next(row);) {
     std::array<double, state_columns.size()> values{};
     for (std::size_t k = 0; k < state_columns.size(); ++k) {
@@ -40,11 +40,9 @@ std::vector<Orbit> read_satellites(const std::string& path) {
       values[k] = *value;
     }
     const auto [x, y, z, vx, vy, vz] = values;
-    const Result<Orbit> orbit = Orbit::through({{x, y, z}, {vx, vy, vz}});
-    if (!orbit) throw ProgramError(fmt::format("{}: line {}: {}", path, row.line, orbit.error().message));
-    orbits.push_back(orbit.value());
+    states.push_back({{x, y, z}, {vx, vy, vz}});
   }
-  return orbits;
+  return states;
 }
 
 }  // namespace kinesphere::program

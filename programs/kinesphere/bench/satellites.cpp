@@ -9,10 +9,10 @@
 #include "bench/measurement.hpp"
 #include "bench/report.hpp"
 #include "bench/satellite_file.hpp"
-#include "lab/orbits/orbit_approach.hpp"
-#include "lab/orbits/orbit_oracle.hpp"
-#include "lab/orbits/step_orbits.hpp"
-#include "lab/orbits/watch_orbits.hpp"
+#include "lab/satellites/monitor_satellites.hpp"
+#include "lab/satellites/satellite_approach.hpp"
+#include "lab/satellites/step_satellites.hpp"
+#include "lab/satellites/true_approaches.hpp"
 #include "number_text.hpp"
 #include "program_error.hpp"
 #include "standard_output.hpp"
@@ -40,7 +40,7 @@ CLI::Validator positive_number() {
 struct Look {
   std::string name;
   std::vector<double> seconds;  ///< CPU time, of each repetition
-  std::vector<OrbitApproach> approaches;
+  std::vector<SatelliteApproach> approaches;
 };
 
 template <class Work>
@@ -54,14 +54,14 @@ Look timed(std::string name, std::uint32_t repetitions, const Work& work) {
   return look;
 }
 
-std::vector<Orbit> chosen_orbits(const SatelliteOptions& options) {
-  const std::vector<Orbit> all = read_satellites(options.file);
-  std::vector<Orbit> orbits;
-  for (std::size_t k = 0; k < all.size(); k += options.every) orbits.push_back(all[k]);
-  return orbits;
+SatelliteMotion chosen_satellites(const SatelliteOptions& options) {
+  const std::vector<State> all = read_satellites(options.file);
+  std::vector<State> chosen;
+  for (std::size_t k = 0; k < all.size(); k += options.every) chosen.push_back(all[k]);
+  return require(SatelliteMotion::create(chosen));
 }
 
-void write_approaches(const SatelliteOptions& options, const std::vector<OrbitApproach>& approaches) {
+void write_approaches(const SatelliteOptions& options, const std::vector<SatelliteApproach>& approaches) {
   TableFile file(options.approaches, {"first", "second", "begin", "end"});
   for (const auto& [first, second, begin, end] : approaches)
     file.write(std::vector<Cell>{std::uint64_t{first} * options.every, std::uint64_t{second} * options.every,
@@ -69,9 +69,9 @@ void write_approaches(const SatelliteOptions& options, const std::vector<OrbitAp
   file.commit();
 }
 
-double median_length(const std::vector<OrbitApproach>& approaches) {
+double median_length(const std::vector<SatelliteApproach>& approaches) {
   std::vector<double> lengths;
-  for (const OrbitApproach& approach : approaches) lengths.push_back(approach.end - approach.begin);
+  for (const SatelliteApproach& approach : approaches) lengths.push_back(approach.end - approach.begin);
   return lengths.empty() ? 0.0 : median(lengths);
 }
 
@@ -111,31 +111,32 @@ void add_bench_satellites_command(CLI::App& bench, SatelliteOptions& options) {
 }
 
 int bench_satellites(const SatelliteOptions& options) {
-  const std::vector<Orbit> orbits = chosen_orbits(options);
+  const SatelliteMotion motion = chosen_satellites(options);
   const Report report(options.output);
   const std::string machine = machine_description();
   report.file("machine.txt", machine);
   print("{}\n", machine);
   const double until = options.days * day;
-  const double object_days = static_cast<double>(orbits.size()) * options.days;
+  const double object_days = static_cast<double>(motion.size()) * options.days;
   report.note(fmt::format(
-      "{} satellites for {} days on ellipses with secular J2, every time at which two are within {} km. "
+      "{} satellites for {} days under the gravity of a point mass and J2, every time at which two are "
+      "within {} km. "
       "Costs are CPU time of this process, in milliseconds for a satellite and day. An approach counts as "
       "missed where a method does not see it at any time; the oracle looks at all pairs by brute force.",
-      orbits.size(), options.days, options.distance));
+      motion.size(), options.days, options.distance));
 
   const WatchOptions how{.distance = options.distance, .window = options.window};
-  OrbitWatch watch;
+  SatelliteWatch watch;
   std::vector<Look> looks;
   looks.push_back(timed("monitor", options.repetitions, [&] {
-    watch = require(watch_orbits(orbits, until, how));
+    watch = require(monitor_satellites(motion, until, how));
     return watch.approaches;
   }));
-  looks.push_back(timed("oracle", 1, [&] { return true_approaches(orbits, 0.0, until, options.distance); }));
+  looks.push_back(timed("oracle", 1, [&] { return true_approaches(motion, until, options.distance); }));
   for (const double step : options.steps)
     looks.push_back(timed(fmt::format("steps of {} s", step), 1,
-                          [&] { return step_orbits(orbits, until, options.distance, step); }));
-  const std::vector<OrbitApproach>& truth = looks[1].approaches;
+                          [&] { return step_satellites(motion, until, options.distance, step); }));
+  const std::vector<SatelliteApproach>& truth = looks[1].approaches;
 
   ResultTable table({"method", "cpu_seconds", "cost", "approaches", "missed", "missed_percent"});
   for (const Look& look : looks) {
@@ -159,16 +160,13 @@ int bench_satellites(const SatelliteOptions& options) {
   std::uint64_t uncovered = not_inside(truth, watch.approaches).size();
   for (std::size_t k = 2; k < looks.size(); ++k)
     uncovered += not_inside(looks[k].approaches, watch.approaches, options.steps[k - 2]).size();
-  const auto wrong = static_cast<std::uint64_t>(
-      std::count_if(watch.approaches.begin(), watch.approaches.end(), [&](const OrbitApproach& approach) {
-        return !are_within(orbits[approach.first], orbits[approach.second], approach.begin, approach.end,
-                           options.distance + how.tolerance + doubt);
-      }));
+  const std::size_t wrong =
+      not_within(motion, watch.approaches, options.distance + how.tolerance + doubt).size();
   const double cost = 1e3 * median(looks[0].seconds) / object_days;
   report.note(fmt::format(
       "Half of all approaches last less than {:.2f} s. The monitor was wrong about {} of those that others "
       "have seen, at some time, and told of {} that are none. Its cost is {:.2f} ms for a satellite and day; "
-      "that which was published of cascade, on other hardware and with another model of the forces, is "
+      "that which was published of cascade, on other hardware and with more forces, is "
       "{:.2f} "
       "ms.",
       median_length(truth), uncovered, wrong, cost, cascade_cost));

@@ -1,4 +1,4 @@
-#include "lab/orbits/orbit_approach.hpp"
+#include "lab/satellites/satellite_approach.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,16 +8,16 @@
 namespace kinesphere {
 namespace {
 
-std::tuple<std::uint32_t, std::uint32_t> pair_of(const OrbitApproach& approach) {
+std::tuple<std::uint32_t, std::uint32_t> pair_of(const SatelliteApproach& approach) {
   return {approach.first, approach.second};
 }
 
 /// Calls visit(approach, those of `others` that are of the same pair, from the first to behind the last).
 template <class Visit>
-void for_each_with_others(const std::vector<OrbitApproach>& approaches,
-                          const std::vector<OrbitApproach>& others, Visit visit) {
+void for_each_with_others(const std::vector<SatelliteApproach>& approaches,
+                          const std::vector<SatelliteApproach>& others, Visit visit) {
   std::size_t from = 0, to = 0;
-  for (const OrbitApproach& approach : approaches) {
+  for (const SatelliteApproach& approach : approaches) {
     while (from < others.size() && pair_of(others[from]) < pair_of(approach)) ++from;
     to = std::max(to, from);
     while (to < others.size() && pair_of(others[to]) == pair_of(approach)) ++to;
@@ -27,21 +27,21 @@ void for_each_with_others(const std::vector<OrbitApproach>& approaches,
 
 }  // namespace
 
-void sort_by_pair(std::vector<OrbitApproach>& approaches) {
-  std::sort(approaches.begin(), approaches.end(), [](const OrbitApproach& a, const OrbitApproach& b) {
+void sort_by_pair(std::vector<SatelliteApproach>& approaches) {
+  std::sort(approaches.begin(), approaches.end(), [](const SatelliteApproach& a, const SatelliteApproach& b) {
     return std::tie(a.first, a.second, a.begin, a.end) < std::tie(b.first, b.second, b.begin, b.end);
   });
 }
 
-std::vector<OrbitApproach> not_inside(const std::vector<OrbitApproach>& approaches,
-                                      const std::vector<OrbitApproach>& others, double step) {
+std::vector<SatelliteApproach> not_inside(const std::vector<SatelliteApproach>& approaches,
+                                          const std::vector<SatelliteApproach>& others, double step) {
   /// The first time after `time` that counts.
   const auto next = [step](double time) {
     return step > 0.0 ? (std::floor(time / step) + 1.0) * step : time;
   };
-  std::vector<OrbitApproach> outside;
+  std::vector<SatelliteApproach> outside;
   for_each_with_others(approaches, others,
-                       [&](const OrbitApproach& approach, std::size_t from, std::size_t to) {
+                       [&](const SatelliteApproach& approach, std::size_t from, std::size_t to) {
                          bool has_begun = false;
                          double covered = approach.begin;
                          for (std::size_t k = from; k < to; ++k) {
@@ -54,11 +54,11 @@ std::vector<OrbitApproach> not_inside(const std::vector<OrbitApproach>& approach
   return outside;
 }
 
-std::vector<OrbitApproach> not_met(const std::vector<OrbitApproach>& approaches,
-                                   const std::vector<OrbitApproach>& others) {
-  std::vector<OrbitApproach> alone;
+std::vector<SatelliteApproach> not_met(const std::vector<SatelliteApproach>& approaches,
+                                       const std::vector<SatelliteApproach>& others) {
+  std::vector<SatelliteApproach> alone;
   for_each_with_others(approaches, others,
-                       [&](const OrbitApproach& approach, std::size_t from, std::size_t to) {
+                       [&](const SatelliteApproach& approach, std::size_t from, std::size_t to) {
                          for (std::size_t k = from; k < to; ++k)
                            if (others[k].begin <= approach.end && approach.begin <= others[k].end) return;
                          alone.push_back(approach);

@@ -1,4 +1,4 @@
-#include "lab/orbits/step_orbits.hpp"
+#include "lab/satellites/step_satellites.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 
 namespace kinesphere {
 
-std::vector<OrbitApproach> step_orbits(const std::vector<Orbit>& orbits, double until, double distance,
-                                       double step) {
+std::vector<SatelliteApproach> step_satellites(SatelliteMotion motion, double until, double distance,
+                                               double step) {
   struct Place {
     Vec3 position;
     std::uint32_t number;
@@ -17,10 +17,10 @@ std::vector<OrbitApproach> step_orbits(const std::vector<Orbit>& orbits, double 
   struct Seen {
     std::int64_t first, last;
   };
-  std::vector<Place> places(orbits.size());
+  std::vector<Place> places(motion.size());
   for (std::uint32_t k = 0; k < places.size(); ++k) places[k].number = k;
   std::unordered_map<std::uint64_t, Seen> seen;
-  std::vector<OrbitApproach> approaches;
+  std::vector<SatelliteApproach> approaches;
   const auto finish = [&](std::uint64_t pair, const Seen& steps) {
     approaches.push_back({.first = static_cast<std::uint32_t>(pair >> 32),
                           .second = static_cast<std::uint32_t>(pair),
@@ -30,7 +30,7 @@ std::vector<OrbitApproach> step_orbits(const std::vector<Orbit>& orbits, double 
   const auto steps = static_cast<std::int64_t>(std::floor(until / step));
   for (std::int64_t k = 0; k <= steps; ++k) {
     const double time = static_cast<double>(k) * step;
-    for (Place& place : places) place.position = orbits[place.number].state_at(time).position;
+    for (Place& place : places) place.position = motion.arc(place.number, time).position_at(time);
     // Along one axis no two that are close are farther apart than the distance.
     std::sort(places.begin(), places.end(),
               [](const Place& a, const Place& b) { return a.position.x < b.position.x; });
