@@ -21,11 +21,9 @@ Result<SatelliteMotion> SatelliteMotion::create(const std::vector<State>& start)
   motion.lowest_ = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < start.size(); ++k) {
     const auto& [position, velocity] = start[k];
-    const auto subject = [k](std::string_view part) {
-      return Subject{.argument = "start", .part = part, .part_number = k};
-    };
+    const Subject subject{.argument = "start", .part = "state", .part_number = k};
     InputCheck check("SatelliteMotion::create");
-    check.finite(subject("position"), position).finite(subject("velocity"), velocity);
+    check.finite(subject, position).finite(subject, velocity);
     if (check.error()) return *check.error();
     const double distance = norm(position);
     const double axis = 1.0 / (2.0 / distance - norm_squared(velocity) / earth::gravity);
@@ -34,10 +32,10 @@ Result<SatelliteMotion> SatelliteMotion::create(const std::vector<State>& start)
     const double perigee = axis * (1.0 - eccentricity);
     check
         .require(distance > 0.0 && axis > 0.0 && eccentricity <= largest_eccentricity,
-                 ErrorCode::out_of_range, subject("velocity"),
-                 "must lead around the earth with an eccentricity of at most", largest_eccentricity,
-                 eccentricity)
-        .require(perigee >= lowest_perigee, ErrorCode::out_of_range, subject("velocity"),
+                 ErrorCode::out_of_range, subject,
+                 "must be that of an ellipse around the earth, of an eccentricity of at most",
+                 largest_eccentricity, eccentricity)
+        .require(perigee >= lowest_perigee, ErrorCode::out_of_range, subject,
                  "must lead to no lower perigee than", lowest_perigee, perigee);
     if (check.error()) return *check.error();
     motion.lowest_ = std::min(motion.lowest_, perigee);
