@@ -37,7 +37,7 @@ Monitor::Engine::Engine(const MonitorDefinition& definition)
 // Reports.
 
 Result<void> Monitor::Engine::report(TrackId id, const TrackReport& report) {
-  if (const Result<void> checked = check(id, report, "report"); !checked) return checked;
+  if (Result<void> checked = check(id, report, "report"); !checked) return checked;
   take(id, report, Placing::now);
   judge_open_pairs(*tracks_.find(id));
   return {};
@@ -273,7 +273,7 @@ Result<void> Monitor::Engine::start_windows(const Poll* poll) {
         asked.push_back(number);
     }
     if (!asked.empty()) {
-      if (const Result<void> done = ask(asked, *poll, Placing::later); !done) return done;
+      if (Result<void> done = ask(asked, *poll, Placing::later); !done) return done;
       for (const std::uint32_t number : asked) judge_pairs_not_due(number);
     }
   }
@@ -431,7 +431,7 @@ Result<void> Monitor::Engine::look(const Poll* poll) {
   }
   const OpenRecord* record = open_.find(pair.first, pair.second);
   if (poll != nullptr && (record == nullptr || record->is_expiring(time_))) {
-    if (const Result<void> asked = ask_about(pair, *poll); !asked) return asked;
+    if (Result<void> asked = ask_about(pair, *poll); !asked) return asked;
     // What was answered may have made it another pair.
     if (is_void(pair)) return {};
   }
@@ -455,7 +455,7 @@ Result<void> Monitor::Engine::ask_about(const HotPair& pair, const Poll& poll) {
   for (const std::uint32_t number : both) {
     if (is_void(pair) || is_decided(a, b)) break;
     if (!(tracks_[number].knowledge.stamp() < time_)) continue;
-    if (const Result<void> asked = ask(std::span(&number, 1), poll, Placing::now); !asked) return asked;
+    if (Result<void> asked = ask(std::span(&number, 1), poll, Placing::now); !asked) return asked;
   }
   for (const std::uint32_t number : both) judge_pairs_not_due(number);
   unanswered.answered = true;
@@ -474,7 +474,7 @@ Result<void> Monitor::Engine::ask(std::span<const std::uint32_t> numbers, const 
   counters_.polls += ids.size();
   for (std::size_t k = 0; k < ids.size(); ++k)
     if (reports[k])
-      if (const Result<void> checked = check(ids[k], *reports[k], "advance"); !checked) return checked;
+      if (Result<void> checked = check(ids[k], *reports[k], "advance"); !checked) return checked;
   for (std::size_t k = 0; k < ids.size(); ++k)
     if (reports[k]) take(ids[k], *reports[k], placing);
   return {};

@@ -170,25 +170,25 @@ Hypothesis joined(Hypothesis latest, Hypothesis other, double now, double soon) 
 
 }  // namespace
 
-Knowledge::Learned Knowledge::learn(const TrackReport& given, const TrackClass& promise, double now,
+Knowledge::Learned Knowledge::learn(const TrackReport& report, const TrackClass& promise, double now,
                                     double ahead) {
   Learned learned;
-  const TrackReport report = with_exact_stamp(given, promise);
-  Hypothesis next = hypothesis_of(report, promise, now);
+  const TrackReport exact = with_exact_stamp(report, promise);
+  Hypothesis next = hypothesis_of(exact, promise, now);
   if (hypotheses_.empty()) {
     hypotheses_.push_back(std::move(next));
     return learned;
   }
-  learned.late = report.stamp < stamp();
+  learned.late = exact.stamp < stamp();
   std::vector<std::size_t> agreeing;
   learned.excess = {infinity, infinity};
   for (std::size_t k = 0; k < hypotheses_.size(); ++k) {
     const Hypothesis& believed = hypotheses_[k];
-    if (believed.stamp == report.stamp && believed.state == report.state) {
+    if (believed.stamp == exact.stamp && believed.state == exact.state) {
       learned = {.outcome = Outcome::repeated};
       return learned;
     }
-    const Excess excess = excess_of(report, believed, promise);
+    const Excess excess = excess_of(exact, believed, promise);
     if (!excess.any()) agreeing.push_back(k);
     if (excess.position + excess.velocity < learned.excess.position + learned.excess.velocity)
       learned.excess = excess;
@@ -210,7 +210,7 @@ Knowledge::Learned Knowledge::learn(const TrackReport& given, const TrackClass& 
   Hypothesis believed = std::move(hypotheses_[agreeing.front()]);
   next.slot = believed.slot;
   hypotheses_.clear();
-  const bool newer = report.stamp >= believed.stamp;
+  const bool newer = exact.stamp >= believed.stamp;
   hypotheses_.push_back(newer ? joined(std::move(next), std::move(believed), now, now + ahead)
                               : joined(std::move(believed), std::move(next), now, now + ahead));
   return learned;

@@ -66,12 +66,12 @@ Result<void> Monitor::check_idle(const char* call) const {
 }
 
 Result<void> Monitor::report(TrackId id, const TrackReport& report) {
-  if (const Result<void> idle = check_idle("report"); !idle) return idle;
+  if (Result<void> idle = check_idle("report"); !idle) return idle;
   return engine_->report(id, report);
 }
 
 Result<void> Monitor::remove(TrackId id) {
-  if (const Result<void> idle = check_idle("remove"); !idle) return idle;
+  if (Result<void> idle = check_idle("remove"); !idle) return idle;
   return engine_->remove(id);
 }
 

@@ -125,7 +125,9 @@ int bench_soak(const SoakOptions& options) {
   const Soak result =
       soak(settings, [&](std::uint64_t reports) { progress.show(static_cast<double>(reports)); });
   const auto& [reports, repeated, outliers, swapped, gaps] = result.faults;
-  const auto part = [&](std::uint64_t count) { return percent(double(count), double(reports)); };
+  const auto part = [all = double(result.faults.reports)](std::uint64_t count) {
+    return percent(double(count), all);
+  };
   Summary summary;
   summary.row("reports", grouped(reports),
               fmt::format("of {} tracks in {} s", grouped(settings.faults.tracks), number(result.time)));

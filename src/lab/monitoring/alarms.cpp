@@ -147,13 +147,13 @@ Alarms straight_on_alarms(const RecordedSky& sky, const std::vector<Delivery>& d
   return alarms;
 }
 
-AlarmScore score_of(const Alarms& given, const std::map<TrackPair, std::vector<Span>>& truth,
+AlarmScore score_of(const Alarms& alarms, const std::map<TrackPair, std::vector<Span>>& truth,
                     double look_ahead) {
   AlarmScore score;
-  Alarms alarms;
-  for (const auto& [pair, spans] : given)
+  Alarms distinct;
+  for (const auto& [pair, spans] : alarms)
     for (const Span& span : spans) {
-      std::vector<Span>& joined = alarms[pair];
+      std::vector<Span>& joined = distinct[pair];
       if (!joined.empty() && span.begin <= joined.back().end + look_ahead)
         joined.back().end = span.end;
       else
@@ -163,14 +163,14 @@ AlarmScore score_of(const Alarms& given, const std::map<TrackPair, std::vector<S
     for (const Span& approach : approaches) {
       ++score.approaches;
       std::optional<double> first;
-      for (const Span& alarm : of(alarms, pair))
+      for (const Span& alarm : of(distinct, pair))
         if (!first && alarm.end >= approach.begin && alarm.begin <= approach.end) first = alarm.begin;
       if (!first)
         ++score.missed;
       else if (*first > approach.begin)
         ++score.late;
     }
-  for (const auto& [pair, spans] : alarms)
+  for (const auto& [pair, spans] : distinct)
     for (const Span& alarm : spans) {
       ++score.alarms;
       const std::vector<Span>& approaches = of(truth, pair);

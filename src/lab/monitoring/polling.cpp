@@ -109,7 +109,9 @@ std::uint64_t polling_floor(const RecordedSky& sky, const PollingSettings& setti
       truth.emplace_back(track, Knowledge{});
       truth.back().second.learn(sky.report(track, time), promise, time, settings.window);
     }
-    for (const auto& [track, knowledge] : there) {
+    for (const auto& one : there) {
+      const TrackId track = one.first;
+      const Knowledge& knowledge = one.second;
       const Claim& claim = Knowledge::tightest(knowledge.hypotheses().front(), time);
       const Vec3 centre = claim.centre_at(time);
       const double radius = claim.radius_at(time).total();
