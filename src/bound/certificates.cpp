@@ -79,7 +79,7 @@ double earliest_meeting(const Bound& a, const Bound& b, double from, double unti
 double earliest_separation(const Bound& a, const Bound& b, double from, double until, double distance) {
   const RelativeMotion motion(a, b, from);
   const double reach = motion.radii + distance;
-  return advance_by_safe_steps(from, until, [&](double d) {
+  return advance_by_safe_steps(from, until, [&](double d) -> double {
     const Vec3 centre = motion.centre_at(d);
     const Vec3 velocity = motion.velocity_at(d);
     const Vec3& acceleration = motion.acceleration;

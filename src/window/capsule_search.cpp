@@ -1,4 +1,5 @@
-// One kernel for all vector widths, compiled once for each, and its plain twin.
+// One kernel for all vector widths, compiled once for each. Its plain twin, in capsule_search_plain.cpp, says
+// what it computes.
 #include "window/capsule_search.hpp"
 
 #include <array>
@@ -12,17 +13,6 @@
 #define HWY_TARGET_INCLUDE "window/capsule_search.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-
-// Two capsules are apart during the span if the distance of their centres, which is least at a time s that
-// one division gives, is more than the sum of their radii. As squares: no root. Where numbers are too small
-// for their squares nothing is certain; neither where radii are too large for that, or something is not a
-// number: then no comparison holds.
-#ifndef KINESPHERE_WINDOW_CAPSULE_SEARCH_CONSTANTS
-#define KINESPHERE_WINDOW_CAPSULE_SEARCH_CONSTANTS
-namespace kinesphere::capsule_search {
-inline constexpr float least_square = 0x1p-100f;
-}
-#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace kinesphere::HWY_NAMESPACE {
@@ -81,30 +71,6 @@ HWY_EXPORT(near_capsules);
 void near_capsules(const CapsuleColumns& table, std::span<const CapsuleQuery> queries,
                    std::span<const Run> runs, std::uint32_t* found, std::uint32_t* ends) {
   HWY_DYNAMIC_DISPATCH(near_capsules)(table.data(), queries.data(), runs.data(), runs.size(), found, ends);
-}
-
-void near_capsules_plain(const CapsuleColumns& table, std::span<const CapsuleQuery> queries,
-                         std::span<const Run> runs, std::uint32_t* found, std::uint32_t* ends) {
-  std::uint32_t* next = found;
-  for (const Run& run : runs) {
-    const auto& [capsule, from, to] = queries[run.query];
-    const auto& [centre, velocity, radius] = capsule;
-    for (std::uint32_t k = run.begin; k < run.end; ++k) {
-      const float dx = table[0][k] - centre[0], dy = table[1][k] - centre[1], dz = table[2][k] - centre[2];
-      const float du = table[3][k] - velocity[0], dv = table[4][k] - velocity[1],
-                  dw = table[5][k] - velocity[2];
-      const float radii = table[6][k] + radius;
-      const float xv = dx * du + dy * dv + dz * dw;
-      const float vv = du * du + dv * dv + dw * dw;
-      const float nearest = -xv / (vv + capsule_search::least_square);
-      const float late = nearest > from ? nearest : from;
-      const float s = late < to ? late : to;
-      const float px = dx + du * s, py = dy + dv * s, pz = dz + dw * s;
-      const float square = px * px + py * py + pz * pz;
-      if (!(square > radii * radii + capsule_search::least_square)) *next++ = k;
-    }
-    *ends++ = static_cast<std::uint32_t>(next - found);
-  }
 }
 
 }  // namespace kinesphere

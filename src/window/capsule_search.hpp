@@ -22,6 +22,11 @@ struct Run {
 using CapsuleColumns = std::array<const float*, 7>;
 inline constexpr std::size_t capsule_lanes = 8;
 
+namespace capsule_search {
+/// What is added to squares, as those of small numbers are lost.
+inline constexpr float least_square = 0x1p-100f;
+}  // namespace capsule_search
+
 /// A capsule, and a span of time in which to look at it, from <= to, both in the frame of the table.
 struct CapsuleQuery {
   Capsule capsule;

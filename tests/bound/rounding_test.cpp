@@ -68,6 +68,19 @@ TEST(FirstCrossing, is_not_late_at_double_roots) {
   }
 }
 
+TEST(FirstCrossing, is_not_late_where_the_root_underflows) {
+  // The root is 2730 2/3 of the least number there is, which would be rounded up, and its margin to zero.
+  EXPECT_EQ(rounding::first_crossing(0x1p-1061, -3.0, 0.0), 0.0);
+  for (std::uint64_t k = 0; k < 200000; ++k) {
+    Random random = Random::at(seed, k, 4);
+    const double c = log_uniform(random, -1074, -1000);
+    const double b = -log_uniform(random, -80, 80);
+    const double a = any_sign(random, log_uniform(random, -80, 80));
+    ASSERT_TRUE(rounding::first_crossing(c, b, a) <= true_crossing(c, b, a))
+        << std::hexfloat << "seed " << seed << ", case " << k << ": " << c << ", " << b << ", " << a;
+  }
+}
+
 TEST(FirstCrossing, is_not_late_where_squares_overflow_or_underflow) {
   for (std::uint64_t k = 0; k < 200000; ++k) {
     Random random = Random::at(seed, k, 3);

@@ -1,0 +1,82 @@
+// The library's own sources, compiled once more with numbers that record what is done with them. The text
+// that is traced is the text that the library is built from.
+#pragma once
+
+// All that the sources below include from elsewhere has to be read before names are replaced.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+// These compute nothing.
+#include "kinesphere/body_id.hpp"
+#include "kinesphere/filter.hpp"
+#include "kinesphere/sensor.hpp"
+
+#include "proof/traced_number.hpp"
+
+namespace traced_kinesphere {
+using namespace kinesphere;  // NOLINT
+}
+
+#define double traced::Double
+#define float traced::Single
+#define std traced_std
+#define kinesphere traced_kinesphere
+
+#include "bound/rounding.hpp"
+
+// From here on, what is in rounding.hpp and safe_steps.hpp is a term by itself, which others call.
+namespace kinesphere::rounding {
+inline double called_widened(double size) { return traced::call("widened", size); }
+inline double called_capped(double size) { return traced::call("capped", size); }
+inline double called_sum_down(double a, double b) { return traced::call("sum_down", a, b); }
+inline double called_first_crossing(double c, double b, double a) {
+  return traced::call("first_crossing", c, b, a);
+}
+}  // namespace kinesphere::rounding
+#define widened called_widened
+#define capped called_capped
+#define sum_down called_sum_down
+#define first_crossing called_first_crossing
+
+#include "bound/safe_steps.hpp"
+
+namespace kinesphere {
+/// The step that one round takes, d after the beginning.
+template <class SafeStep>
+double one_step(double, double, SafeStep step) {
+  return step(traced::variable("d"));
+}
+}  // namespace kinesphere
+#define advance_by_safe_steps one_step
+
+#include "bound/certificates.cpp"
+#include "bound/encounter.hpp"
+#include "window/capsule.hpp"
+#include "window/capsule_search_plain.cpp"
+
+#undef advance_by_safe_steps
+#undef first_crossing
+#undef sum_down
+#undef capped
+#undef widened
+#undef kinesphere
+#undef std
+#undef float
+#undef double

@@ -1,0 +1,314 @@
+// A number that records what is done with it, so that a function of the library can be written down as a
+// term.
+//
+// Operations make nodes of a graph; equal ones are one node. A comparison has to be decided: term_of() runs
+// the function once for each way through it, so that the term has all of them, as `if ... then ... else`.
+// What the compiler makes of the order in which operands are computed does not show.
+#pragma once
+
+#include <cctype>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace traced {
+
+struct Node {
+  std::string operation;  ///< or, without operands, the text of a leaf
+  std::vector<const Node*> operands;
+};
+
+/// The node of this operation, always the same one.
+inline const Node* node_of(const std::string& operation, const std::vector<const Node*>& operands = {}) {
+  static std::map<std::pair<std::string, std::vector<const Node*>>, std::unique_ptr<Node>> nodes;
+  std::unique_ptr<Node>& node = nodes[{operation, operands}];
+  if (!node) node = std::make_unique<Node>(Node{operation, operands});
+  return node.get();
+}
+
+/// m 2^e, exactly.
+inline const Node* literal(double value) {
+  if (std::isinf(value)) return value > 0.0 ? node_of("infinity") : node_of("-", {node_of("infinity")});
+  int exponent = 0;
+  double mantissa = std::frexp(value, &exponent);
+  while (mantissa != std::trunc(mantissa)) {
+    mantissa *= 2.0;
+    --exponent;
+  }
+  if (mantissa == 0.0) exponent = 0;
+  while (mantissa != 0.0 && exponent > 0 && exponent < 10) {
+    mantissa *= 2.0;
+    --exponent;
+  }
+  const auto number = [](long long n) { return n < 0 ? "(" + std::to_string(n) + ")" : std::to_string(n); };
+  return node_of("literal " + number(static_cast<long long>(mantissa)) + " " + number(exponent));
+}
+
+struct Undecided {
+  const Node* condition;
+};
+
+/// How the comparisons on the way are decided.
+inline std::map<const Node*, bool>& decisions() {
+  static std::map<const Node*, bool> decided;
+  return decided;
+}
+
+inline bool decide(const Node* condition) {
+  const auto found = decisions().find(condition);
+  if (found == decisions().end()) throw Undecided{condition};
+  return found->second;
+}
+
+/// The width is that of the mantissa: 53 for double precision, 24 for single.
+template <int width>
+class Number {
+ public:
+  constexpr Number() = default;
+  template <class Value, class = std::enable_if_t<std::is_arithmetic_v<Value>>>
+  constexpr Number(Value value) : constant_(static_cast<double>(value)) {}  // NOLINT
+  explicit Number(const Node* node) : node_(node) {}
+  /// Rounded to another width.
+  template <int other, class = std::enable_if_t<other != width>>
+  explicit Number(Number<other> value)
+      : node_(node_of(width == 24 ? "single_of" : "double_of", {value.node()})) {}
+
+  const Node* node() const { return node_ != nullptr ? node_ : literal(constant_); }
+
+  friend constexpr Number operator+(Number a, Number b) {
+    if (std::is_constant_evaluated()) return a.constant_ + b.constant_;
+    return binary("+", a, b);
+  }
+  friend constexpr Number operator-(Number a, Number b) {
+    if (std::is_constant_evaluated()) return a.constant_ - b.constant_;
+    return binary("-", a, b);
+  }
+  friend constexpr Number operator*(Number a, Number b) {
+    if (std::is_constant_evaluated()) return a.constant_ * b.constant_;
+    return binary("*", a, b);
+  }
+  friend constexpr Number operator/(Number a, Number b) {
+    if (std::is_constant_evaluated()) return a.constant_ / b.constant_;
+    return binary("/", a, b);
+  }
+  friend constexpr Number operator-(Number a) {
+    if (std::is_constant_evaluated()) return -a.constant_;
+    return Number(node_of("-", {a.node()}));
+  }
+  constexpr Number& operator+=(Number b) { return *this = *this + b; }
+  constexpr Number& operator-=(Number b) { return *this = *this - b; }
+  constexpr Number& operator*=(Number b) { return *this = *this * b; }
+
+  friend constexpr bool operator<(Number a, Number b) {
+    if (std::is_constant_evaluated() || are_constant(a, b)) return a.constant_ < b.constant_;
+    return compare("<?", a, b);
+  }
+  friend constexpr bool operator<=(Number a, Number b) {
+    if (std::is_constant_evaluated() || are_constant(a, b)) return a.constant_ <= b.constant_;
+    return compare("<=?", a, b);
+  }
+  friend constexpr bool operator==(Number a, Number b) {
+    if (std::is_constant_evaluated() || are_constant(a, b)) return a.constant_ == b.constant_;
+    return compare("=?", a, b);
+  }
+  friend constexpr bool operator>(Number a, Number b) { return b < a; }
+  friend constexpr bool operator>=(Number a, Number b) { return b <= a; }
+
+ private:
+  static constexpr bool are_constant(Number a, Number b) { return a.node_ == nullptr && b.node_ == nullptr; }
+  static Number binary(const char* operation, Number a, Number b) {
+    return Number(node_of(operation, {a.node(), b.node()}));
+  }
+  static bool compare(const std::string& operation, Number a, Number b) {
+    return decide(node_of(operation, {a.node(), b.node()}));
+  }
+
+  const Node* node_ = nullptr;
+  double constant_ = 0.0;
+};
+
+using Double = Number<53>;
+using Single = Number<24>;
+
+template <class Value = Double>
+Value variable(const std::string& name) {
+  return Value(node_of(name));
+}
+
+/// What another term computes from these.
+template <class... Values>
+Double call(const std::string& term, Values... values) {
+  return Double(node_of(term, {values.node()...}));
+}
+
+/// What a function returns: numbers, or a yes or no.
+struct Answer {
+  std::vector<const Node*> parts;
+
+  Answer(bool yes) : parts{node_of(yes ? "true" : "false")} {}             // NOLINT
+  Answer(Double value) : parts{value.node()} {}                            // NOLINT
+  Answer(std::vector<const Node*> several) : parts(std::move(several)) {}  // NOLINT
+};
+
+struct Term {
+  const Node* condition = nullptr;
+  std::unique_ptr<Term> yes, no;
+  std::vector<const Node*> answer;
+};
+
+inline Term term_of(const std::function<Answer()>& function) {
+  try {
+    return {.answer = function().parts};
+  } catch (const Undecided& undecided) {
+    bool& decided = decisions()[undecided.condition];
+    Term term{.condition = undecided.condition};
+    decided = true;
+    term.yes = std::make_unique<Term>(term_of(function));
+    decided = false;
+    term.no = std::make_unique<Term>(term_of(function));
+    decisions().erase(undecided.condition);
+    return term;
+  }
+}
+
+/// A term in Gallina, the language of Coq. What is used more than once, or is long, has a name.
+class Printer {
+ public:
+  explicit Printer(const Term& term) {
+    count(term);
+    print(term, 1, {}, 0);
+  }
+  std::string text() const { return text_.str(); }
+
+ private:
+  using Names = std::map<const Node*, std::string>;
+
+  void count(const Term& term) {
+    if (term.condition != nullptr) {
+      count(term.condition);
+      count(*term.yes);
+      count(*term.no);
+    }
+    for (const Node* part : term.answer) count(part);
+  }
+  void count(const Node* node) {
+    if (uses_[node]++ > 0) return;
+    sizes_[node] = 1;
+    for (const Node* operand : node->operands) {
+      count(operand);
+      if (!has_name(operand)) sizes_[node] += sizes_[operand];
+    }
+  }
+  bool has_name(const Node* node) const {
+    return !node->operands.empty() && (uses_.at(node) > 1 || sizes_.at(node) > 12);
+  }
+
+  void print(const Term& term, int depth, Names names, int named) {
+    const std::string indent(static_cast<std::size_t>(2 * depth), ' ');
+    const auto introduce = [&](const Node* node) { name_parts(node, indent, names, named); };
+    if (term.condition == nullptr) {
+      for (const Node* part : term.answer)
+        for (const Node* operand : part->operands) introduce(operand);
+      text_ << indent;
+      if (term.answer.size() > 1) text_ << "(";
+      for (std::size_t k = 0; k < term.answer.size(); ++k)
+        text_ << (k > 0 ? ", " : "") << expression(term.answer[k], names, false);
+      if (term.answer.size() > 1) text_ << ")";
+      return;
+    }
+    for (const Node* operand : term.condition->operands) introduce(operand);
+    text_ << indent << "if " << expression(term.condition, names, false) << " then\n";
+    print(*term.yes, depth + 1, names, named);
+    text_ << "\n" << indent << "else\n";
+    // One comparison after the other would go ever farther to the right.
+    print(*term.no, depth, names, named);
+  }
+
+  void name_parts(const Node* node, const std::string& indent, Names& names, int& named) {
+    if (names.contains(node)) return;
+    for (const Node* operand : node->operands) name_parts(operand, indent, names, named);
+    if (!has_name(node)) return;
+    const std::string right = expression(node, names, false);
+    const std::string name = "t" + std::to_string(++named);
+    text_ << indent << "let " << name << " := " << right << " in\n";
+    names[node] = name;
+  }
+
+  static std::string expression(const Node* node, const Names& names, bool inner) {
+    if (const auto named = names.find(node); named != names.end()) return named->second;
+    const std::string& operation = node->operation;
+    const auto operand = [&](std::size_t k) { return expression(node->operands[k], names, true); };
+    std::string text;
+    if (node->operands.empty()) {
+      text = operation;
+      inner = inner && text.find(' ') != std::string::npos;
+    } else if (std::isalpha(operation[0]) != 0) {
+      text = operation;
+      for (std::size_t k = 0; k < node->operands.size(); ++k) text += " " + operand(k);
+    } else if (node->operands.size() == 1) {
+      text = operation + " " + operand(0);
+    } else {
+      text = operand(0) + " " + operation + " " + operand(1);
+    }
+    return inner ? "(" + text + ")" : text;
+  }
+
+  std::map<const Node*, int> uses_;
+  std::map<const Node*, int> sizes_;
+  std::ostringstream text_;
+};
+
+/// A definition of this name.
+inline std::string definition(const std::string& head, const std::function<Answer()>& function) {
+  const Term term = term_of(function);
+  return "Definition " + head + " :=\n" + Printer(term).text() + ".\n";
+}
+
+}  // namespace traced
+
+/// What the library's sources mean by std:: when they compute with traced numbers.
+namespace traced_std {
+
+using namespace std;  // NOLINT
+using std::abs, std::sqrt, std::isinf, std::isfinite, std::max, std::min;
+
+template <int width>
+traced::Number<width> abs(traced::Number<width> x) {
+  return traced::Number<width>(traced::node_of("magnitude", {x.node()}));
+}
+template <int width>
+traced::Number<width> sqrt(traced::Number<width> x) {
+  return traced::Number<width>(traced::node_of("root", {x.node()}));
+}
+template <int width>
+bool isinf(traced::Number<width> x) {
+  return traced::decide(traced::node_of("infinite", {x.node()}));
+}
+template <int width>
+bool isfinite(traced::Number<width> x) {
+  return traced::decide(traced::node_of("is_finite", {x.node()}));
+}
+inline traced::Double max(traced::Double a, traced::Double b) { return a < b ? b : a; }
+inline traced::Double min(traced::Double a, traced::Double b) { return b < a ? b : a; }
+
+template <class Value>
+struct numeric_limits : std::numeric_limits<Value> {};
+template <>
+struct numeric_limits<traced::Double> {
+  static constexpr traced::Double min() { return std::numeric_limits<double>::min(); }
+  static constexpr traced::Double infinity() { return std::numeric_limits<double>::infinity(); }
+};
+template <>
+struct numeric_limits<traced::Single> {
+  static constexpr traced::Single infinity() { return std::numeric_limits<float>::infinity(); }
+};
+
+}  // namespace traced_std
