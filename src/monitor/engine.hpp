@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -51,6 +52,9 @@ class Monitor::Engine {
   static Result<std::unique_ptr<Engine>> restore(std::span<const std::byte> snapshot);
 
  private:
+  /// In place of the second stamp of a hot pair: it is about an open record.
+  static constexpr std::uint32_t of_open_record = std::numeric_limits<std::uint32_t>::max();
+
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive);
   /// What cannot have come about of a state that was read, if anything.

@@ -1,0 +1,108 @@
+// What can be asked of a monitor.
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <tuple>
+
+#include "monitor/engine.hpp"
+
+namespace kinesphere {
+
+Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::uint32_t level) const {
+  for (const TrackId id : {first, second})
+    if (!tracks_.find(id))
+      return Error{ErrorCode::unknown_body, id == first ? "first" : "second", no_body,
+                   "answer: there is no track " + std::to_string(id)};
+  if (first == second)
+    return Error{ErrorCode::out_of_range, "second", no_body,
+                 "answer: second must be another track than first"};
+  const std::uint32_t a = *tracks_.find(first), b = *tracks_.find(second);
+  const std::span<const Components> levels = levels_of(a, b);
+  if (level >= levels.size())
+    return Error{ErrorCode::out_of_range, "level", no_body,
+                 "answer: level must be less than " + std::to_string(levels.size()) + ", but is " +
+                     std::to_string(level)};
+  const Track& one = tracks_[a];
+  const Track& other = tracks_[b];
+  PairAnswer answer;
+  const Course now = course(a, b, levels[level], infinity);
+  const OpenRecord* record = open_.find(a, b);
+  const LevelState state = record != nullptr ? record->levels[level] : LevelState{};
+  answer.verdict = record != nullptr ? state.verdict : now.verdict;
+  answer.since = state.since;
+  answer.until =
+      record == nullptr || now.verdict == state.verdict ? std::max(now.until, state.until) : state.until;
+  const Component& nearest = *levels[level].begin();
+  const DistanceBetween between = distance_between(one.knowledge, other.knowledge, nearest, time_);
+  answer.lower = std::max(0.0, between.lower);
+  answer.upper = between.upper;
+
+  // As if both went straight on from where they are now.
+  const auto ahead = [this](const Track& track) {
+    const Claim& claim = Knowledge::tightest(track.knowledge.hypotheses().front(), time_);
+    return State{claim.centre_at(time_), claim.velocity_at(time_)};
+  };
+  const State x = ahead(one), y = ahead(other);
+  answer.likely_time = time_;
+  double leaves = infinity;
+  for (const Component& component : levels[level]) {
+    const Vec3 offset = component.part(x.position - y.position);
+    const Vec3 velocity = component.part(x.velocity - y.velocity);
+    const double v2 = norm_squared(velocity), xv = dot(offset, velocity);
+    const double nearest_after = v2 > 0.0 ? std::max(0.0, -xv / v2) : 0.0;
+    if (&component == &nearest) {
+      answer.closest_time = time_ + nearest_after;
+      answer.closest_distance = norm(offset + velocity * nearest_after);
+    }
+    const double c = norm_squared(offset) - component.limit * component.limit;
+    const double discriminant = xv * xv - v2 * c;
+    if (c > 0.0 && !(xv < 0.0 && discriminant >= 0.0)) {
+      answer.likely_time = infinity;
+      continue;
+    }
+    const double root = std::sqrt(std::max(0.0, discriminant));
+    if (c > 0.0) answer.likely_time = std::max(answer.likely_time, time_ + c / (root - xv));
+    if (v2 > 0.0) leaves = std::min(leaves, time_ + (root - xv) / v2);
+  }
+  if (answer.likely_time > leaves) answer.likely_time = infinity;
+  answer.ask = is_less_certain(a, b) ? first : second;
+  answer.ask_by = answer.verdict == Verdict::undecided ? time_ : answer.until;
+  return answer;
+}
+
+std::vector<OpenPair> Monitor::Engine::open_pairs() const {
+  std::vector<OpenPair> pairs;
+  open_.for_each([&](std::uint32_t a, std::uint32_t b, const OpenRecord& record) {
+    const auto [first, second] = std::minmax(tracks_[a].id, tracks_[b].id);
+    for (std::uint32_t level = 0; level < record.levels.size(); ++level)
+      if (const LevelState& state = record.levels[level]; state.verdict != Verdict::apart)
+        pairs.push_back({first, second, level, state.verdict, state.since});
+  });
+  std::sort(pairs.begin(), pairs.end(), [](const OpenPair& p, const OpenPair& q) {
+    return std::tie(p.first, p.second, p.level) < std::tie(q.first, q.second, q.level);
+  });
+  return pairs;
+}
+
+std::vector<ReportNeed> Monitor::Engine::needed(double until) const {
+  std::vector<ReportNeed> needs;
+  agenda_.for_each([&](const HotPair& pair) {
+    if (!pair.has_second() || pair.time > until || is_void(pair)) return;
+    const auto [asked, other] = is_less_certain(pair.first, pair.second) ? std::pair(pair.first, pair.second)
+                                                                         : std::pair(pair.second, pair.first);
+    needs.push_back({tracks_[asked].id, std::max(time_, pair.time), tracks_[other].id});
+  });
+  open_.for_each([&](std::uint32_t a, std::uint32_t b, const OpenRecord& record) {
+    if (!record.is_undecided()) return;
+    const auto [asked, other] = is_less_certain(a, b) ? std::pair(a, b) : std::pair(b, a);
+    needs.push_back({tracks_[asked].id, time_, tracks_[other].id});
+  });
+  std::sort(needs.begin(), needs.end(), [](const ReportNeed& p, const ReportNeed& q) {
+    return std::tie(p.by, p.track, p.other) < std::tie(q.by, q.track, q.other);
+  });
+  std::set<TrackId> seen;
+  std::erase_if(needs, [&](const ReportNeed& need) { return !seen.insert(need.track).second; });
+  return needs;
+}
+}  // namespace kinesphere

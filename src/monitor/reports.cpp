@@ -1,0 +1,178 @@
+// Reports that come in, and tracks that come and go.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "input/input_check.hpp"
+#include "kinesphere/limits.hpp"
+#include "monitor/engine.hpp"
+#include "number/powers.hpp"
+
+namespace kinesphere {
+
+Result<void> Monitor::Engine::report(TrackId id, const TrackReport& report) {
+  if (Result<void> checked = check(id, report, "report"); !checked) return checked;
+  take(id, report, Placing::now);
+  judge_open_pairs(*tracks_.find(id));
+  return {};
+}
+
+Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const char* call) const {
+  const std::string part = "report of track " + std::to_string(id);
+  const auto subject = [&part](std::string_view field) { return Subject{.argument = part, .part = field}; };
+  InputCheck check(call);
+  check.finite(subject("stamp"), report.stamp)
+      .require(std::abs(report.stamp) <= limits::largest_time, ErrorCode::out_of_range, subject("stamp"),
+               "must lie within +-", limits::largest_time, report.stamp)
+      .within(subject("position"), report.state.position, definition_.tolerance * limits::largest_length)
+      .within(subject("velocity"), report.state.velocity, limits::largest_speed)
+      .not_negative(subject("stamp_error"), report.stamp_error)
+      .require(report.track_class < definition_.classes.size(), ErrorCode::out_of_range,
+               subject("track_class"), "must be less than the number of classes", definition_.classes.size(),
+               report.track_class);
+  const auto spread = [&](std::string_view field, const Spread& value, bool may_be_infinite) {
+    for (const double length : {value.horizontal(), value.vertical(), value.total()}) {
+      if (may_be_infinite && length == infinity) continue;
+      check.not_negative(subject(field), length);
+    }
+  };
+  spread("position_error", report.position_error, false);
+  spread("velocity_error", report.velocity_error, true);
+  if (report.plan) {
+    check.within(subject("plan acceleration"), report.plan->acceleration, limits::largest_acceleration);
+    spread("plan acceleration_limit", report.plan->acceleration_limit, false);
+    check.require(report.plan->valid_until > report.stamp, ErrorCode::out_of_range,
+                  subject("plan valid_until"), "must be later than the stamp", report.plan->valid_until);
+  }
+  if (check.error()) return *check.error();
+  const TrackClass& promise = definition_.classes[report.track_class];
+  check.require(
+      std::isfinite(promise.largest_speed.total()) || (std::isfinite(report.velocity_error.total())),
+      ErrorCode::out_of_range, subject("velocity_error"),
+      "must be finite where the class has no largest speed", report.velocity_error.total());
+  if (const auto number = tracks_.find(id))
+    check.require(tracks_[*number].track_class == report.track_class, ErrorCode::out_of_range,
+                  subject("track_class"), "must be that of its first report,", tracks_[*number].track_class,
+                  report.track_class);
+  return check.result();
+}
+
+/// Whoever calls it judges the open pairs of the track afterwards: of several reports, once all are taken.
+void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placing) {
+  const TrackClass& promise = definition_.classes[report.track_class];
+  const auto known = tracks_.find(id);
+  const std::uint32_t number = known ? *known : tracks_.add(id, report.track_class);
+  Track& track = tracks_[number];
+  TrackReport flat = report;
+  if (definition_.dimensions == 2) {
+    flat.state.position.z = 0.0;
+    flat.state.velocity.z = 0.0;
+    flat.position_error = flat.position_error.flat();
+    flat.velocity_error = flat.velocity_error.flat();
+    if (flat.plan) {
+      flat.plan->acceleration.z = 0.0;
+      flat.plan->acceleration_limit = flat.plan->acceleration_limit.flat();
+    }
+  }
+  const Knowledge::Learned learned = track.knowledge.learn(flat, promise, time_, power_of_two(tier_));
+  if (learned.outcome == Knowledge::Outcome::repeated) {
+    ++counters_.repeated;
+    return;
+  }
+  ++counters_.reports;
+  if (learned.late) ++counters_.late;
+  std::uint32_t slots = 0;
+  for (const Hypothesis& hypothesis : track.knowledge.hypotheses()) slots |= 1u << hypothesis.slot;
+  track.placed &= slots;
+  if (!known) {
+    place(number);
+    expect_to_hear(number);
+    return;
+  }
+  if (track.silent && time_ - track.knowledge.stamp() < definition_.silence_after) {
+    track.silent = false;
+    tell({.time = time_, .kind = MonitorEventKind::heard, .first = id});
+    expect_to_hear(number);
+  }
+  if (learned.outcome == Knowledge::Outcome::contradicts) {
+    ++counters_.contradictions;
+    tell({.time = time_,
+          .kind = MonitorEventKind::contradiction,
+          .first = id,
+          .position_excess = learned.excess.position,
+          .velocity_excess = learned.excess.velocity});
+    for (const std::uint32_t other : track.open)
+      for (LevelState& state : open_.find(number, other)->levels) state.until = -infinity;
+    if (placing == Placing::now) place(number);
+    return;
+  }
+  if (learned.outcome == Knowledge::Outcome::resolves)
+    tell({.time = time_, .kind = MonitorEventKind::resolved, .first = id});
+}
+
+/// A track is new, or may be elsewhere than was thought: its hypotheses get capsules from now on, and the
+/// pairs that they find are looked at.
+void Monitor::Engine::place(std::uint32_t number) {
+  Track& track = tracks_[number];
+  const Window now = window();
+  for (const Hypothesis& hypothesis : track.knowledge.hypotheses()) {
+    if ((track.placed & 1u << hypothesis.slot) != 0) continue;
+    track.placed |= 1u << hypothesis.slot;
+    const std::uint32_t at = place_of(number, hypothesis);
+    const RoomyBound bound = roomy_bound(number, hypothesis, now.end);
+    windows_.enter(at, bound, time_, now);
+    ++counters_.searches;
+    // Finding a pair does not search.
+    for (const std::uint32_t near : windows_.near(at, bound, time_, now.end, scratch_))
+      find_pair(number, track_at(near));
+  }
+  judge_open_pairs(number);
+}
+
+Result<void> Monitor::Engine::remove(TrackId id) {
+  const auto number = tracks_.find(id);
+  if (!number)
+    return Error{ErrorCode::unknown_body, "id", no_body, "remove: there is no track " + std::to_string(id)};
+  leave(*number);
+  return {};
+}
+
+void Monitor::Engine::leave(std::uint32_t number) {
+  Track& track = tracks_[number];
+  for (const std::uint32_t other : track.open) {
+    open_.remove(number, other);
+    std::erase(tracks_[other].open, number);
+  }
+  tell({.time = time_, .kind = MonitorEventKind::left, .first = track.id});
+  for (std::uint32_t slot = 0; slot < Knowledge::slots; ++slot)
+    if (const std::uint32_t place = number * Knowledge::slots + slot; windows_.contains(place))
+      windows_.leave(place);
+  tracks_.remove(number);
+}
+
+/// Puts on the agenda when too long nothing will have been heard of a track.
+void Monitor::Engine::expect_to_hear(std::uint32_t number) {
+  Track& track = tracks_[number];
+  const double after =
+      track.silent ? definition_.forget_after : std::min(definition_.silence_after, definition_.forget_after);
+  const double time = std::max(time_, track.knowledge.stamp() + after);
+  ++track.expected;
+  if (time < infinity)
+    agenda_.add({.time = time,
+                 .first = number,
+                 .second = HotPair::walls,
+                 .first_stamp = track.life,
+                 .second_stamp = track.expected});
+}
+
+void Monitor::Engine::is_due(std::uint32_t number) {
+  Track& track = tracks_[number];
+  const double age = track.knowledge.stamp();
+  if (age + definition_.forget_after <= time_) return leave(number);
+  if (!track.silent && age + definition_.silence_after <= time_) {
+    track.silent = true;
+    tell({.time = time_, .kind = MonitorEventKind::silent, .first = track.id});
+  }
+  expect_to_hear(number);
+}
+}  // namespace kinesphere
