@@ -57,6 +57,7 @@ Look timed(std::string name, std::uint32_t repetitions, const Work& work) {
 SatelliteMotion chosen_satellites(const SatelliteOptions& options) {
   const std::vector<State> all = read_satellites(options.file);
   std::vector<State> chosen;
+  chosen.reserve(all.size() / options.every + 1);
   for (std::size_t k = 0; k < all.size(); k += options.every) chosen.push_back(all[k]);
   return require(SatelliteMotion::create(chosen));
 }
@@ -71,6 +72,7 @@ void write_approaches(const SatelliteOptions& options, const std::vector<Satelli
 
 double median_length(const std::vector<SatelliteApproach>& approaches) {
   std::vector<double> lengths;
+  lengths.reserve(approaches.size());
   for (const SatelliteApproach& approach : approaches) lengths.push_back(approach.end - approach.begin);
   return lengths.empty() ? 0.0 : median(lengths);
 }
