@@ -77,7 +77,7 @@ Qed.
 
 (* What is said of the answer: it is early, or there certainly is no root. *)
 Definition early (c b a r : double) : Prop :=
-  finite c /\ finite b /\ finite a /\
+  finite c /\ finite b /\ finite a /\ bpow radix2 (-975) < B c /\
   ((r = infinity /\ forall d, 0 <= d -> 0 < quadratic (B c) (B b) (B a) d) \/
    (finite r /\ 0 < B r /\ forall d, 0 <= d < B r -> 0 < quadratic (B c) (B b) (B a) d)).
 
@@ -323,16 +323,29 @@ Qed.
 Theorem first_crossing_is_early (c b a : double) :
   let r := first_crossing c b a in
   r = literal 0 0 \/ early c b a r \/
-  (r = infinity /\ less (literal 0 0) c = true /\ at_most (literal 0 0) b = true /\ at_most (literal 0 0) a = true).
+  (r = infinity /\ c = infinity /\ finite b /\ finite a /\ 0 <= B b /\ 0 <= B a).
 Proof.
   cbv zeta. unfold first_crossing.
-  destruct (less (literal 0 0) c) eqn:Lc; [|left; reflexivity].
+  destruct (less (literal 1 (-975)) c) eqn:Lc; [|left; reflexivity].
+  assert (finite c -> bpow radix2 (-975) < B c) as Gc.
+  { destruct (literal_power (-975)) as [FL VL]; [lia|]. intros F. rewrite <- VL. apply less_true; assumption. }
   assert (finite c -> 0 < B c) as Pc.
-  { intros F. rewrite <- (proj2 literal_0). apply less_true; auto using (proj1 literal_0). }
+  { intros F. apply Rlt_trans with (2 := Gc F). apply bpow_gt_0. }
   destruct (at_most (literal 0 0) b) eqn:Lb.
   - assert (finite b -> 0 <= B b) as Pb.
     { intros F. rewrite <- (proj2 literal_0). apply at_most_true; auto using (proj1 literal_0). }
-    destruct (at_most (literal 0 0) a) eqn:La; [right; right; auto|].
+    destruct (at_most (literal 0 0) a) eqn:La.
+    { destruct (less (b + a)%float infinity) eqn:Ls; [right|left; reflexivity].
+      assert (finite b /\ finite a) as [Fb Fa].
+      { clear - Lb La Ls. destruct b as [?|[|]| |? ? ? ?], a as [?|[|]| |? ? ? ?];
+          try discriminate; split; reflexivity. }
+      assert (0 <= B a) as Pa.
+      { rewrite <- (proj2 literal_0). apply at_most_true; auto using (proj1 literal_0). }
+      destruct (is_finite c) eqn:Fc.
+      - left. repeat (split; [auto; fail|]). left. split; [reflexivity|]. intros d Hd.
+        apply quadratic_rising; auto.
+      - right. split; [reflexivity|]. split; [|auto].
+        destruct c as [?|[|]| |? ? ? ?]; try discriminate; reflexivity. }
     assert (finite a -> B a < 0) as Pa.
     { intros F. rewrite <- (proj2 literal_0). apply at_most_false; auto using (proj1 literal_0). }
     cbv zeta. set (t4 := (b * b - literal 2 0 * a * c - literal 1 (-1022))%float).
@@ -351,7 +364,7 @@ Proof.
       { clear - F4. apply sub_finite in F4. destruct F4 as (F & _). apply sub_finite in F.
         destruct F as (_ & F & _). apply mul_finite in F. tauto. }
       destruct (up_discriminant c b a (Pc Fc) (Pa Fa) F4 Q4) as (_ & _ & _ & U4). fold t4 in U4.
-      repeat (split; [assumption|]). right. split; [exact F7|].
+      repeat (split; [auto; fail|]). right. split; [exact F7|].
       split; [apply Rlt_trans with (2 := V7); apply bpow_gt_0|].
       intros d Hd. apply (up_is_early c b a t4 (root t4)); auto.
       rewrite Er. split; [apply rnd_nonneg, sqrt_pos|].
@@ -375,7 +388,7 @@ Proof.
       assert (finite c) as Fc.
       { destruct c as [s|[|]| |s m e H] eqn:Ec; try reflexivity; try discriminate Lc.
         exfalso. unfold t4 in L4. rewrite (discriminant_infinite b a Fb Fa (Pa Fa)) in L4. discriminate. }
-      repeat (split; [assumption|]). right. split; [exact F7|].
+      repeat (split; [auto; fail|]). right. split; [exact F7|].
       split; [apply Rlt_trans with (2 := V7); apply bpow_gt_0|].
       intros d Hd. apply (up_is_early c b a t4 (root (literal 0 0))); auto.
       rewrite Er, (proj2 literal_0), sqrt_0, rnd_0. split; [lra|].
@@ -394,7 +407,7 @@ Proof.
       { destruct t4 as [s|[|]| |s m e H] eqn:E4; try reflexivity; try discriminate L4.
         exfalso. exact (discriminant_not_minus_infinity b _ E4). }
       destruct (Fall F4) as (Fc & Fb & Fa).
-      right; left. repeat (split; [assumption|]). left. split; [reflexivity|]. intros d Hd.
+      right; left. repeat (split; [auto; fail|]). left. split; [reflexivity|]. intros d Hd.
       apply quadratic_without_root; [auto|]. apply Rnot_le_lt. intros HD.
       generalize (down_is_early c b a (Pc Fc) (Pb Fb) Fb Fa Fc F4 HD). fold t4. intros G.
       assert (B t4 < 0) as N.
@@ -410,7 +423,7 @@ Proof.
       apply sub_finite in Fn. destruct Fn as (Fr & Fb & En).
       apply root_finite in Fr. destruct Fr as (F4 & P4 & Er).
       destruct (Fall F4) as (Fc & _ & Fa).
-      repeat (split; [assumption|]). right. split; [exact F7|].
+      repeat (split; [auto; fail|]). right. split; [exact F7|].
       split; [apply Rlt_trans with (2 := V7); apply bpow_gt_0|].
       intros d [Hd Ld]. specialize (Pc Fc). specialize (Pb Fb).
       destruct (Rlt_or_le (B b * B b - 2 * B a * B c) 0) as [HD|HD]; [apply quadratic_without_root; assumption|].

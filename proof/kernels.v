@@ -32,10 +32,13 @@ Definition sum_down (a b : double) : double :=
 
 (* src/bound/rounding.hpp *)
 Definition first_crossing (c b a : double) : double :=
-  if (literal 0 0) <? c then
+  if (literal 1 (-975)) <? c then
     if (literal 0 0) <=? b then
       if (literal 0 0) <=? a then
-        infinity
+        if (b + a) <? infinity then
+          infinity
+        else
+        literal 0 0
       else
       let t1 := b * b in
       let t2 := ((literal 2 0) * a) * c in

@@ -24,10 +24,13 @@ prove() {
   theorems=$(sed -nE 's/^Theorem ([a-z_0-9]+).*/\1/p' ./*.v)
   {
     for file in "${files[@]}"; do echo "From Kinesphere Require $(basename "$file" .v)."; done
+    # In one term: what theorems share is looked through only once.
+    echo "Definition theorems := (tt"
     for theorem in $theorems; do
       file=$(grep -lE "^Theorem $theorem\b" ./*.v)
-      echo "Print Assumptions $(basename "$file" .v).$theorem."
+      echo "  , @$(basename "$file" .v).$theorem"
     done
+    echo "). Print Assumptions theorems."
   } >assumptions.v
   coqc -q -Q . Kinesphere assumptions.v >axioms.txt || return 1
   if grep -vE '^( |Axioms:|Closed under the global context)' axioms.txt | sed 's/ .*//' | grep -vE "^($allowed)$"; then

@@ -43,7 +43,7 @@ inline constexpr double largest_size = 0x1p480;
 
 /// So much is added to each of these sums, unless it is zero, before margins for rounding are taken from it.
 /// Numbers far below it may have any size, zero included, and only make answers earlier: bodies and gaps
-/// smaller than about 1e-158 cannot be told from contacts.
+/// smaller than about 1e-146 cannot be told from contacts.
 inline constexpr double least_size = 0x1p-480;
 
 }  // namespace kinesphere::limits

@@ -31,13 +31,16 @@ inline double sum_down(double a, double b) {
 inline double sum_up(double a, double b) { return -sum_down(-a, -b); }
 
 /// Lower bound of the first d >= 0 with c + b d + 1/2 a d^2 <= 0: +infinity when there certainly is none,
-/// and 0 when c <= 0, a number on the way is not finite, or the root is so small that its margin underflows.
-/// The coefficients are taken as they are: the caller has lowered them by what they may be wrong.
+/// and 0 when c is not above zero, a number on the way is not finite, or c or the root is so small that its
+/// margin underflows. The coefficients are taken as they are: the caller has lowered them by what they may be
+/// wrong. An infinite c is as good as any.
 inline double first_crossing(double c, double b, double a) {
-  if (!(c > 0.0)) return 0.0;
-  if (b >= 0.0 && a >= 0.0) return std::numeric_limits<double>::infinity();
   // Underflow is an absolute error, which the relative margin does not cover.
   constexpr double underflow = std::numeric_limits<double>::min();
+  constexpr double least = underflow / margin;
+  if (!(c > least)) return 0.0;
+  if (b >= 0.0 && a >= 0.0)
+    return b + a < std::numeric_limits<double>::infinity() ? std::numeric_limits<double>::infinity() : 0.0;
   const double product = 2.0 * a * c;
   double root;
   if (b >= 0.0) {
@@ -49,8 +52,7 @@ inline double first_crossing(double c, double b, double a) {
     root = 2.0 * c / (std::sqrt(discriminant) - b);
   }
   root -= root * margin;
-  constexpr double least_root = underflow / margin;
-  return root > least_root ? root : 0.0;
+  return root > least ? root : 0.0;
 }
 
 }  // namespace kinesphere::rounding

@@ -158,6 +158,15 @@ TEST(ExtremeNumbers, squares_that_underflow_make_nothing_late) {
   }
 }
 
+TEST(ExtremeNumbers, gaps_of_a_few_least_numbers_make_nothing_late) {
+  // All lengths are zero but the distance, three times the least number there is, and the growth of both
+  // bounds until `from`, each 1.49 times that number and rounded down to once.
+  Bound bound;
+  bound.growth_speed = 0x1p-480;
+  const double from = 0x1.7dp-594;
+  EXPECT_LE(earliest_meeting(bound, bound, from, 1.0, -3 * 0x1p-1074), 1.5 * 0x1p-594);
+}
+
 /// A power of two that is in range, out of range or no number at all.
 double any_scale(Random& random, int least, int most) {
   const int count = most - least + 1;

@@ -1,0 +1,253 @@
+(* Which pairs may be left out: the quick look at two bounds, the capsules of a search (Lemma 8), and the test of two
+   capsules (Lemma 9, over the real numbers). *)
+From Coq Require Import Reals Lra Psatz List.
+From Kinesphere Require Import quadratic geometry_vectors geometry_motion geometry_bounds geometry_certificates.
+Open Scope R_scope.
+
+(* The straight line X + U s, when it is nearest to the origin, and how near. *)
+Lemma square_on_line (X U : vector) (s : R) :
+  dot (X + s * U) (X + s * U) = dot X X + 2 * s * dot X U + s * s * dot U U.
+Proof. by_coordinates. Qed.
+Lemma square_and_cross (X U : vector) (s : R) :
+  dot (X + s * U) (X + s * U) * dot U U = dot (cross X U) (cross X U) + (dot X U + s * dot U U) * (dot X U + s * dot U U).
+Proof. generalize (cauchy_schwarz_square X U). rewrite square_on_line. nra. Qed.
+
+(* The three cases of the quick look, with the squares that it compares: X and V the differences of the centres and
+   velocities now, and a sphere of radius R around the origin. *)
+Definition straight_line_stays_out (X V : vector) (T R : R) : Prop :=
+  R * R < dot X X /\
+  (0 <= dot X V \/
+   (dot V V * T <= - dot X V /\ R * R < dot (X + T * V) (X + T * V)) \/
+   (R * R * dot V V < dot (cross X V) (cross X V))).
+
+Lemma straight_line_is_out (X V : vector) (T R d : R) :
+  straight_line_stays_out X V T R -> 0 <= d <= T -> R < norm (X + d * V).
+Proof.
+  intros [H0 H] Hd. apply norm_more. generalize (dot_self V). intros P. destruct H as [H|[[N H]|H]].
+  - rewrite square_on_line. assert (0 <= d * dot X V) by nra. assert (0 <= d * d * dot V V) by nra. lra.
+  - rewrite square_on_line in *. assert (0 <= (T - d) * (- 2 * dot X V - (T + d) * dot V V)); [|nra].
+    apply Rmult_le_pos; [lra|]. assert (d * dot V V <= T * dot V V) by nra. nra.
+  - generalize (square_and_cross X V d) (Rle_0_sqr (dot X V + d * dot V V)). unfold Rsqr. intros E Q.
+    destruct P as [P|P]; [|rewrite <- P in *; generalize (dot_self (cross X V)); lra].
+    apply Rmult_lt_reg_r with (dot V V); lra.
+Qed.
+
+(* The quick look: `stay_apart`, over the real numbers. Radii count as they are at the end, with a distance, and with half
+   of what the difference G of the plans can turn the centres by then. If the straight line then stays out, the two
+   bounds stay farther apart than the distance during all of the time T: a pair that is left alone cannot meet in it. *)
+Theorem quick_look_leaves_out_only_what_cannot_meet (a b : bound) (T distance : R) :
+  0 <= growth_speed a + growth_speed b -> 0 <= growth a + growth b ->
+  straight_line_stays_out (start a - start b) (speed a - speed b) T
+    (size a + size b + distance +
+     (growth_speed a + growth_speed b + / 2 * (growth a + growth b + norm_one (plan a - plan b)) * T) * T) ->
+  forall d, 0 <= d <= T -> Rs a b d + distance < norm (C a b d).
+Proof.
+  intros P1 P2 H d Hd. generalize (straight_line_is_out _ _ _ _ d H Hd).
+  set (X := (start a - start b)%vector). set (V := (speed a - speed b)%vector). set (G := (plan a - plan b)%vector).
+  replace (C a b d) with ((X + d * V) - (- (d * d / 2)) * G)%vector
+    by (unfold C, c, X, V, G; coordinates; apply (f_equal3 Vector); field).
+  generalize (norm_minus (X + d * V) ((- (d * d / 2)) * G)).
+  rewrite norm_times, Rabs_Ropp, Rabs_pos_eq by nra.
+  generalize (norm_at_most_norm_one G) (norm_one_positive G) (norm_positive G). unfold Rs, rho. fold G.
+  intros N1 N2 N3. set (K := norm_one G) in *. intros L1 L2.
+  assert ((growth_speed a + growth_speed b) * d <= (growth_speed a + growth_speed b) * T) by (apply Rmult_le_compat_l; lra).
+  assert (d * d <= T * T) by nra.
+  assert ((growth a + growth b) * (d * d) <= (growth a + growth b) * (T * T)) by (apply Rmult_le_compat_l; lra).
+  assert (d * d / 2 * norm G <= T * T / 2 * K) by (apply Rmult_le_compat; nra).
+  nra.
+Qed.
+
+(* Where centres go straight on, F(d) = |X + V d|^2 - R(d)^2. *)
+Definition F (X V : vector) (R0 R1 R2 d : R) : R :=
+  dot (X + d * V) (X + d * V) - quadratic R0 R1 R2 d * quadratic R0 R1 R2 d.
+(* Its derivative. *)
+Definition F' (X V : vector) (R0 R1 R2 d : R) : R :=
+  2 * (dot X V + d * dot V V - quadratic R0 R1 R2 d * (R1 + R2 * d)).
+
+(* If |V|^2 is not below R'^2 + R R'' at d0, F is convex until then: it lies above each of its tangents. *)
+Lemma above_the_tangent (X V : vector) (R0 R1 R2 d0 t d : R) :
+  0 <= R0 -> 0 <= R1 -> 0 <= R2 -> 0 <= t <= d0 -> 0 <= d <= d0 ->
+  (R1 + R2 * d0) * (R1 + R2 * d0) + quadratic R0 R1 R2 d0 * R2 <= dot V V ->
+  F X V R0 R1 R2 t + F' X V R0 R1 R2 t * (d - t) <= F X V R0 R1 R2 d.
+Proof.
+  intros P0 P1 P2 Ht Hd K.
+  assert (F X V R0 R1 R2 d - F X V R0 R1 R2 t - F' X V R0 R1 R2 t * (d - t) =
+    (d - t) * (d - t) * (dot V V - (R1 * R1 + R0 * R2 + R1 * R2 * (d + 2 * t) +
+      / 4 * (R2 * R2) * (d * d + 2 * d * t + 3 * (t * t))))) as E.
+  { unfold F, F', quadratic. rewrite !square_on_line. field. }
+  assert (0 <= dot V V - (R1 * R1 + R0 * R2 + R1 * R2 * (d + 2 * t) +
+      / 4 * (R2 * R2) * (d * d + 2 * d * t + 3 * (t * t)))) as Q.
+  { assert (R1 * R2 * (d + 2 * t) <= R1 * R2 * (3 * d0)) by (apply Rmult_le_compat_l; nra).
+    assert (R2 * R2 * (d * d + 2 * d * t + 3 * (t * t)) <= R2 * R2 * (6 * (d0 * d0))).
+    { apply Rmult_le_compat_l; [nra|]. assert (d * d <= d0 * d0) by nra. assert (d * t <= d0 * d0) by nra.
+      assert (t * t <= d0 * d0) by nra. lra. }
+    unfold quadratic in K. nra. }
+  generalize (Rmult_le_pos _ _ (Rle_0_sqr (d - t)) Q). unfold Rsqr. lra.
+Qed.
+
+(* A tangent that falls, taken at any t until d0, meets zero no later than F does first. At the root d0 that F would have
+   were the growth steady, and at the time where the tangent there meets zero: two tangents, two earlier times. *)
+Theorem tangent_meets_zero_early (X V : vector) (R0 R1 R2 d0 t : R) :
+  0 <= R0 -> 0 <= R1 -> 0 <= R2 -> 0 <= t <= d0 ->
+  (R1 + R2 * d0) * (R1 + R2 * d0) + quadratic R0 R1 R2 d0 * R2 <= dot V V ->
+  F' X V R0 R1 R2 t < 0 ->
+  forall d, 0 <= d <= d0 -> d < t - F X V R0 R1 R2 t / F' X V R0 R1 R2 t ->
+  quadratic R0 R1 R2 d < norm (X + d * V).
+Proof.
+  intros P0 P1 P2 Ht K N d Hd L. apply norm_more.
+  generalize (above_the_tangent X V R0 R1 R2 d0 t d P0 P1 P2 Ht Hd K).
+  assert (0 < F X V R0 R1 R2 t + F' X V R0 R1 R2 t * (d - t)) as Q.
+  { set (f := F X V R0 R1 R2 t) in *. set (s := F' X V R0 R1 R2 t) in *.
+    assert (f / s * s = f) by (field; lra). nra. }
+  unfold F at 2. lra.
+Qed.
+
+(* Lemma 8. A capsule is a ball that moves straight on from X with V, with the radius
+   R + room + (b + (a + |g|_1) T / 2) T. From now until T later the bound lies in it, and with it the body, with its
+   room. *)
+Definition capsule_radius (b : bound) (room T : R) : R :=
+  size b + room + (growth_speed b + (growth b + norm_one (plan b)) * T / 2) * T.
+
+Lemma bound_stays_near_its_capsule (b : bound) (room T d : R) : 0 <= growth_speed b -> 0 <= growth b -> 0 <= d <= T ->
+  norm (c b d - (start b + d * speed b)) + rho b d + room <= capsule_radius b room T.
+Proof.
+  intros P1 P2 Hd.
+  replace (c b d - (start b + d * speed b))%vector with ((d * d / 2) * plan b)%vector by (unfold c; by_coordinates).
+  rewrite norm_times, Rabs_pos_eq by nra. unfold rho, capsule_radius.
+  generalize (norm_at_most_norm_one (plan b)) (norm_one_positive (plan b)) (norm_positive (plan b)). intros N1 N2 N3.
+  set (K := norm_one (plan b)) in *.
+  assert (d * d <= T * T) by nra.
+  assert (growth_speed b * d <= growth_speed b * T) by (apply Rmult_le_compat_l; lra).
+  assert (growth b * (d * d) <= growth b * (T * T)) by (apply Rmult_le_compat_l; lra).
+  assert (d * d / 2 * norm (plan b) <= T * T / 2 * K) by (apply Rmult_le_compat; nra).
+  lra.
+Qed.
+
+Theorem body_stays_in_its_capsule (b : body) (m : motion) (t0 t1 t s T d room : R) (p q point : vector) :
+  0 <= e1 b -> 0 <= A b -> keeps_promise b m t0 t1 -> t0 <= t -> 0 <= s -> 0 <= d <= T -> t + s + d <= t1 ->
+  true_report b m t p q ->
+  let now := moved_on (bound_of b p q) s in
+  in_ball point (place m (t + s + d)) (r b + room) ->
+  in_ball point (start now + d * speed now) (capsule_radius now room T).
+Proof.
+  intros P1 P2 K Ht Hs Hd Ht1 Tr now I. unfold in_ball in *.
+  assert (0 <= growth_speed now) as G1 by (unfold now; cbn; nra).
+  generalize (bound_stays_near_its_capsule now room T d G1 P2 Hd).
+  generalize (centre_is_near b m t0 t1 t p q (s + d) K Ht ltac:(lra) ltac:(lra) Tr).
+  replace (t + (s + d)) with (t + s + d) by ring.
+  assert (rho now d = rho (bound_of b p q) (s + d)) as -> by (apply rho_moved_on).
+  replace (c (bound_of b p q) (s + d)) with (c now d) by (apply c_moved_on).
+  generalize (norm_by_way_of (place m (t + s + d)) point (start now + d * speed now))
+    (norm_by_way_of (c now d) (place m (t + s + d)) (start now + d * speed now)). lra.
+Qed.
+
+(* The test of two capsules, over the real numbers. D and U are the differences of centres and velocities, l > 0 is what
+   keeps the division from one by zero. The time that is found is moved into the span. *)
+Definition nearest_time (D U : vector) (l from to : R) : R := Rmin (Rmax (- dot D U / (dot U U + l)) from) to.
+
+(* Moving a little too early a time of the line by l costs no more than this. *)
+Lemma nearest_time_is_near (D U : vector) (l from to s : R) : 0 < l -> 0 <= from <= to -> from <= s <= to ->
+  let n := nearest_time D U l from to in
+  dot (D + n * U) (D + n * U) <= dot (D + s * U) (D + s * U) + l * (to * to) / 2.
+Proof.
+  intros Hl Hf Hs n. rewrite !square_on_line. generalize (dot_self U). intros P.
+  set (u := dot U U) in *. set (w := dot D U) in *. set (k := - w / (u + l)).
+  assert (w = - k * (u + l)) as E by (unfold k; field; lra).
+  assert (from <= n <= to) as Hn.
+  { unfold n, nearest_time. fold k. unfold Rmin, Rmax. repeat destruct Rle_dec; lra. }
+  assert (n = k \/ (n = from /\ k <= from) \/ (n = to /\ to <= k)) as Q.
+  { unfold n, nearest_time. fold u w. change (- w / (u + l)) with k.
+    destruct (Rle_dec k from); [rewrite Rmax_right by lra; rewrite Rmin_left by lra; auto|].
+    rewrite Rmax_left by lra. destruct (Rle_dec k to); [rewrite Rmin_left by lra; auto|].
+    rewrite Rmin_right by lra. right; right. lra. }
+  (* The square along the line, and l s^2 more, is a parabola that is least at k, and in the span at n. *)
+  assert (2 * n * w + n * n * (u + l) + (u + l) * ((s - n) * (s - n)) <= 2 * s * w + s * s * (u + l)) as L.
+  { rewrite E. assert (0 <= (u + l) * ((s - n) * (n - k))); [|nra].
+    apply Rmult_le_pos; [lra|]. destruct Q as [->|[[-> H]|[-> H]]]; nra. }
+  generalize (Rmult_le_pos _ _ P (Rle_0_sqr (s - n))). unfold Rsqr. intros M.
+  assert (2 * n * (s - n) <= to * to / 2) as N.
+  { generalize (Rle_0_sqr (s - 2 * n)). unfold Rsqr. intros W. assert (s * s <= to * to) by nra. lra. }
+  apply (Rmult_le_compat_l l) in N; [|lra]. clear - L M N. lra.
+Qed.
+
+(* Lemma 9, over the real numbers. If the two balls touch at a time of the span, and the span ends at 1 or before, the
+   test does not leave the pair out. In a layer without an end it ends at 2 or before: there it is the room that helps,
+   of which the radii have so much more than what must not be missed that it makes up for one l. *)
+Theorem test_of_capsules_does_not_leave_out_what_touches (X Y U V : vector) (r1 r2 l from to s : R) :
+  0 < l -> 0 <= from <= to -> to <= 1 -> from <= s <= to -> norm ((X + s * U) - (Y + s * V)) <= r1 + r2 ->
+  let n := nearest_time (X - Y) (U - V) l from to in
+  let P := ((X - Y) + n * (U - V))%vector in
+  ~ (r1 + r2) * (r1 + r2) + l < dot P P.
+Proof.
+  intros Hl Hf H1 Hs H n P. apply Rle_not_lt.
+  apply Rle_trans with (1 := nearest_time_is_near (X - Y) (U - V) l from to s Hl Hf Hs).
+  replace ((X - Y) + s * (U - V))%vector with ((X + s * U) - (Y + s * V))%vector by by_coordinates.
+  rewrite <- norm_square. generalize (norm_positive ((X + s * U) - (Y + s * V))). revert H.
+  generalize (norm ((X + s * U) - (Y + s * V))). intros k L Q.
+  assert (k * k <= (r1 + r2) * (r1 + r2)) by (apply Rmult_le_compat; lra).
+  assert (l * (to * to) <= l * 1) by (apply Rmult_le_compat_l; nra). lra.
+Qed.
+Theorem test_in_a_layer_without_an_end (X Y U V : vector) (r1 r2 room l from to s : R) :
+  0 < l -> 0 <= from <= to -> to <= 2 -> from <= s <= to -> 0 <= room -> l <= room * room ->
+  norm ((X + s * U) - (Y + s * V)) + room <= r1 + r2 ->
+  let n := nearest_time (X - Y) (U - V) l from to in
+  let P := ((X - Y) + n * (U - V))%vector in
+  ~ (r1 + r2) * (r1 + r2) + l < dot P P.
+Proof.
+  intros Hl Hf H1 Hs Hr Lr H n P. apply Rle_not_lt.
+  apply Rle_trans with (1 := nearest_time_is_near (X - Y) (U - V) l from to s Hl Hf Hs).
+  replace ((X - Y) + s * (U - V))%vector with ((X + s * U) - (Y + s * V))%vector by by_coordinates.
+  rewrite <- norm_square. generalize (norm_positive ((X + s * U) - (Y + s * V))). revert H.
+  generalize (norm ((X + s * U) - (Y + s * V))). intros k L Q.
+  assert ((k + room) * (k + room) <= (r1 + r2) * (r1 + r2)) by (apply Rmult_le_compat; lra).
+  assert (0 <= k * room) by (apply Rmult_le_pos; lra).
+  assert (l * (to * to) <= l * 4) by (apply Rmult_le_compat_l; nra). lra.
+Qed.
+
+(* The corners of a capsule on an axis: how far it reaches down and up during the span. Where two balls touch at a time of
+   the span, the corners have a point in common, on each axis. *)
+Definition lower_corner (x v radius from to : R) : R := Rmin (x + v * from) (x + v * to) - radius.
+Definition upper_corner (x v radius from to : R) : R := Rmax (x + v * from) (x + v * to) + radius.
+
+Lemma corners_contain (x v radius from to s y : R) : from <= s <= to -> Rabs (y - (x + v * s)) <= radius ->
+  lower_corner x v radius from to <= y <= upper_corner x v radius from to.
+Proof.
+  intros Hs H. apply abs_at_most in H. unfold lower_corner, upper_corner.
+  assert (Rmin (x + v * from) (x + v * to) <= x + v * s <= Rmax (x + v * from) (x + v * to)); [|lra].
+  destruct (Rle_or_lt 0 v) as [P|N].
+  - assert (v * from <= v * s <= v * to) by (split; apply Rmult_le_compat_l; lra).
+    rewrite Rmin_left, Rmax_right by lra. lra.
+  - assert (v * to <= v * s <= v * from) by (split; apply Rmult_le_compat_neg_l; lra).
+    rewrite Rmin_right, Rmax_left by lra. lra.
+Qed.
+
+Theorem capsules_that_touch_have_a_common_point (X Y U V : vector) (r1 r2 from to s : R) :
+  0 <= r1 -> 0 <= r2 -> from <= s <= to -> norm ((X + s * U) - (Y + s * V)) <= r1 + r2 ->
+  exists point, forall axis : vector -> R, axis = x_of \/ axis = y_of \/ axis = z_of ->
+    lower_corner (axis X) (axis U) r1 from to <= axis point <= upper_corner (axis X) (axis U) r1 from to /\
+    lower_corner (axis Y) (axis V) r2 from to <= axis point <= upper_corner (axis Y) (axis V) r2 from to.
+Proof.
+  intros P1 P2 Hs H.
+  assert (exists k, 0 <= k <= 1 /\ k * (r1 + r2) = r1) as (k & Hk & E).
+  { destruct (Rle_lt_or_eq_dec 0 (r1 + r2)) as [L|Z]; [lra| |].
+    - exists (r1 / (r1 + r2)). split; [|field; lra]. split.
+      + apply Rmult_le_reg_r with (r1 + r2); [exact L|]. replace (r1 / (r1 + r2) * (r1 + r2)) with r1 by (field; lra). lra.
+      + apply Rmult_le_reg_r with (r1 + r2); [exact L|]. replace (r1 / (r1 + r2) * (r1 + r2)) with r1 by (field; lra). lra.
+    - exists 0. lra. }
+  set (x := (X + s * U)%vector) in *. set (y := (Y + s * V)%vector) in *.
+  exists (x - k * (x - y))%vector. intros axis Ha.
+  assert (Rabs (axis (x - y)%vector) <= r1 + r2) as M.
+  { apply Rle_trans with (2 := H). apply Rabs_le.
+    assert (axis (x - y)%vector * axis (x - y)%vector <= norm (x - y) * norm (x - y)) as Q.
+    { rewrite norm_square. unfold dot.
+      generalize (Rle_0_sqr (x_of (x - y))) (Rle_0_sqr (y_of (x - y))) (Rle_0_sqr (z_of (x - y))). unfold Rsqr.
+      destruct Ha as [->|[->| ->]]; lra. }
+    generalize (norm_positive (x - y)). intros. split; nra. }
+  assert (axis (x - k * (x - y))%vector = axis x - k * (axis x - axis y) /\ axis (x - y)%vector = axis x - axis y /\
+          axis x = axis X + axis U * s /\ axis y = axis Y + axis V * s) as (E1 & E2 & E3 & E4).
+  { unfold x, y. destruct Ha as [->|[->| ->]]; coordinates; repeat split; ring. }
+  rewrite E1. rewrite E2 in M. apply abs_at_most in M.
+  split; apply corners_contain with s; try exact Hs.
+  - rewrite <- E3. apply Rabs_le. split; nra.
+  - rewrite <- E4. apply Rabs_le. split; nra.
+Qed.
