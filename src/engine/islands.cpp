@@ -489,18 +489,12 @@ void Islands::finish(std::vector<const Told*>& told) {
   choose_part();
 }
 
-/// Bodies have the capsules that they got, unless they start anew in any case when the part is over.
+/// Bodies have the capsules that they got: also those that start anew when the part is over, since queries
+/// may come before that, where the run is interrupted.
 void Islands::register_kicks() {
   Windows& windows = tables_.windows;
   std::vector<OwnKick> all = kicks();
   std::erase_if(all, [](const OwnKick& one) { return one.own == Sea::nobody; });
-  const double end = sea_.phase_end;
-  if (sea_.until >= end && sea_.stop == end) {
-    std::erase_if(all, [&](const OwnKick& one) {
-      const std::uint32_t number = one.kick->number;
-      return one.kick->window.end == end && windows.contains(number) && windows.end_of(number) == end;
-    });
-  }
   std::vector<Windows::Entry> entries(all.size());
   shift_.for_each(all.size(), kicks_at_once, [&](std::size_t begin, std::size_t last, std::size_t) {
     for (std::size_t k = begin; k < last; ++k) {

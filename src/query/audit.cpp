@@ -90,6 +90,9 @@ class World::Engine::Audit {
     reach.radius += engine_.bodies().sensors.reach(b.sensor_class);
     const double exit = earliest_exit(reach, box, now_, end);
     if (too_late(end, exit, now_)) find("registration", name(number) + " leaves its box" + times(end, exit));
+    // Queries look for it there until it has another window.
+    if (end <= now_ && earliest_exit(reach, box, now_, infinity) <= now_)
+      find("registration", name(number) + " is not in its box");
   }
 
   void check_fixed(std::uint32_t number, double end) {

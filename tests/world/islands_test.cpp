@@ -1,6 +1,7 @@
 // World::run by several threads: the same events as a loop over advance(), to the last bit.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <limits>
 #include <stdexcept>
@@ -185,6 +186,47 @@ TEST(IslandsThatFail, GoOnWhenTheyFailNoMore) {
   }
   EXPECT_EQ(run.told, looped.told);
   EXPECT_EQ(run.hash.value(), looped.hash.value());
+}
+
+/// Of some body, at this instant.
+bool windows_end(const World& world) {
+  const auto bodies = world.bodies();
+  return std::any_of(bodies.begin(), bodies.end(),
+                     [&](BodyId id) { return world.body(id).value().box_end == world.time(); });
+}
+
+/// Where the sink throws, the world may stand at the end of a phase: there queries find bodies where they
+/// are, also those that have been kicked since their windows started.
+TEST(IslandsThatWereInterrupted, LeaveBodiesWhereQueriesFindThem) {
+  Workers workers = Workers::create(2).value();
+  Hall run({.name = "interrupted"});
+  MotionMover mover(run.motion);
+  const auto respond = [&](const Event& event) { return run.answer(event); };
+  const auto sink = [&](const Event& event) {
+    run.tell(event);
+    throw std::runtime_error("no more");
+  };
+  std::size_t interrupted = 0;
+  std::size_t not_found = 0;
+  double last = -1.0;
+  for (bool done = false; !done;) {
+    try {
+      done = static_cast<bool>(run.world.run(run.kind.end, mover, respond, sink, &workers));
+    } catch (const std::runtime_error&) {
+    }
+    if (run.world.time() == last) continue;
+    last = run.world.time();
+    ++interrupted;
+    EXPECT_TRUE(!windows_end(run.world) || is_clean(run.world));
+    for (const BodyId id : run.world.bodies()) {
+      const Vec3 centre = run.world.body(id).value().bound.centre_at(last);
+      const auto found = run.world.overlapping(centre, 0.0).value();
+      if (std::none_of(found.begin(), found.end(), [&](const auto& one) { return one.body == id; }))
+        ++not_found;
+    }
+  }
+  EXPECT_GT(interrupted, 10u);
+  EXPECT_EQ(not_found, 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Islands,
