@@ -19,6 +19,9 @@ Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::u
                  "answer: second must be another track than first"};
   const std::uint32_t a = *tracks_.find(first), b = *tracks_.find(second);
   const std::span<const Components> levels = levels_of(a, b);
+  if (!definition_.share.contains(std::min(first, second)))
+    return Error{ErrorCode::out_of_range, "second", no_body,
+                 "answer: first and second must be of a share that is watched"};
   if (level >= levels.size())
     return Error{ErrorCode::out_of_range, "level", no_body,
                  "answer: level must be less than " + std::to_string(levels.size()) + ", but is " +

@@ -28,6 +28,14 @@ Result<void> check_monitor(const MonitorDefinition& definition) {
                definition.forget_after)
       .require(!definition.classes.empty(), ErrorCode::out_of_range, {"classes"}, "must name at least one",
                definition.classes.size());
+  const PairShare& share = definition.share;
+  check
+      .require(share.of > 0, ErrorCode::out_of_range, {.argument = "share", .part = "of"}, "must be > 0",
+               share.of)
+      .require(share.count > 0, ErrorCode::out_of_range, {.argument = "share", .part = "count"},
+               "must be > 0", share.count)
+      .require(share.count <= share.of && share.first <= share.of - share.count, ErrorCode::out_of_range,
+               {.argument = "share", .part = "first"}, "must be, with count, at most", share.of, share.first);
   const auto limit = [&check](const Subject& subject, const Spread& spread) {
     for (const double value : {spread.horizontal(), spread.vertical(), spread.total()})
       check.require(value >= 0.0, ErrorCode::out_of_range, subject, "must be >= 0", value);

@@ -100,6 +100,7 @@ Result<void> Monitor::Engine::start_windows(const Poll* poll) {
       for (const std::uint32_t number : asked) judge_pairs_not_due(number);
     }
   }
+  close_records();
   ++counters_.windows;
   windows_.end_windows(time_, false);
   std::vector<Windows::Starter> starters;

@@ -1,6 +1,7 @@
 // The engine of a monitor. The facts that it keeps, and why they suffice: docs/monitoring.md.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -26,8 +27,8 @@ namespace kinesphere {
 ///   - their capsules do not touch before the window ends, so they are apart;
 ///   - they certainly are apart until the window ends;
 ///   - they certainly are apart until the time of a hot pair;
-///   - they have an open record, whose verdicts hold until the time of its hot pair, if it has one, or until
-///     one of the two reports.
+///   - they have an open record, whose verdicts hold until the time of its hot pair, or if it has none, until
+///     one of the two reports; or, if it says that they are apart, until the window ends.
 /// All are about the true tracks, which obey all reports: they outlive every report that contradicts none.
 class Monitor::Engine {
  public:
@@ -74,7 +75,9 @@ class Monitor::Engine {
   Result<void> look(const Poll* poll);
   Result<void> ask_about(const HotPair& pair, const Poll& poll);
   Result<void> ask(std::span<const std::uint32_t> numbers, const Poll& poll, Placing placing);
+  /// None for pairs that are not watched.
   std::span<const Components> levels_of(std::uint32_t a, std::uint32_t b) const {
+    if (!definition_.share.contains(std::min(tracks_[a].id, tracks_[b].id))) return {};
     return levels_.between(tracks_[a].track_class, tracks_[b].track_class);
   }
   Course course(std::uint32_t a, std::uint32_t b, const Components& level, double horizon) const {
@@ -86,6 +89,7 @@ class Monitor::Engine {
   bool is_less_certain(std::uint32_t a, std::uint32_t b) const;
   void find_pair(std::uint32_t a, std::uint32_t b);
   void judge(std::uint32_t a, std::uint32_t b);
+  void close_records();
   void judge_level(std::uint32_t a, std::uint32_t b, std::uint32_t level, LevelState& state);
   void judge_open_pairs(std::uint32_t number);
   void judge_pairs_not_due(std::uint32_t number);

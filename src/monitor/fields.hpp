@@ -21,12 +21,18 @@ void transfer(Self& self, Archive& archive) {
   archive(first_class, second_class, levels);
 }
 
+template <Some<PairShare> Self, class Archive>
+void transfer(Self& self, Archive& archive) {
+  auto& [of, first, count] = self;
+  archive(of, first, count);
+}
+
 template <Some<MonitorDefinition> Self, class Archive>
 void transfer(Self& self, Archive& archive) {
   auto& [dimensions, start_time, classes, separations, tolerance, time_resolution, window, silence_after,
-         forget_after] = self;
+         forget_after, share] = self;
   archive(dimensions, start_time, classes, separations, tolerance, time_resolution, window, silence_after,
-          forget_after);
+          forget_after, share);
 }
 
 template <Some<MonitorCounters> Self, class Archive>

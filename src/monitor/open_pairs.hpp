@@ -1,4 +1,5 @@
-// Pairs that are not certainly apart, and what is certain of each of their separations.
+// Pairs that are not certainly apart, or were not so in this window, and what is certain of each of their
+// separations.
 #pragma once
 
 #include <algorithm>
@@ -28,6 +29,10 @@ struct OpenRecord {
   std::uint32_t version = 0;  ///< what is in the agenda for another one is void
   std::vector<LevelState> levels;
 
+  bool is_apart() const {
+    return std::all_of(levels.begin(), levels.end(),
+                       [](const LevelState& state) { return state.verdict == Verdict::apart; });
+  }
   bool is_undecided() const {
     return std::any_of(levels.begin(), levels.end(),
                        [](const LevelState& state) { return state.verdict == Verdict::undecided; });

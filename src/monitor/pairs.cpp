@@ -79,16 +79,27 @@ void Monitor::Engine::judge(std::uint32_t a, std::uint32_t b) {
     until = std::min(until, state.until);
     apart = apart && state.verdict == Verdict::apart;
   }
-  if (apart) {
+  // That they are apart at one level of several has a begin; that they are apart has none.
+  if (apart)
+    for (LevelState& state : record->levels) state.since = -infinity;
+  record->version = open_.fresh_version();
+  const auto [one, other] = std::minmax(a, b);
+  if (until < (apart ? window().end : infinity))
+    agenda_.add({until, one, other, record->version, of_open_record});
+}
+
+/// Records of pairs that are apart again go when the windows end, and not before: until then hot pairs
+/// without a record, from before it came, may stand in the agenda, and are void as long as there is one.
+void Monitor::Engine::close_records() {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> closed;
+  open_.for_each([&](std::uint32_t a, std::uint32_t b, const OpenRecord& record) {
+    if (record.is_apart()) closed.emplace_back(a, b);
+  });
+  for (const auto& [a, b] : closed) {
     open_.remove(a, b);
     std::erase(tracks_[a].open, b);
     std::erase(tracks_[b].open, a);
-    if (until < window().end) add_hot_pair(a, b, until);
-    return;
   }
-  record->version = open_.fresh_version();
-  const auto [one, other] = std::minmax(a, b);
-  if (until < infinity) agenda_.add({until, one, other, record->version, of_open_record});
 }
 
 void Monitor::Engine::judge_level(std::uint32_t a, std::uint32_t b, std::uint32_t level, LevelState& state) {

@@ -24,7 +24,7 @@ struct Track {
   /// How often it was put on the agenda to be heard of: what is from before is void.
   std::uint32_t expected = 0;
   Knowledge knowledge{};
-  std::vector<std::uint32_t> open;  ///< partners in pairs that are not certainly apart
+  std::vector<std::uint32_t> open;  ///< partners in pairs that have an open record
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {

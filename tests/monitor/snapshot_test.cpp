@@ -64,6 +64,39 @@ TEST(MonitorSnapshot, GoesOnAsTheOneThatWasSaved) {
   EXPECT_GT(monitor.counters().contradictions, 10u);
 }
 
+/// A dense sky of which little is known: pairs that turn apart and undecided again within a window, and
+/// tracks that may be at one of several places.
+std::vector<MonitorEvent> watch_dense_sky(bool is_restored_often) {
+  Monitor monitor = Monitor::create({.classes = {{.acceleration_limit = 6.0, .largest_speed = 400.0}},
+                                     .separations = {{0, 0, {Separation::sphere(500.0)}}},
+                                     .window = 1.0,
+                                     .silence_after = 3.0,
+                                     .forget_after = 8.0})
+                        .value();
+  Random random(19);
+  std::vector<MonitorEvent> events;
+  for (int k = 0; k < 3000; ++k) {
+    const double time = 0.004 * k;
+    for (const MonitorEvent& event : monitor.events(time)) events.push_back(event);
+    const auto id = static_cast<TrackId>(random.uniform(0.0, static_cast<double>(tracks)));
+    const double stamp = time - random.uniform(0.0, 0.2),
+                 angle = 0.25 * stamp + 1.7 * static_cast<double>(id);
+    const double radius = 2000.0 + 100.0 * static_cast<double>(id % 9);
+    TrackReport report{.stamp = stamp, .position_error = 10.0, .velocity_error = 25.0};
+    report.state = {{radius * std::cos(angle), radius * std::sin(angle), 0},
+                    {-0.08 * radius * std::sin(angle), 0.08 * radius * std::cos(angle), 0}};
+    monitor.report(id, report).value();
+    if (is_restored_often && k % 20 == 0) monitor = Monitor::restore(monitor.save()).value();
+  }
+  return events;
+}
+
+TEST(MonitorSnapshot, MakesNoDifferenceHoweverOftenItIsRestored) {
+  const std::vector<MonitorEvent> expected = watch_dense_sky(false);
+  EXPECT_GT(expected.size(), 2000u);
+  EXPECT_TRUE(watch_dense_sky(true) == expected);
+}
+
 TEST(MonitorSnapshot, KeepsEventsThatHaveNotBeenTold) {
   Monitor monitor = made();
   for (TrackId id = 0; id < 5; ++id) monitor.report(id, {.position_error = 1.0}).value();

@@ -35,6 +35,19 @@
 
 namespace kinesphere {
 
+/// Several monitors that are told the same may divide the pairs among themselves: a pair belongs to the share
+/// that is the lower of its two ids modulo `of`. What each tells of its pairs is what one monitor would tell
+/// that watches all.
+struct PairShare {
+  std::uint64_t of = 1;     ///< > 0
+  std::uint64_t first = 0;  ///< watched are the shares first, ..., first + count - 1
+  std::uint64_t count = 1;  ///< > 0; first + count <= of
+
+  bool contains(TrackId id) const { return id % of - first < count; }
+
+  friend bool operator==(const PairShare&, const PairShare&) = default;
+};
+
 struct MonitorDefinition {
   int dimensions = 3;  ///< 2 or 3; in two dimensions z is ignored
   double start_time = 0.0;
@@ -56,6 +69,8 @@ struct MonitorDefinition {
   /// A track of which nothing is heard for so long is told of, and for so long leaves (time, > 0).
   double silence_after = std::numeric_limits<double>::infinity();
   double forget_after = std::numeric_limits<double>::infinity();
+  /// Which pairs are watched, where others watch the rest.
+  PairShare share{};
 };
 
 /// What a monitor has done so far.
@@ -74,7 +89,7 @@ struct MonitorCounters {
 /// What is certain of two tracks and a separation now, and what may come.
 struct PairAnswer {
   Verdict verdict = Verdict::apart;
-  /// From when on it was so: of a pair that was apart all the time, -infinity.
+  /// From when on it was so: of a pair that is apart at all levels, -infinity.
   double since = 0.0;
   /// A certain verdict is true until then, whatever is reported; it may be told to end sooner, where reports
   /// that come say less. An undecided one may be decided by the passing of time no earlier than this. In
@@ -180,8 +195,8 @@ class Monitor {
   /// Errors: unknown_body.
   Result<TrackView> track(TrackId id) const;
 
-  /// What is certain of two tracks. Errors: unknown_body; out_of_range for the same track twice, or a level
-  /// that the two do not have.
+  /// What is certain of two tracks. Errors: unknown_body; out_of_range for the same track twice, a level that
+  /// the two do not have, or a pair of another share.
   Result<PairAnswer> answer(TrackId first, TrackId second, std::uint32_t level = 0) const;
   /// Pairs that are not certainly apart, by their ids and levels.
   std::vector<OpenPair> open_pairs() const;

@@ -44,7 +44,7 @@ struct MonitorEvent {
   std::uint32_t level = 0;
   Verdict verdict = Verdict::apart;
   Verdict before = Verdict::apart;
-  double since = 0.0;  ///< when the one before began; -infinity if nothing else was ever told
+  double since = 0.0;  ///< when the one before began; -infinity if they were apart at all levels
 
   /// Of a contradiction: how far the position, and the velocity, lie outside of what was possible (length,
   /// length / time).
