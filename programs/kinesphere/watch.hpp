@@ -23,6 +23,9 @@ struct WatchOptions {
   std::string clock = "stream";
   std::string origin, radius;
   std::optional<std::size_t> most_malformed;
+  std::string snapshot, snapshot_every;
+  std::string alerts;  ///< empty: standard output
+  std::string share;
   std::string summary;
   std::optional<int> serve;
   bool quiet = false;

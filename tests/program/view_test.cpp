@@ -86,8 +86,7 @@ TEST_F(View, TakesOptionsAboutTablesWithTablesAlone) {
 
 TEST_F(View, SaysHowItIsBuilt) {
   const ProgramRun run =
-      this->run("view --no-browser", "KINESPHERE_VIEWER='" + path("nowhere") + "' timeout 1 ");
-  if (run.exit_code == 124) GTEST_SKIP() << "the viewer has been built here";
+      this->run("view --no-browser", "KINESPHERE_VIEWER='" + path("nowhere") + "' timeout 10 ");
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_NE(run.err.find(path("nowhere")), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("cmake --preset browser"), std::string::npos) << run.err;

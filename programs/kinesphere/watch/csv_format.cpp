@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -231,12 +232,13 @@ class CsvFormat final : public ReportFormat {
     std::string_view text = record.text;
     if (record.line == 1 && text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
     if (text.find_first_not_of(" \t\r") == std::string_view::npos || text.starts_with('#')) return;
-    if (!separator_) separator_ = field_separator_of(text);
-    if (!split_fields(text, *separator_, fields_))
-      throw MalformedRecord("expected a quote that ends a field");
-    if (!has_begun_) {
-      has_begun_ = true;
+    if (first_line_.empty()) {
+      separator_ = field_separator_of(text);
+      split(text);
+      first_line_ = text;
       if (begin()) return;
+    } else {
+      split(text);
     }
     // A file that was appended to another brings its header along.
     if (fields_ == header_) return;
@@ -246,7 +248,20 @@ class CsvFormat final : public ReportFormat {
     hand_over(sink);
   }
 
+  nlohmann::json save() const override { return first_line_; }
+  void restore(const nlohmann::json& state) override {
+    first_line_ = state.get<std::string>();
+    if (first_line_.empty()) return;
+    separator_ = field_separator_of(first_line_);
+    split(first_line_);
+    begin();
+  }
+
  private:
+  void split(std::string_view line) {
+    if (!split_fields(line, separator_, fields_)) throw MalformedRecord("expected a quote that ends a field");
+  }
+
   /// Whether the first line is a header.
   bool begin() {
     const bool has_header = std::none_of(fields_.begin(), fields_.end(), [](std::string_view field) {
@@ -351,9 +366,10 @@ class CsvFormat final : public ReportFormat {
 
   FormatChoices choices_;
   bool is_ais_;
-  bool has_begun_ = false;
+  /// Without blank ones and comments before; empty before it has come.
+  std::string first_line_;
   bool is_geographic_ = false;
-  std::optional<char> separator_;
+  char separator_ = ',';
   CsvColumns columns_;
   std::size_t columns_needed_ = 0;
   std::vector<std::string> header_text_;

@@ -4,9 +4,11 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -71,12 +73,15 @@ class FileSource::Inflater {
   bool is_between_ = false;  ///< one gzip file has ended, and no other has begun
 };
 
-FileSource::FileSource(const std::string& path, const StopSignals& stop)
+FileSource::FileSource(const std::string& path, const StopSignals& stop, const StreamPlace* from)
     : path_(path), stop_(stop), buffer_(source_block) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) fail("expected a file, but it is a folder");
   descriptor_ = path == "-" ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor_ < 0) fail(std::strerror(errno));
+  struct stat status {};
+  is_file_ = ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
+  if (from != nullptr && from->stream == name()) go_on_from(*from);
 }
 
 FileSource::~FileSource() {
@@ -85,6 +90,39 @@ FileSource::~FileSource() {
 
 void FileSource::fail(std::string_view reason) const {
   throw ProgramError(fmt::format("{}: cannot read: {}", name(), reason));
+}
+
+void FileSource::go_on_from(const StreamPlace& place) {
+  handed_over_ = place.position;
+  if (!is_file_) return;
+  const auto start = ::lseek(descriptor_, 0, SEEK_CUR), end = ::lseek(descriptor_, 0, SEEK_END);
+  const auto before = static_cast<off_t>(place.position);
+  if (place.check == 0) {
+    to_pass_over_ = place.position;
+    ::lseek(descriptor_, start, SEEK_SET);
+  } else if (end < before || check_before(place.position) != place.check) {
+    throw ProgramError(fmt::format(
+        "{}: expected the stream that the snapshot was made of, but its first {} bytes are others", name(),
+        place.position));
+  } else {
+    ::lseek(descriptor_, before, SEEK_SET);
+  }
+}
+
+std::uint32_t FileSource::check_before(std::uint64_t position) const {
+  if (!is_file_ || inflater_ || position == 0) return 0;
+  std::vector<unsigned char> bytes(std::min<std::uint64_t>(position, 4096));
+  const auto got =
+      ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(position - bytes.size()));
+  if (got != static_cast<ssize_t>(bytes.size())) return 0;
+  // 0 says that there is none.
+  return std::max<std::uint32_t>(
+      1, static_cast<std::uint32_t>(crc32(0, bytes.data(), static_cast<uInt>(bytes.size()))));
+}
+
+StreamPlace FileSource::place(std::size_t without) const {
+  const std::uint64_t position = handed_over_ - without;
+  return {name(), position, check_before(position)};
 }
 
 ReportSource::Outcome FileSource::read_some(std::chrono::milliseconds patience) {
@@ -102,6 +140,16 @@ ReportSource::Outcome FileSource::read_some(std::chrono::milliseconds patience) 
 }
 
 ReportSource::Outcome FileSource::next(std::chrono::milliseconds patience, std::string_view& text) {
+  const Outcome outcome = unpacked(patience, text);
+  if (outcome != Outcome::text) return outcome;
+  const auto passed = std::min<std::uint64_t>(to_pass_over_, text.size());
+  text.remove_prefix(passed);
+  to_pass_over_ -= passed;
+  handed_over_ += text.size();
+  return text.empty() ? Outcome::quiet : Outcome::text;
+}
+
+ReportSource::Outcome FileSource::unpacked(std::chrono::milliseconds patience, std::string_view& text) {
   bool damaged = false;
   if (inflater_) {
     text = inflater_->next(damaged);

@@ -33,6 +33,17 @@ class RecordCutter {
   std::optional<Record> rest();
   /// Text that has come in, and has not been cut yet.
   std::string_view waiting() const { return std::string_view(text_).substr(begin_); }
+  /// Where waiting() begins.
+  struct Line {
+    std::size_t number = 1;
+    bool is_passed_over = false;  ///< it is too long, and has begun before
+  };
+  Line line() const { return {line_, skips_line_}; }
+  /// To be set before the first record is cut: when text is fed from there on.
+  void begin_at(const Line& line) {
+    line_ = line.number;
+    skips_line_ = line.is_passed_over;
+  }
   /// To be set before the first record is cut.
   void set_kind(Kind kind) { kind_ = kind; }
 

@@ -2,6 +2,7 @@
 #include "watch/report_format.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "tracks/column_names.hpp"
@@ -77,6 +78,9 @@ bool has_column(std::string_view header, std::string_view name) {
 }
 
 }  // namespace
+
+nlohmann::json ReportFormat::save() const { return nullptr; }
+void ReportFormat::restore(const nlohmann::json&) {}
 
 std::string_view name_of(StreamFormat format) {
   for (const auto& [name, each] : stream_formats)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -24,6 +25,10 @@ class ReportFormat {
   virtual ~ReportFormat() = default;
   /// Hands over the reports of a record. Throws MalformedRecord; what has been handed over before holds.
   virtual void read(const Record& record, ReportSink& sink) = 0;
+  /// What it keeps of the records before, for one that goes on behind them.
+  virtual nlohmann::json save() const;
+  /// Throws ProgramError as read() may, or an exception of nlohmann::json.
+  virtual void restore(const nlohmann::json& state);
 };
 
 enum class StreamFormat { readsb, sbs, opensky, ais, csv, jsonl };

@@ -2,10 +2,22 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "tracks/time_text.hpp"
+
 namespace kinesphere::program {
+
+/// How far a stream has been read.
+struct StreamPlace {
+  std::string stream;          ///< its name
+  std::uint64_t position = 0;  ///< in it: bytes, as they are when unpacked, or messages
+  std::uint32_t check = 0;     ///< a checksum of some of what lies before, where it can be read again; else 0
+};
 
 class ReportSource {
  public:
@@ -19,6 +31,14 @@ class ReportSource {
   /// Waits for text, at most so long or until the program is asked to stop. The text may end anywhere; it is
   /// valid until the next call. Throws ProgramError naming the source.
   virtual Outcome next(std::chrono::milliseconds patience, std::string_view& text) = 0;
+  /// How far it has been handed over, as StreamPlace counts.
+  virtual std::uint64_t position() const = 0;
+  /// The same, without so many bytes at the end.
+  virtual StreamPlace place(std::size_t without) const = 0;
+  /// Whether it says itself when texts come in: then all that read it go by the same clock.
+  virtual bool has_clock() const { return false; }
+  /// By that clock: when the last text came in.
+  virtual FileTime arrival() const { return {}; }
   /// For messages.
   virtual std::string name() const = 0;
 };

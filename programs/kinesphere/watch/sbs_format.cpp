@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -54,6 +55,19 @@ class SbsFormat final : public ReportFormat {
     if (fields_[sbs::latitude].empty() || fields_[sbs::longitude].empty())
       return sink.pass_over(Passed::no_position);
     sink.take(report_at(made, logged.time));
+  }
+
+  nlohmann::json save() const override {
+    auto velocities = nlohmann::json::array();
+    for (const auto& [hex, known] : velocities_)
+      velocities.push_back({hex, known.time.whole, known.time.fraction, known.velocity.x, known.velocity.y,
+                            known.velocity.z, known.has_climb});
+    return velocities;
+  }
+  void restore(const nlohmann::json& state) override {
+    for (const auto& known : state)
+      velocities_[known.at(0)] = {
+          {known.at(1), known.at(2)}, {known.at(3), known.at(4), known.at(5)}, known.at(6)};
   }
 
  private:

@@ -10,23 +10,24 @@ double seconds_between(const FileTime& earlier, const FileTime& later) {
 }
 
 void StreamClock::go_on(const FileTime& time) {
-  if (!has_begun_ || seconds_between(now_, time) > 0.0) now_ = time;
-  has_begun_ = true;
+  if (!has_begun() || seconds_between(now(), time) > 0.0) memory_.now = time;
+  memory_.has_begun = true;
 }
 
 bool StreamClock::confirms(const FileTime& time, const std::string& id, bool others) {
-  if (in_a_row_ == 0 || std::abs(seconds_between(latest_ahead_, time)) > leap_) {
-    in_a_row_ = 0;
-    first_ahead_ = time;
-    first_id_ = id;
-    several_ids_ = false;
+  auto& [source, has_begun, now, in_a_row, first_ahead, latest_ahead, first_id, several_ids] = memory_;
+  if (in_a_row == 0 || std::abs(seconds_between(latest_ahead, time)) > leap_) {
+    in_a_row = 0;
+    first_ahead = time;
+    first_id = id;
+    several_ids = false;
   }
-  ++in_a_row_;
-  latest_ahead_ = time;
-  several_ids_ = several_ids_ || id != first_id_;
-  if (source_ == Source::arrivals) return seconds_between(first_ahead_, time) != 0.0;
+  ++in_a_row;
+  latest_ahead = time;
+  several_ids = several_ids || id != first_id;
+  if (source == Source::arrivals) return seconds_between(first_ahead, time) != 0.0;
   constexpr std::size_t enough = 3, enough_of_one = 10;
-  return in_a_row_ >= (several_ids_ || !others ? enough : enough_of_one);
+  return in_a_row >= (several_ids || !others ? enough : enough_of_one);
 }
 
 }  // namespace kinesphere::program

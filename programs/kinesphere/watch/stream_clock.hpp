@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
 #include <string>
+#include <utility>
 
 #include "kinesphere/vec3.hpp"
 #include "tracks/time_text.hpp"
@@ -23,15 +23,29 @@ class StreamClock {
     arrivals,  ///< times at which they came in, as one clock tells them
   };
 
-  StreamClock(Source source, double leap) : source_(source), leap_(leap) {}
+  /// All that it remembers.
+  struct Memory {
+    Source source = Source::stamps;
+    bool has_begun = false;
+    FileTime now{};
+    // Of the times that are not believed.
+    std::size_t in_a_row = 0;
+    FileTime first_ahead{}, latest_ahead{};
+    std::string first_id{};
+    bool several_ids = false;
+  };
 
-  Source source() const { return source_; }
-  void set_source(Source source) { source_ = source; }
-  bool has_begun() const { return has_begun_; }
-  const FileTime& now() const { return now_; }
+  StreamClock(Source source, double leap) : leap_(leap), memory_{.source = source} {}
+
+  Source source() const { return memory_.source; }
+  void set_source(Source source) { memory_.source = source; }
+  bool has_begun() const { return memory_.has_begun; }
+  const FileTime& now() const { return memory_.now; }
+  const Memory& memory() const { return memory_; }
+  void recall(Memory memory) { memory_ = std::move(memory); }
 
   /// Whether a time is not ahead by more than the limit.
-  bool believes(const FileTime& time) const { return has_begun_ && seconds_between(now_, time) <= leap_; }
+  bool believes(const FileTime& time) const { return has_begun() && seconds_between(now(), time) <= leap_; }
   /// Goes on to a time that is believed, or known; never back.
   void go_on(const FileTime& time);
 
@@ -40,20 +54,13 @@ class StreamClock {
   /// arrivals two that differ. `others` says whether there are tracks besides.
   bool confirms(const FileTime& time, const std::string& id, bool others);
   /// How many they are, this one included.
-  std::size_t in_a_row() const { return in_a_row_; }
+  std::size_t in_a_row() const { return memory_.in_a_row; }
   /// Others have come in between.
-  void interrupt() { in_a_row_ = 0; }
+  void interrupt() { memory_.in_a_row = 0; }
 
  private:
-  Source source_;
   double leap_;
-  bool has_begun_ = false;
-  FileTime now_{};
-  // Of the times that are not believed.
-  std::size_t in_a_row_ = 0;
-  FileTime first_ahead_{}, latest_ahead_{};
-  std::string first_id_;
-  bool several_ids_ = false;
+  Memory memory_;
 };
 
 }  // namespace kinesphere::program

@@ -39,6 +39,10 @@ class TrackNames {
   NamedTrack& add(TrackId id, std::string_view text);
   void remove(TrackId id) { names_.erase(id); }
   std::size_t size() const { return names_.size(); }
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (const auto& [id, track] : names_) visit(track);
+  }
 
  private:
   std::unordered_map<TrackId, NamedTrack> names_;

@@ -52,6 +52,29 @@ WatchSettings::Origin parse_origin(const std::string& text) {
   return {*latitude, *longitude};
 }
 
+/// "2/4" and "1-8/16"; all of them where nothing is given.
+PairShare parse_share(const std::string& text) {
+  if (text.empty()) return {};
+  const auto wrong = [&text] {
+    return ProgramError(fmt::format(
+        "--share: expected a part of all pairs, as 2/4 or 1-8/16 with numbers from 1, but got '{}'", text));
+  };
+  constexpr double most = 65536.0;
+  const auto whole = [&](std::string_view part) {
+    const double number = parse_number(part).value_or(0.0);
+    if (!(number >= 1.0 && number <= most && number == std::floor(number))) throw wrong();
+    return static_cast<std::uint64_t>(number);
+  };
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const std::string_view parts = std::string_view(text).substr(0, slash);
+  const std::size_t dash = std::min(parts.find('-'), parts.size());
+  const std::uint64_t of = whole(std::string_view(text).substr(std::min(slash + 1, text.size())));
+  const std::uint64_t first = whole(parts.substr(0, dash));
+  const std::uint64_t last = dash < parts.size() ? whole(parts.substr(dash + 1)) : first;
+  if (last < first || last > of) throw wrong();
+  return {.of = of, .first = first - 1, .count = last - first + 1};
+}
+
 double positive_time(const std::string& given, std::string_view option, double otherwise) {
   if (given.empty()) return otherwise;
   const double time = parse_measure(given, Measure::time, option);
@@ -108,7 +131,39 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
     throw ProgramError(fmt::format("--radius: expected a radius > 0, at most {:.0f} km, but got '{}'",
                                    LocalFrame::largest_radius / 1e3, options.radius));
   if (options.most_malformed) settings.most_malformed = *options.most_malformed;
+  settings.share = parse_share(options.share);
   return settings;
+}
+
+GivenOptions given_options(const WatchOptions& options) {
+  const FormatChoices& choices = options.choices;
+  GivenOptions given;
+  for (const std::string& separation : options.separations) given.emplace_back("--separation", separation);
+  given.insert(
+      given.end(),
+      {{"--columns", choices.columns},
+       {"--dimensions", options.dimensions ? fmt::to_string(*options.dimensions) : ""},
+       {"--acceleration", options.acceleration},
+       {"--largest-speed", options.largest_speed},
+       {"--containment", fmt::to_string(choices.containment)},
+       {"--position-error", options.position_error},
+       {"--velocity-error", options.velocity_error},
+       {"--stamp-error", options.stamp_error},
+       {"--position-bound",
+        choices.position_bound == FormatChoices::PositionBound::accuracy ? "nac_p" : "rc"},
+       {"--altitude", choices.altitude == FormatChoices::Altitude::geometric ? "geometric" : "barometric"},
+       {"--silence", options.silence},
+       {"--forget", options.forget},
+       {"--origin", options.origin},
+       {"--radius", options.radius},
+       {"--clock", options.clock},
+       {"--leap", options.leap},
+       {"--share", options.share}});
+  return given;
+}
+
+double snapshot_interval(const WatchOptions& options) {
+  return positive_time(options.snapshot_every, "--snapshot-every", 10.0);
 }
 
 }  // namespace kinesphere::program

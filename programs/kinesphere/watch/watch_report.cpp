@@ -51,15 +51,48 @@ std::string without_quotes(std::string text) {
 
 bool is_always_shown(const WatchCount& count) { return *count.label != '\0'; }
 
-std::string place_fields(const Watcher& watcher, const TrackView::Place& place) {
+/// What a watch goes by, as far as its state rests upon it, and what it has counted.
+std::string setting_fields(const Watcher& watcher) {
+  const WatchSettings& settings = watcher.settings();
+  const auto& monitor = watcher.monitor();
   const auto& frame = watcher.frame();
-  const Vec3 at = frame ? frame->geographic(place.centre) : place.centre;
-  const char* const position = frame ? R"("lon": {}, "lat": {}, "alt": {})" : R"("x": {}, "y": {}, "z": {})";
-  return fmt::format(
-      fmt::runtime(std::string("{{") + position + R"(, "velocity": [{}, {}, {}], "radius": [{}, {}]}})"),
-      json_number(at.x), json_number(at.y), json_number(at.z), json_number(place.velocity.x),
-      json_number(place.velocity.y), json_number(place.velocity.z), json_number(place.radius.horizontal()),
-      json_number(place.radius.vertical()));
+  std::string text = fmt::format(R"("stream": {}, "geographic": {}, "dimensions": {}, "origin": )",
+                                 json_text(settings.source), monitor ? frame ? "true" : "false" : "null",
+                                 monitor ? std::to_string(monitor->definition().dimensions) : "null");
+  text += frame ? fmt::format(R"({{"lon": {}, "lat": {}, "radius": {}}})", json_number(frame->longitude()),
+                              json_number(frame->latitude()), json_number(frame->radius()))
+                : "null";
+  text += fmt::format(R"(, "silence": {}, "forget": {}, "separations": [)", json_number(settings.silence),
+                      json_number(settings.forget));
+  const char* separator = "";
+  for (const NamedSeparation& named : settings.separations) {
+    const bool is_cylinder = named.separation.shape == Separation::Shape::cylinder;
+    text += fmt::format(R"({}{{"name": {}, "shape": "{}", "horizontal": {}, "vertical": {}}})", separator,
+                        json_text(named.name), is_cylinder ? "cylinder" : "ellipsoid",
+                        json_number(named.separation.horizontal), json_number(named.separation.vertical));
+    separator = ", ";
+  }
+  text += R"(], "counts": {)";
+  separator = "";
+  for (const WatchCount& count : counts_of(watcher)) {
+    text += fmt::format(R"({}"{}": {})", separator, count.name, count.count);
+    separator = ", ";
+  }
+  return text + "}";
+}
+
+std::string place_fields(const Watcher& watcher, const TrackView::Place& place) {
+  std::string text = fmt::format(R"({{"x": {}, "y": {}, "z": {}, )", json_number(place.centre.x),
+                                 json_number(place.centre.y), json_number(place.centre.z));
+  if (const auto& frame = watcher.frame()) {
+    const Vec3 at = frame->geographic(place.centre);
+    text += fmt::format(R"("lon": {}, "lat": {}, "alt": {}, )", json_number(at.x), json_number(at.y),
+                        json_number(at.z));
+  }
+  return text + fmt::format(R"("velocity": [{}, {}, {}], "radius": [{}, {}]}})",
+                            json_number(place.velocity.x), json_number(place.velocity.y),
+                            json_number(place.velocity.z), json_number(place.radius.horizontal()),
+                            json_number(place.radius.vertical()));
 }
 
 void add_tracks(std::string& text, const Watcher& watcher) {
@@ -160,15 +193,14 @@ std::string watch_summary_json(const Watcher& watcher, std::string_view format, 
 }
 
 std::string watch_state_json(const Watcher& watcher) {
-  if (!watcher.monitor()) return "{\"time\": null, \"tracks\": [], \"pairs\": [], \"needed\": []}\n";
-  const AlertContext context = watcher.context();
-  std::string text =
-      fmt::format(R"({{"time": {}, "tracks": [)", json_time(context.times, context.monitor.time()));
-  add_tracks(text, watcher);
+  std::string text = "{\"time\": ";
+  text += watcher.monitor() ? json_time(watcher.context().times, watcher.monitor()->time()) : "null";
+  text += ", " + setting_fields(watcher) + ",\n\"tracks\": [";
+  if (watcher.monitor()) add_tracks(text, watcher);
   text += "],\n\"pairs\": [";
-  add_pairs(text, watcher);
+  if (watcher.monitor()) add_pairs(text, watcher);
   text += "],\n\"needed\": [";
-  add_needs(text, watcher);
+  if (watcher.monitor()) add_needs(text, watcher);
   return text + "]}\n";
 }
 

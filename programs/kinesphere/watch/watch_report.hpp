@@ -10,7 +10,8 @@ namespace kinesphere::program {
 /// For a person, at the end.
 std::string watch_summary_text(const Watcher& watcher, std::string_view format, double real_seconds);
 std::string watch_summary_json(const Watcher& watcher, std::string_view format, double real_seconds);
-/// Tracks, pairs that are not certainly apart, and whose reports are needed.
+/// What the watch goes by and has counted, tracks, pairs that are not certainly apart, and whose reports are
+/// needed.
 std::string watch_state_json(const Watcher& watcher);
 /// In Prometheus' text format.
 std::string watch_metrics(const Watcher& watcher);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kinesphere/monitor/report.hpp"
+#include "kinesphere/monitor/monitor.hpp"
 #include "watch/separations.hpp"
 
 namespace kinesphere::program {
@@ -18,6 +18,7 @@ struct FallbackError {
 
 struct WatchSettings {
   std::vector<NamedSeparation> separations;
+  PairShare share{};              ///< others watch the other pairs
   std::optional<int> dimensions;  ///< empty: three if the first report has a height
   // Promises. Infinite: none.
   Spread acceleration = std::numeric_limits<double>::infinity();

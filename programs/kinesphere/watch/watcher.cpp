@@ -162,17 +162,13 @@ void Watcher::deliver_held() {
 
 void Watcher::start(const FileTime& time, TimeKind kind) {
   if (!clock_.has_begun()) {
-    times_ = TimeScale(kind);
-    // Enough for years.
-    constexpr std::int64_t span = std::int64_t{1} << 20;
     FileTime first = time;
     for (const HeldReport& held : held_) {
       const bool by_arrival = clock_.source() == StreamClock::Source::arrivals;
       const FileTime& each = by_arrival && held.report.arrival ? *held.report.arrival : held.report.stamp;
       if (seconds_between(each, first) > 0.0) first = each;
     }
-    times_.set_origin(first, {first.whole + span, 0.0});
-    first_time_ = times_.seconds(first);
+    begin_times(first, kind);
     clock_.go_on(first);
     return;
   }
@@ -182,6 +178,15 @@ void Watcher::start(const FileTime& time, TimeKind kind) {
     first = clock_.source() == StreamClock::Source::arrivals ? *held.arrival : held.stamp;
   }
   go_on(first);
+}
+
+void Watcher::begin_times(const FileTime& first, TimeKind kind) {
+  // Enough for years.
+  constexpr std::int64_t span = std::int64_t{1} << 20;
+  times_ = TimeScale(kind);
+  times_.set_origin(first, {first.whole + span, 0.0});
+  first_ = first;
+  first_time_ = times_.seconds(first);
 }
 
 void Watcher::go_on(const FileTime& time) {
@@ -199,6 +204,13 @@ void Watcher::advance(double until) {
 }
 
 void Watcher::tell(const MonitorEvent& event) {
+  // Who watches other shares tells of this track.
+  const bool is_told = settings_.share.contains(event.first);
+  if (is_told) count_and_tell(event);
+  if (event.kind == MonitorEventKind::left) names_.remove(event.first);
+}
+
+void Watcher::count_and_tell(const MonitorEvent& event) {
   ++counts_.alerts;
   ++counts_.events[static_cast<std::size_t>(event.kind)];
   if (event.kind == MonitorEventKind::verdict) {
@@ -207,8 +219,7 @@ void Watcher::tell(const MonitorEvent& event) {
        : event.verdict == Verdict::undecided ? turns.undecided
                                              : turns.within);
   }
-  tell_(alert_line(context(), event));
-  if (event.kind == MonitorEventKind::left) names_.remove(event.first);
+  tell_(event.first % settings_.share.of, alert_line(context(), event));
 }
 
 AlertContext Watcher::context() const {
@@ -227,6 +238,23 @@ double Watcher::time_covered() const {
 
 // Reports.
 
+void Watcher::begin_map(const WatchSettings::Origin& origin) {
+  // A track is forgotten before it gets farther beyond the radius.
+  const double margin = settings_.largest_speed.horizontal() * settings_.forget;
+  if (!std::isfinite(margin))
+    throw ProgramError(
+        "--largest-speed, --forget: expected finite ones, which latitudes and longitudes need: the error "
+        "of the "
+        "map rests upon them");
+  if (settings_.radius + margin > LocalFrame::largest_radius)
+    throw ProgramError(
+        fmt::format("--radius: expected a radius that is, together with the way that a track goes at its "
+                    "largest speed before "
+                    "it is forgotten ({:.0f} km), at most {:.0f} km, but got {:.0f} km",
+                    margin / 1e3, LocalFrame::largest_radius / 1e3, settings_.radius / 1e3));
+  frame_.emplace(origin.latitude, origin.longitude, settings_.radius, margin);
+}
+
 void Watcher::begin_monitor(const SourceReport& report) {
   is_geographic_ = report.geographic;
   dimensions_ = settings_.dimensions.value_or(report.has_height ? 3 : 2);
@@ -234,26 +262,12 @@ void Watcher::begin_monitor(const SourceReport& report) {
                                .start_time = times_.seconds(clock_.now()),
                                .window = settings_.window,
                                .silence_after = settings_.silence,
-                               .forget_after = settings_.forget};
+                               .forget_after = settings_.forget,
+                               .share = settings_.share};
   double least = unbounded;
   SeparationRule rule;
   if (is_geographic_) {
-    // A track is forgotten before it gets farther beyond the radius.
-    const double margin = settings_.largest_speed.horizontal() * settings_.forget;
-    if (!std::isfinite(margin))
-      throw ProgramError(
-          "--largest-speed, --forget: expected finite ones, which latitudes and longitudes need: the error "
-          "of the "
-          "map rests upon them");
-    if (settings_.radius + margin > LocalFrame::largest_radius)
-      throw ProgramError(
-          fmt::format("--radius: expected a radius that is, together with the way that a track goes at its "
-                      "largest speed before "
-                      "it is forgotten ({:.0f} km), at most {:.0f} km, but got {:.0f} km",
-                      margin / 1e3, LocalFrame::largest_radius / 1e3, settings_.radius / 1e3));
-    const auto origin =
-        settings_.origin.value_or(WatchSettings::Origin{report.position.y, report.position.x});
-    frame_.emplace(origin.latitude, origin.longitude, settings_.radius, margin);
+    begin_map(settings_.origin.value_or(WatchSettings::Origin{report.position.y, report.position.x}));
     definition.classes = {frame_->promise(settings_.acceleration, settings_.largest_speed)};
   } else {
     definition.classes = {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,8 +23,8 @@ namespace kinesphere::program {
 /// Has all state of a watch but what a format keeps of the lines before.
 class Watcher final : public ReportSink {
  public:
-  /// `tell` gets alerts, lines with their ends, in the order of their times.
-  using Tell = std::function<void(std::string_view alert)>;
+  /// `tell` gets alerts, lines with their ends, in the order of their times, and whose share each is.
+  using Tell = std::function<void(std::uint64_t share, std::string_view alert)>;
 
   Watcher(WatchSettings settings, Tell tell);
 
@@ -42,6 +44,11 @@ class Watcher final : public ReportSink {
   void machine_time_is(const FileTime& now);
   /// The stream has ended.
   void finish();
+
+  /// All of its state but the settings, and back: to a new one with the same settings. restore() throws
+  /// ProgramError, or an exception of nlohmann::json, when that cannot be the state of a watch.
+  nlohmann::json save() const;
+  void restore(const nlohmann::json& state);
 
   const WatchSettings& settings() const { return settings_; }
   const WatchCounts& counts() const { return counts_; }
@@ -70,10 +77,12 @@ class Watcher final : public ReportSink {
   void drop_held();
   void deliver_held();
   void start(const FileTime& time, TimeKind kind);
+  void begin_times(const FileTime& first, TimeKind kind);
   /// It is so late: tells what is certain by then.
   void go_on(const FileTime& time);
   void deliver(const SourceReport& report);
   void begin_monitor(const SourceReport& report);
+  void begin_map(const WatchSettings::Origin& origin);
   std::optional<TrackReport> on_map(const SourceReport& report, NamedTrack& track);
   void add_errors(const SourceReport& report, double added_velocity_error, TrackReport& result,
                   NamedTrack& track) const;
@@ -81,6 +90,7 @@ class Watcher final : public ReportSink {
   double needed_bound(const FallbackError& fallback, const char* option) const;
   void advance(double until);
   void tell(const MonitorEvent& event);
+  void count_and_tell(const MonitorEvent& event);
 
   WatchSettings settings_;
   Tell tell_;
@@ -88,6 +98,7 @@ class Watcher final : public ReportSink {
   bool clock_is_chosen_;
   std::vector<HeldReport> held_;
   TimeScale times_;
+  FileTime first_{};
   double first_time_ = 0.0;
   std::optional<Monitor> monitor_;
   std::optional<LocalFrame> frame_;
@@ -96,6 +107,7 @@ class Watcher final : public ReportSink {
   TrackNames names_;
   WatchCounts counts_;
   std::size_t line_ = 0;
+  std::set<std::string, std::less<>> declarations_;  ///< of a snapshot
 };
 
 }  // namespace kinesphere::program

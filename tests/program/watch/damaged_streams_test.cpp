@@ -96,7 +96,7 @@ TEST_P(DamagedStream, IsReadAsFarAsItGoes) {
                                .silence = 15.0,
                                .forget = 60.0,
                                .source = "test"};
-  Watcher watcher(settings, [](std::string_view) {});
+  Watcher watcher(settings, [](std::uint64_t, std::string_view) {});
   CountingSink sink(watcher);
   const auto reader = make_format(format, {});
   RecordCutter cutter(records_of(format));

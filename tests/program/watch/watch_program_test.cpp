@@ -1,13 +1,15 @@
 // `kinesphere watch` as it is used: alerts, their times, what is refused, how it ends, what it serves.
 #include <csignal>
-#include <cstdio>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <thread>
 
 #include "kinesphere/monitor/monitor.hpp"
 #include "kinesphere/random.hpp"
 #include "program/support.hpp"
+#include "program/watch/live_watch.hpp"
 
 #ifdef KINESPHERE_WITH_HTTPLIB
 #include <httplib.h>
@@ -368,66 +370,9 @@ TEST_F(WatchProgram, WatchesVesselsWithDates) {
   EXPECT_EQ(summary_["to"], "2023-01-01T00:00:50");
 }
 
-/// A program that reads what the test writes, as it comes.
-class Live {
- public:
-  explicit Live(const std::string& arguments, const std::string& folder) : err_(folder) {
-    int in[2], out[2];
-    if (::pipe(in) != 0 || ::pipe(out) != 0) std::abort();
-    process_ = ::fork();
-    if (process_ == 0) {
-      ::dup2(in[0], 0);
-      ::dup2(out[1], 1);
-      for (const int end : {in[0], in[1], out[0], out[1]}) ::close(end);
-      const std::string command = std::string("exec timeout --foreground 60 '") + KINESPHERE_PROGRAM +
-                                  "' watch " + arguments + " 2>'" + err_ + "'";
-      ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-      ::_exit(127);
-    }
-    ::close(in[0]);
-    ::close(out[1]);
-    in_ = in[1];
-    out_ = ::fdopen(out[0], "r");
-  }
-  Live(const Live&) = delete;
-  Live& operator=(const Live&) = delete;
-  ~Live() {
-    if (in_ >= 0) ::close(in_);
-    if (process_ > 0) wait();
-    std::fclose(out_);
-  }
-
-  void write(const std::string& text) const {
-    ASSERT_EQ(::write(in_, text.data(), text.size()), static_cast<ssize_t>(text.size()));
-  }
-  std::string line() const {
-    char text[4096];
-    return std::fgets(text, sizeof text, out_) != nullptr ? text : "";
-  }
-  void end_input() {
-    ::close(in_);
-    in_ = -1;
-  }
-  void signal(int number) const { ::kill(process_, number); }
-  /// The exit code.
-  int wait() {
-    int status = 0;
-    ::waitpid(process_, &status, 0);
-    process_ = 0;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  std::string err() const { return read_text(err_); }
-
- private:
-  std::string err_;
-  pid_t process_ = 0;
-  int in_ = -1;
-  FILE* out_ = nullptr;
-};
-
 TEST_F(WatchProgram, TellsAtOnceAndEndsWhenAskedTo) {
   for (const int signal : {SIGTERM, SIGINT}) {
-    Live live("--separation sphere:30 --summary '" + path("sum.json") + "'" + promises, path("err"));
+    LiveWatch live("--separation sphere:30 --summary '" + path("sum.json") + "'" + promises, path("err"));
     const std::string text = head_on();
     live.write(text);
     for (const char* verdict : {"undecided", "within", "undecided", "apart"})
@@ -442,7 +387,7 @@ TEST_F(WatchProgram, TellsAtOnceAndEndsWhenAskedTo) {
 }
 
 TEST_F(WatchProgram, WaitsForNothingThatIsNotNeeded) {
-  Live live("--separation sphere:30" + promises, path("err"));
+  LiveWatch live("--separation sphere:30" + promises, path("err"));
   // Times that confirm each other, and then two that meet.
   for (const char* id : {"far", "away", "here"})
     live.write(std::string(R"({"id": ")") + id + R"(", "stamp": 1, "position": [)" +
@@ -461,7 +406,8 @@ TEST_F(WatchProgram, WaitsForNothingThatIsNotNeeded) {
 
 TEST_F(WatchProgram, LetsTimePassByTheClockOfTheMachine) {
   using namespace std::chrono;
-  Live live("--separation sphere:30 --clock arrival --silence 200ms --forget 400ms" + promises, path("err"));
+  LiveWatch live("--separation sphere:30 --clock arrival --silence 200ms --forget 400ms" + promises,
+                 path("err"));
   const double now = duration<double>(system_clock::now().time_since_epoch()).count();
   live.write(R"({"id": "only", "stamp": )" + Json(now).dump() +
              R"(, "position": [0, 0, 0], "velocity": [0, 0, 0]})" + "\n");
@@ -480,14 +426,11 @@ TEST_F(WatchProgram, LetsTimePassByTheClockOfTheMachine) {
 #ifdef KINESPHERE_WITH_HTTPLIB
 
 TEST_F(WatchProgram, ServesItsState) {
-  Live live("--separation sphere:30 --serve 0" + promises, path("err"));
+  LiveWatch live("--separation sphere:30 --serve 0" + promises, path("err"));
   live.write(head_on(9));
   EXPECT_EQ(Json::parse(live.line())["verdict"], "undecided");
   EXPECT_EQ(Json::parse(live.line())["verdict"], "within");
-  const std::string said = live.err();
-  const std::string before = "http://127.0.0.1:";
-  ASSERT_NE(said.find(before), std::string::npos) << said;
-  const int port = std::stoi(said.substr(said.find(before) + before.size()));
+  const int port = live.port();
   httplib::Client client("127.0.0.1", port);
   Json state;
   // The last report may still be on its way.
@@ -500,7 +443,18 @@ TEST_F(WatchProgram, ServesItsState) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   EXPECT_EQ(state["time"], 9.5);
+  EXPECT_EQ(state["stream"], "standard input");
+  EXPECT_EQ(state["geographic"], false);
+  EXPECT_EQ(state["dimensions"], 3);
+  EXPECT_TRUE(state["origin"].is_null());
+  EXPECT_EQ(
+      state["separations"],
+      Json::parse(R"([{"name": "sphere:30", "shape": "ellipsoid", "horizontal": 30, "vertical": 30}])"));
+  EXPECT_EQ(state["counts"]["reports"], 20);
+  EXPECT_EQ(state["counts"]["alerts"], 2);
   ASSERT_EQ(state["tracks"].size(), 2u);
+  for (const Json& track : state["tracks"])
+    EXPECT_NEAR(track["places"][0]["x"].get<double>(), track["id"] == "west" ? -5.0 : 5.0, 0.1);
   EXPECT_EQ(state["tracks"][0]["places"].size(), 1u);
   EXPECT_GE(state["tracks"][0]["places"][0]["radius"][0], 0.5);
   ASSERT_EQ(state["pairs"].size(), 1u);
@@ -521,6 +475,117 @@ TEST_F(WatchProgram, ServesItsState) {
                      {"--serve", std::to_string(port)}, "echo '{\"id\": 1, \"stamp\": 1}' | ");
   live.signal(SIGTERM);
   EXPECT_EQ(live.wait(), 0);
+}
+
+TEST_F(WatchProgram, ServesAStateBeforeTheFirstReport) {
+  LiveWatch live("--format jsonl --separation cylinder:30:10 --serve 0" + promises, path("err"));
+  httplib::Client client("127.0.0.1", live.port());
+  const auto answer = client.Get("/state.json");
+  ASSERT_TRUE(answer);
+  const Json state = Json::parse(answer->body);
+  for (const char* unknown : {"time", "geographic", "dimensions", "origin"})
+    EXPECT_TRUE(state.at(unknown).is_null()) << unknown;
+  for (const char* empty : {"tracks", "pairs", "needed"}) EXPECT_EQ(state.at(empty), Json::array()) << empty;
+  EXPECT_EQ(state["separations"][0]["shape"], "cylinder");
+  EXPECT_EQ(state["separations"][0]["vertical"], 10);
+  EXPECT_EQ(state["counts"]["reports"], 0);
+  live.end_input();
+  live.wait();
+}
+
+#ifdef KINESPHERE_WITH_GEOGRAPHICLIB
+
+TEST_F(WatchProgram, ServesPlacesOnTheEarthAndOnItsMap) {
+  LiveWatch live(
+      "--separation sphere:5km --largest-speed 300 --origin 50,8 --radius 100km --serve 0" + promises,
+      path("err"));
+  // The radius of curvature of the parallel at 50 degrees north is 4108 km: 0.1 degrees are 7170 m.
+  for (const char* id : {"a", "b", "c"})
+    live.write(std::string(R"({"id": ")") + id + R"(", "stamp": 1, "lat": 50, "lon": 8.1, "alt": 500})" +
+               "\n");
+  httplib::Client client("127.0.0.1", live.port());
+  Json state;
+  for (int k = 0; k < 100 && (state.is_null() || state["tracks"].size() < 3); ++k) {
+    const auto answer = client.Get("/state.json");
+    ASSERT_TRUE(answer);
+    state = Json::parse(answer->body);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_EQ(state["geographic"], true);
+  EXPECT_EQ(state["origin"], Json::parse(R"({"lon": 8, "lat": 50, "radius": 100000})"));
+  ASSERT_EQ(state["tracks"].size(), 3u);
+  const Json& place = state["tracks"][0]["places"][0];
+  EXPECT_NEAR(place["x"].get<double>(), 7170, 10);
+  EXPECT_NEAR(place["y"].get<double>(), 5, 2);
+  EXPECT_NEAR(place["z"].get<double>(), 500, 1e-9);
+  EXPECT_NEAR(place["lon"].get<double>(), 8.1, 1e-9);
+  EXPECT_NEAR(place["lat"].get<double>(), 50, 1e-9);
+  live.end_input();
+  live.wait();
+}
+
+#endif
+
+/// Sets an environment variable while it lives.
+class Environment {
+ public:
+  Environment(const char* name, const std::string& value) : name_(name) {
+    if (const char* const before = std::getenv(name)) before_ = before;
+    ::setenv(name, value.c_str(), 1);
+  }
+  ~Environment() {
+    if (before_)
+      ::setenv(name_, before_->c_str(), 1);
+    else
+      ::unsetenv(name_);
+  }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
+
+TEST_F(WatchProgram, SaysHowItsMapIsBuilt) {
+  const Environment nowhere("KINESPHERE_VIEWER", path("nowhere"));
+  LiveWatch live("--format jsonl --separation sphere:30 --serve 0" + promises, path("err"));
+  const auto answer = httplib::Client("127.0.0.1", live.port()).Get("/");
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, 200);
+  EXPECT_TRUE(answer->get_header_value("Content-Type").starts_with("text/plain"));
+  for (const char* part : {"/state.json", "/metrics", "cmake --preset browser"})
+    EXPECT_NE(answer->body.find(part), std::string::npos) << part << answer->body;
+  live.end_input();
+  live.wait();
+}
+
+TEST_F(WatchProgram, ServesItsMapAndNothingElseOfTheFolder) {
+  std::filesystem::create_directories(path("pages/assets"));
+  write("pages/map.html", "<p>the map</p>");
+  write("pages/index.html", "<p>the viewer</p>");
+  write("pages/assets/map.js", "let there = 'be light';");
+  const Environment pages("KINESPHERE_VIEWER", path("pages"));
+  LiveWatch live("--format jsonl --separation sphere:30 --serve 0" + promises, path("err"));
+  httplib::Client client("127.0.0.1", live.port());
+  const auto page = client.Get("/");
+  ASSERT_TRUE(page);
+  EXPECT_EQ(page->body, "<p>the map</p>");
+  EXPECT_TRUE(page->get_header_value("Content-Type").starts_with("text/html"));
+  EXPECT_EQ(page->get_header_value("X-Content-Type-Options"), "nosniff");
+  const std::string policy = page->get_header_value("Content-Security-Policy");
+  EXPECT_NE(policy.find("default-src 'none'; script-src 'self';"), std::string::npos) << policy;
+  EXPECT_EQ(policy.find("unsafe"), std::string::npos) << policy;
+  const auto script = client.Get("/assets/map.js", {{"Accept-Encoding", "gzip, br"}});
+  EXPECT_EQ(script->body, "let there = 'be light';");
+  EXPECT_EQ(script->get_header_value("Content-Type"), "text/javascript");
+  EXPECT_EQ(script->get_header_value("Content-Encoding"), "");
+  for (const char* other : {"/index.html", "/map.html", "/assets/../index.html", "/assets/none.js"})
+    EXPECT_EQ(client.Get(other)->status, 404) << other;
+  EXPECT_EQ(client.Get("/", {{"Host", "example.org"}})->status, 403);
+  EXPECT_EQ(client.Get("/assets/map.js", {{"Host", "example.org"}})->status, 403);
+  live.end_input();
+  live.wait();
 }
 
 #endif

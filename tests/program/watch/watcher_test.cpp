@@ -93,7 +93,7 @@ TEST_P(FlightsOverTheEarth, AreToldOfWithCertainty) {
     flight.turn = random.uniform(-1.0, 1.0) * 4.5 / flight.speed / degree;
     flight.climb = random.uniform(-3.0, 3.0);
   }
-  Watcher watcher(settings, [&](std::string_view line) {
+  Watcher watcher(settings, [&](std::uint64_t, std::string_view line) {
     const auto alert = nlohmann::json::parse(line);
     ASSERT_EQ(alert["event"], "verdict") << line;
     std::string& verdict = verdicts[{alert["first"], alert["second"], alert["level"]}];

@@ -1,0 +1,171 @@
+// Alerts that go out on subjects of NATS.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <chrono>
+#include <compare>
+#include <thread>
+#include <unordered_map>
+#include <vector>
+
+#include "program_error.hpp"
+#include "watch/nats/nats_connection.hpp"
+#include "watch/nats/nats_streams.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+constexpr const char* told_header = "Kinesphere-Told";
+
+/// What an alert came of: the position in the stream of reports, and which one of those of its share.
+struct Told {
+  std::uint64_t position = 0;
+  std::uint64_t number = 0;
+
+  friend auto operator<=>(const Told&, const Told&) = default;
+};
+
+std::string text_of(const Told& told) { return fmt::format("{} {}", told.position, told.number); }
+
+Told told_by(natsMsg* message) {
+  const char* text = nullptr;
+  Told told;
+  if (natsMsgHeader_Get(message, told_header, &text) != NATS_OK) return told;
+  const char* const end = text + std::char_traits<char>::length(text);
+  const auto after = std::from_chars(text, end, told.position);
+  if (after.ptr != end) std::from_chars(after.ptr + 1, end, told.number);
+  return told;
+}
+
+class NatsAlerts final : public AlertOutput {
+ public:
+  NatsAlerts(const NatsAddress& address, const StopSignals& stop)
+      : connection_(address), stop_(stop), stream_(connection_.stream_of(address.subject + ".1")) {
+    if (address.subject.find_first_of("*>") != std::string::npos)
+      throw ProgramError(
+          fmt::format("--alerts: expected a subject without wildcards, but got '{}'", address.name));
+    if (!stream_)
+      fmt::print(
+          stderr,
+          "kinesphere: warning: {}.*: no stream of JetStream holds it: alerts reach those who listen, and "
+          "may reach them twice\n",
+          address.name);
+  }
+
+  void write(std::uint64_t share, std::string_view line) override {
+    if (line.ends_with('\n')) line.remove_suffix(1);
+    waiting_.push_back({share, std::string(line)});
+  }
+
+  void flush(std::uint64_t position) override {
+    for (const Waiting& alert : waiting_) {
+      Share& share = share_of(alert.share);
+      share.next =
+          share.next.position == position ? Told{position, share.next.number + 1} : Told{position, 1};
+      if (stream_)
+        tell_once(share, alert.line);
+      else
+        send(share.subject, alert.line);
+    }
+    if (!stream_ && !waiting_.empty()) natsConnection_FlushTimeout(connection_.get(), 5000);
+    waiting_.clear();
+  }
+  std::uint64_t sync() override { return 0; }
+
+ private:
+  struct Waiting {
+    std::uint64_t share;
+    std::string line;
+  };
+  struct Share {
+    std::string subject;
+    Told next{};                      ///< that of the alert that is being told
+    Told last{};                      ///< that of the last one that has been told, by whomever
+    std::uint64_t last_sequence = 0;  ///< its number in the stream of alerts
+  };
+
+  Share& share_of(std::uint64_t number) {
+    const auto [at, is_new] = shares_.try_emplace(number);
+    if (is_new) {
+      at->second.subject = fmt::format("{}.{}", connection_.address().subject, number + 1);
+      if (stream_) find_last(at->second);
+    }
+    return at->second;
+  }
+
+  /// Until the server answers.
+  void find_last(Share& share) {
+    for (;;) {
+      natsMsg* got = nullptr;
+      const natsStatus status = js_GetLastMsg(&got, connection_.jetstream(), stream_->c_str(),
+                                              share.subject.c_str(), nullptr, nullptr);
+      const NatsMessage message(got);
+      if (status == NATS_OK) {
+        share.last = told_by(got);
+        share.last_sequence = natsMsg_GetSequence(got);
+        return;
+      }
+      if (status == NATS_NOT_FOUND) {
+        share.last = {};
+        share.last_sequence = 0;
+        return;
+      }
+      wait_for_server(status);
+    }
+  }
+
+  /// Of all that tell this alert behind the same last one, the server takes it from one.
+  void tell_once(Share& share, const std::string& line) {
+    while (share.last < share.next) {
+      NatsMessage message = message_of(share.subject, line);
+      natsMsgHeader_Set(message.get(), told_header, text_of(share.next).c_str());
+      natsMsgHeader_Set(message.get(), "Nats-Expected-Last-Subject-Sequence",
+                        fmt::to_string(share.last_sequence).c_str());
+      jsPubAck* got = nullptr;
+      jsErrCode code{};
+      const natsStatus status = js_PublishMsg(&got, connection_.jetstream(), message.get(), nullptr, &code);
+      const std::unique_ptr<jsPubAck, NatsDelete<jsPubAck_Destroy>> ack(got);
+      if (status == NATS_OK) {
+        share.last = share.next;
+        share.last_sequence = ack->Sequence;
+        return;
+      }
+      // Somebody else has told one. So may this program itself have, when it has not heard the answer.
+      if (code != JSStreamWrongLastSequenceErr) wait_for_server(status);
+      find_last(share);
+    }
+  }
+
+  void send(const std::string& subject, const std::string& line) {
+    const NatsMessage message = message_of(subject, line);
+    if (const auto status = natsConnection_PublishMsg(connection_.get(), message.get()); status != NATS_OK)
+      connection_.fail(status, "cannot send an alert");
+  }
+
+  NatsMessage message_of(const std::string& subject, const std::string& line) const {
+    natsMsg* made = nullptr;
+    const natsStatus status =
+        natsMsg_Create(&made, subject.c_str(), nullptr, line.data(), static_cast<int>(line.size()));
+    if (status != NATS_OK) connection_.fail(status, "cannot send an alert");
+    return NatsMessage(made);
+  }
+
+  void wait_for_server(natsStatus status) const {
+    if (stop_.asked()) connection_.fail(status, "alerts cannot be sent");
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+
+  NatsConnection connection_;
+  const StopSignals& stop_;
+  std::optional<std::string> stream_;
+  std::unordered_map<std::uint64_t, Share> shares_;
+  std::vector<Waiting> waiting_;
+};
+
+}  // namespace
+
+std::unique_ptr<AlertOutput> make_nats_alerts(const NatsAddress& address, const StopSignals& stop) {
+  return std::make_unique<NatsAlerts>(address, stop);
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,224 @@
+// What comes in on a subject of NATS.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "program_error.hpp"
+#include "watch/nats/nats_connection.hpp"
+#include "watch/nats/nats_streams.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+/// So often it is looked whether the program is asked to stop.
+constexpr milliseconds glance(50);
+
+/// One message, with a line's end behind it: so no record goes on in the next.
+class MessageText {
+ public:
+  std::string_view take(natsMsg* message) {
+    text_.assign(natsMsg_GetData(message), static_cast<std::size_t>(natsMsg_GetDataLength(message)));
+    if (!text_.empty() && text_.back() != '\n') text_ += '\n';
+    return text_;
+  }
+
+ private:
+  std::string text_;
+};
+
+/// Messages of a subscription as they come.
+class NatsSubjectSource final : public ReportSource {
+ public:
+  NatsSubjectSource(const NatsAddress& address, const StopSignals& stop) : connection_(address), stop_(stop) {
+    natsSubscription* subscription = nullptr;
+    if (const auto status =
+            natsConnection_SubscribeSync(&subscription, connection_.get(), address.subject.c_str());
+        status != NATS_OK)
+      connection_.fail(status, "cannot subscribe");
+    subscription_.reset(subscription);
+    natsConnection_FlushTimeout(connection_.get(), 5000);
+  }
+
+  Outcome next(milliseconds patience, std::string_view& text) override {
+    const auto until = Clock::now() + patience;
+    do {
+      natsMsg* got = nullptr;
+      const natsStatus status = natsSubscription_NextMsg(&got, subscription_.get(), glance.count());
+      const NatsMessage message(got);
+      if (status == NATS_OK) {
+        ++position_;
+        text = text_.take(got);
+        return text.empty() ? Outcome::quiet : Outcome::text;
+      }
+      // Some were lost, because too many waited: those that follow come.
+      if (status != NATS_TIMEOUT && status != NATS_SLOW_CONSUMER) connection_.fail(status, "cannot read");
+    } while (Clock::now() < until && !stop_.asked());
+    return Outcome::quiet;
+  }
+  std::uint64_t position() const override { return position_; }
+  StreamPlace place(std::size_t) const override { return {name(), position_, 0}; }
+  std::string name() const override { return connection_.address().name; }
+
+ private:
+  NatsConnection connection_;
+  const StopSignals& stop_;
+  NatsSubscription subscription_;
+  MessageText text_;
+  std::uint64_t position_ = 0;
+};
+
+/// A stream of JetStream, message by message. Its consumer lives in the server's memory and goes with it:
+/// when one is missed, or nothing comes though there is more, another one is made behind the last message.
+class NatsStreamSource final : public ReportSource {
+ public:
+  NatsStreamSource(const NatsAddress& address, std::string stream, const StopSignals& stop, bool keeps_time,
+                   const StreamPlace* from)
+      : connection_(address), stream_(std::move(stream)), stop_(stop), keeps_time_(keeps_time) {
+    const NatsStreamInfo info = connection_.stream_info(stream_);
+    if (!info) connection_.fail(NATS_TIMEOUT, "cannot ask for its stream");
+    if (from != nullptr && from->stream == name()) {
+      position_ = from->position;
+      if (info->State.LastSeq < position_)
+        throw ProgramError(fmt::format(
+            "{}: expected the stream that the snapshot was made of, but of its {} messages it has {}", name(),
+            position_, info->State.LastSeq));
+      if (info->State.FirstSeq > position_ + 1)
+        fmt::print(stderr,
+                   "kinesphere: warning: {}: {} messages since the snapshot are not in its stream any more\n",
+                   name(), info->State.FirstSeq - position_ - 1);
+    }
+    subscribe();
+  }
+  ~NatsStreamSource() override { drop(); }
+  NatsStreamSource(const NatsStreamSource&) = delete;
+  NatsStreamSource& operator=(const NatsStreamSource&) = delete;
+
+  Outcome next(milliseconds patience, std::string_view& text) override {
+    const auto until = Clock::now() + patience;
+    do {
+      if (!subscription_) std::this_thread::sleep_for(glance);
+      if (subscription_ && take(text)) {
+        last_message_ = last_look_ = Clock::now();
+        return Outcome::text;
+      }
+      if (Clock::now() - last_look_ > std::chrono::seconds(1)) look_after_it();
+    } while (Clock::now() < until && !stop_.asked());
+    return Outcome::quiet;
+  }
+  std::uint64_t position() const override { return position_; }
+  StreamPlace place(std::size_t) const override { return {name(), position_, 0}; }
+  bool has_clock() const override { return true; }
+  FileTime arrival() const override { return arrival_; }
+  std::string name() const override { return connection_.address().name; }
+
+ private:
+  /// Whether the next message has come.
+  bool take(std::string_view& text) {
+    if (taken_ == static_cast<std::size_t>(fetched_.Count)) fetch();
+    if (!subscription_ || taken_ == static_cast<std::size_t>(fetched_.Count)) return false;
+    natsMsg* const message = fetched_.Msgs[taken_++];
+    jsMsgMetaData* told = nullptr;
+    const natsStatus status = natsMsg_GetMetaData(&told, message);
+    const std::unique_ptr<jsMsgMetaData, NatsDelete<jsMsgMetaData_Destroy>> meta(told);
+    // What a consumer sends is counted: a message between was lost on the way.
+    if (status != NATS_OK || meta->Sequence.Consumer != ++delivered_ || meta->Sequence.Stream <= position_) {
+      drop();
+      return false;
+    }
+    position_ = meta->Sequence.Stream;
+    constexpr std::int64_t second = 1'000'000'000;
+    arrival_ = {meta->Timestamp / second, static_cast<double>(meta->Timestamp % second) * 1e-9};
+    text = text_.take(message);
+    return true;
+  }
+
+  /// Asks for the next messages, and waits for the first of them.
+  void fetch() {
+    natsMsgList_Destroy(&fetched_);
+    fetched_ = {};
+    taken_ = 0;
+    constexpr int at_once = 64;
+    const natsStatus status =
+        natsSubscription_Fetch(&fetched_, subscription_.get(), at_once, glance.count(), nullptr);
+    if (status != NATS_OK && status != NATS_TIMEOUT) drop();
+  }
+
+  /// Nothing has come for a second.
+  void look_after_it() {
+    last_look_ = Clock::now();
+    if (!connection_.is_connected()) return;
+    const NatsStreamInfo info = connection_.stream_info(stream_);
+    if (!info) return;
+    if (!subscription_ || info->State.LastSeq > position_) return subscribe();
+    if (keeps_time_ && last_look_ - last_message_ > std::chrono::seconds(1)) tick();
+  }
+
+  void drop() {
+    natsMsgList_Destroy(&fetched_);
+    fetched_ = {};
+    taken_ = 0;
+    subscription_.reset();
+  }
+
+  void subscribe() {
+    drop();
+    delivered_ = 0;
+    jsSubOptions options;
+    jsSubOptions_Init(&options);
+    options.Stream = stream_.c_str();
+    jsConsumerConfig& config = options.Config;
+    config.DeliverPolicy = js_DeliverByStartSequence;
+    config.OptStartSeq = position_ + 1;
+    config.AckPolicy = js_AckNone;
+    config.MemoryStorage = true;
+    config.Replicas = 1;
+    natsSubscription* subscription = nullptr;
+    const natsStatus status =
+        js_PullSubscribe(&subscription, connection_.jetstream(), connection_.address().subject.c_str(),
+                         nullptr, nullptr, &options, nullptr);
+    // Otherwise it is tried again.
+    if (status == NATS_OK) subscription_.reset(subscription);
+  }
+
+  void tick() const {
+    std::string subject = connection_.address().subject;
+    for (const char wildcard : {'*', '>'})
+      for (std::size_t at; (at = subject.find(wildcard)) != std::string::npos;)
+        subject.replace(at, 1, "tick");
+    natsConnection_Publish(connection_.get(), subject.c_str(), nullptr, 0);
+  }
+
+  NatsConnection connection_;
+  std::string stream_;
+  const StopSignals& stop_;
+  bool keeps_time_;
+  NatsSubscription subscription_;
+  natsMsgList fetched_{};
+  std::size_t taken_ = 0;  ///< of them
+  MessageText text_;
+  FileTime arrival_{};
+  std::uint64_t position_ = 0;   ///< sequence number of the last message
+  std::uint64_t delivered_ = 0;  ///< by this consumer
+  Clock::time_point last_message_ = Clock::now(), last_look_ = Clock::now();
+};
+
+}  // namespace
+
+std::unique_ptr<ReportSource> make_nats_source(const NatsAddress& address, const StopSignals& stop,
+                                               bool keeps_time, const StreamPlace* from) {
+  if (auto stream = NatsConnection(address).stream_of(address.subject))
+    return std::make_unique<NatsStreamSource>(address, std::move(*stream), stop, keeps_time, from);
+  fmt::print(
+      stderr,
+      "kinesphere: warning: {}: no stream of JetStream holds it: what is sent while this program is not "
+      "connected is lost\n",
+      address.name);
+  return std::make_unique<NatsSubjectSource>(address, stop);
+}
+
+}  // namespace kinesphere::program

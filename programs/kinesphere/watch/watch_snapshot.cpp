@@ -1,0 +1,90 @@
+// The state of a watch in a file, for a later run that goes on from there.
+#include "watch/watch_snapshot.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "output_file.hpp"
+#include "program_error.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+/// The file begins with this, the length of what follows and its checksum, both as eight digits of base 16 or
+/// more; then comes CBOR. Raise the number when the fields change.
+constexpr std::string_view snapshot_title = "kinesphere watch snapshot 1\n";
+
+std::uint32_t checksum(std::string_view bytes) {
+  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+std::string heading(std::string_view content) {
+  return fmt::format("{}{:016x} {:08x}\n", snapshot_title, content.size(), checksum(content));
+}
+
+}  // namespace
+
+void write_snapshot(const std::string& path, const WatchSnapshot& snapshot) {
+  const auto& [options, format, place, line, reader, watcher, alerts, alert_bytes] = snapshot;
+  std::string content;
+  nlohmann::json::to_cbor({{"options", options},
+                           {"format", format},
+                           {"stream", place.stream},
+                           {"position", place.position},
+                           {"check", place.check},
+                           {"line", {line.number, line.is_passed_over}},
+                           {"reader", reader},
+                           {"watcher", watcher},
+                           {"alerts", alerts},
+                           {"alert_bytes", alert_bytes}},
+                          content);
+  // What a killed run has begun to write is overwritten.
+  OutputFile file(OutputPlace{path, 0});
+  file.write(heading(content));
+  file.write(content);
+  file.sync();
+  file.commit();
+}
+
+std::optional<WatchSnapshot> read_snapshot(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error) && !error) return std::nullopt;
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file.is_open() || file.bad()) throw ProgramError(fmt::format("{}: cannot read", path));
+  const std::string_view content = std::string_view(text).substr(std::min(heading("").size(), text.size()));
+  if (!text.starts_with(snapshot_title))
+    throw ProgramError(fmt::format("{}: expected a snapshot of this version of kinesphere watch", path));
+  if (!text.starts_with(heading(content)))
+    throw ProgramError(fmt::format("{}: expected a snapshot of kinesphere watch, but it is damaged", path));
+  try {
+    const auto json = nlohmann::json::from_cbor(content);
+    return WatchSnapshot{.options = json.at("options"),
+                         .format = json.at("format"),
+                         .place = {json.at("stream"), json.at("position"), json.at("check")},
+                         .line = {json.at("line").at(0), json.at("line").at(1)},
+                         .reader = json.at("reader"),
+                         .watcher = json.at("watcher"),
+                         .alerts = json.at("alerts"),
+                         .alert_bytes = json.at("alert_bytes")};
+  } catch (const nlohmann::json::exception&) {
+    throw ProgramError(fmt::format("{}: expected a snapshot of kinesphere watch, but it is none", path));
+  }
+}
+
+void check_options(const std::string& path, const GivenOptions& then, const GivenOptions& now) {
+  const auto text = [](const std::string& given) { return given.empty() ? "not given" : "'" + given + "'"; };
+  for (std::size_t k = 0; k < std::min(then.size(), now.size()); ++k)
+    if (then[k] != now[k])
+      throw ProgramError(
+          fmt::format("{}: expected it as it was for the snapshot {}, where it was {}, but it is {}",
+                      now[k].first, path, text(then[k].second), text(now[k].second)));
+  if (then.size() != now.size())
+    throw ProgramError(fmt::format("{}: expected a snapshot of kinesphere watch, but it is none", path));
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,37 @@
+// The state of a watch in a file, for a later run that goes on from there.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "watch/record_cutter.hpp"
+#include "watch/report_source.hpp"
+
+namespace kinesphere::program {
+
+/// Options that decide what is certain, and what they were given as.
+using GivenOptions = std::vector<std::pair<std::string, std::string>>;
+
+struct WatchSnapshot {
+  GivenOptions options;
+  std::string format;
+  StreamPlace place;
+  RecordCutter::Line line;  ///< at that place
+  nlohmann::json reader;    ///< what the format keeps
+  nlohmann::json watcher;
+  std::string alerts;             ///< where alerts go, as --alerts says it
+  std::uint64_t alert_bytes = 0;  ///< of those that are out
+};
+
+/// The file is there as a whole or, whatever happens, as it was. Throws ProgramError naming the file.
+void write_snapshot(const std::string& path, const WatchSnapshot& snapshot);
+/// Nothing where there is no such file. Throws ProgramError naming a file that is not a snapshot, or damaged.
+std::optional<WatchSnapshot> read_snapshot(const std::string& path);
+/// Throws ProgramError naming an option that was given otherwise.
+void check_options(const std::string& path, const GivenOptions& then, const GivenOptions& now);
+
+}  // namespace kinesphere::program

@@ -1,0 +1,159 @@
+// The state of a watch as JSON, and back.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "program_error.hpp"
+#include "watch/watcher.hpp"
+
+namespace nlohmann {
+
+template <class Value>
+struct adl_serializer<std::optional<Value>> {
+  static void to_json(json& to, const std::optional<Value>& value) {
+    if (value)
+      to = *value;
+    else
+      to = nullptr;
+  }
+  static void from_json(const json& from, std::optional<Value>& value) {
+    value = from.is_null() ? std::nullopt : std::optional<Value>(from.get<Value>());
+  }
+};
+
+}  // namespace nlohmann
+
+namespace kinesphere {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Vec3, x, y, z)
+
+namespace program {
+namespace {
+
+using Json = nlohmann::json;
+/// Gives a text that outlives the watch.
+using KeepText = std::function<std::string_view(const std::string&)>;
+
+}  // namespace
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FileTime, whole, fraction)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StreamClock::Memory, source, has_begun, now, in_a_row, first_ahead,
+                                   latest_ahead, first_id, several_ids)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MalformedLine, line, reason)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WatchCounts::Turns, apart, undecided, within)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WatchCounts, repeated, stale, ahead, outside, no_position, no_height,
+                                   no_bound, malformed, first_malformed, alerts, events, turns)
+
+namespace {
+
+Json saved(const std::optional<DeclaredError>& error) {
+  if (!error) return nullptr;
+  return {error->bound, error->declaration};
+}
+
+std::optional<DeclaredError> restored_error(const Json& saved, const KeepText& keep) {
+  if (saved.is_null()) return std::nullopt;
+  return DeclaredError{saved.at(0), keep(saved.at(1))};
+}
+
+Json saved(const SourceReport& report) {
+  const auto& [id, stamp, arrival, time_kind, geographic, position, has_height, velocity, has_climb,
+               position_error, height_error, velocity_error, climb_error, stamp_error, velocity_age,
+               same_within] = report;
+  return {{"stamp", stamp},
+          {"arrival", arrival},
+          {"time_kind", time_kind},
+          {"geographic", geographic},
+          {"position", position},
+          {"has_height", has_height},
+          {"velocity", velocity},
+          {"has_climb", has_climb},
+          {"position_error", saved(position_error)},
+          {"height_error", saved(height_error)},
+          {"velocity_error", saved(velocity_error)},
+          {"climb_error", saved(climb_error)},
+          {"stamp_error", stamp_error},
+          {"velocity_age", velocity_age},
+          {"same_within", same_within}};
+}
+
+SourceReport restored_report(const Json& saved, const KeepText& keep) {
+  return {.stamp = saved.at("stamp"),
+          .arrival = saved.at("arrival").get<std::optional<FileTime>>(),
+          .time_kind = saved.at("time_kind"),
+          .geographic = saved.at("geographic"),
+          .position = saved.at("position"),
+          .has_height = saved.at("has_height"),
+          .velocity = saved.at("velocity").get<std::optional<Vec3>>(),
+          .has_climb = saved.at("has_climb"),
+          .position_error = restored_error(saved.at("position_error"), keep),
+          .height_error = restored_error(saved.at("height_error"), keep),
+          .velocity_error = restored_error(saved.at("velocity_error"), keep),
+          .climb_error = restored_error(saved.at("climb_error"), keep),
+          .stamp_error = saved.at("stamp_error").get<std::optional<double>>(),
+          .velocity_age = saved.at("velocity_age"),
+          .same_within = saved.at("same_within")};
+}
+
+Json saved(const NamedTrack& track) {
+  const auto& [text, stamp, position, position_by, height_by, velocity_by, climb_by] = track;
+  return {text, stamp, position, position_by, height_by, velocity_by, climb_by};
+}
+
+}  // namespace
+
+Json Watcher::save() const {
+  Json state{{"clock", clock_.memory()},
+             {"clock_is_chosen", clock_is_chosen_},
+             {"held", Json::array()},
+             {"time_kind", times_.kind()},
+             {"first", first_},
+             {"geographic", is_geographic_},
+             {"dimensions", dimensions_},
+             {"tracks", Json::array()},
+             {"counts", counts_},
+             {"monitor", nullptr},
+             {"map", nullptr}};
+  for (const HeldReport& held : held_) state["held"].push_back({held.id, saved(held.report)});
+  names_.for_each([&](const NamedTrack& track) { state["tracks"].push_back(saved(track)); });
+  if (monitor_) {
+    const std::vector<std::byte> bytes = monitor_->save();
+    const auto* const begin = reinterpret_cast<const std::uint8_t*>(bytes.data());
+    state["monitor"] = Json::binary({begin, begin + bytes.size()});
+  }
+  if (frame_) state["map"] = {frame_->latitude(), frame_->longitude()};
+  return state;
+}
+
+void Watcher::restore(const Json& state) {
+  const KeepText keep = [this](const std::string& text) -> std::string_view {
+    return *declarations_.insert(text).first;
+  };
+  clock_.recall(state.at("clock"));
+  clock_is_chosen_ = state.at("clock_is_chosen");
+  for (const Json& held : state.at("held")) held_.push_back({held.at(0), restored_report(held.at(1), keep)});
+  if (clock_.has_begun()) begin_times(state.at("first"), state.at("time_kind"));
+  is_geographic_ = state.at("geographic");
+  dimensions_ = state.at("dimensions");
+  for (const Json& saved : state.at("tracks")) {
+    const std::string text = saved.at(0);
+    NamedTrack& track = names_.add(track_id_of(text), text);
+    track.stamp = saved.at(1);
+    track.position = saved.at(2);
+    track.position_by = keep(saved.at(3));
+    track.height_by = keep(saved.at(4));
+    track.velocity_by = keep(saved.at(5));
+    track.climb_by = keep(saved.at(6));
+  }
+  counts_ = state.at("counts");
+  if (const Json& map = state.at("map"); !map.is_null()) begin_map({map.at(0), map.at(1)});
+  if (const Json& monitor = state.at("monitor"); !monitor.is_null()) {
+    auto restored = Monitor::restore(std::as_bytes(std::span(monitor.get_binary())));
+    if (!restored) throw ProgramError(restored.error().message);
+    monitor_.emplace(std::move(*restored));
+  }
+}
+
+}  // namespace program
+}  // namespace kinesphere

@@ -1,0 +1,230 @@
+// A watch that is stopped or killed goes on from its snapshot, and tells everything once; several that share
+// the pairs tell together what one tells.
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "kinesphere/random.hpp"
+#include "program/support.hpp"
+#include "program/watch/crossing_tracks.hpp"
+#include "program/watch/live_watch.hpp"
+#include "watch/watch_snapshot.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Long texts, of which a difference is shown by its first line.
+void expect_same_lines(const std::string& text, const std::string& expected) {
+  std::istringstream lines(text), expected_lines(expected);
+  std::string line, expected_line;
+  for (int k = 1;; ++k) {
+    const bool more = static_cast<bool>(std::getline(lines, line));
+    ASSERT_EQ(more, static_cast<bool>(std::getline(expected_lines, expected_line))) << "line " << k;
+    if (!more) return;
+    ASSERT_EQ(line, expected_line) << "line " << k;
+  }
+}
+
+class WatchRestart : public ProgramTest {
+ protected:
+  std::string run_whole(const std::string& stream, const std::string& options) {
+    const ProgramRun result = run("watch " + stream + options + " --quiet --alerts '" + path("whole.jsonl") +
+                                  "' --summary '" + path("whole.json") + "'");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out, "");
+    return read_text(path("whole.jsonl"));
+  }
+  Json summary(const std::string& name) const {
+    Json json = Json::parse(read_text(path(name)));
+    json.erase("real_seconds");
+    return json;
+  }
+  void expect_the_same_when_it_grows(const std::string& text, const std::string& options, int parts);
+  /// Kills it again and again until it has come to the end.
+  void expect_the_same_when_killed(const std::string& stream, const std::string& options, int seed) {
+    SCOPED_TRACE(stream + ", seed " + std::to_string(seed));
+    const std::string whole = run_whole(stream, options);
+    EXPECT_GT(std::count(whole.begin(), whole.end(), '\n'), 300);
+    Random random(static_cast<std::uint64_t>(seed));
+    int killed = 0;
+    for (bool has_ended = false; !has_ended;) {
+      LiveWatch live(stream + options + " --quiet --snapshot '" + path("state") +
+                         "' --snapshot-every 3ms --alerts '" + path("parts.jsonl") + "' --summary '" +
+                         path("parts.json") + "'",
+                     path("err"));
+      // The longer it takes the longer it may live: on a slow machine it comes to the end, too.
+      const double longest = 40.0 + 20.0 * killed;
+      std::this_thread::sleep_for(std::chrono::milliseconds(static_cast<int>(random.uniform(10.0, longest))));
+      live.signal(SIGKILL);
+      has_ended = live.wait() == 0;
+      killed += has_ended ? 0 : 1;
+      EXPECT_EQ(live.err(), "");
+    }
+    EXPECT_GE(killed, 3) << "the stream was too short";
+    expect_same_lines(read_text(path("parts.jsonl")), whole);
+    EXPECT_EQ(summary("parts.json"), summary("whole.json"));
+    EXPECT_FALSE(std::filesystem::exists(path("state.unfinished")));
+    std::filesystem::remove(path("state"));
+  }
+};
+
+TEST_F(WatchRestart, KilledAtAnyMomentItTellsEverythingOnce) {
+  const std::string timing = " --silence 3 --forget 8 --leap 60 ";
+  expect_the_same_when_killed(write("s.jsonl", stream_of(json_line, 15000)),
+                              crossing_promises + crossing_errors + timing, 1);
+  const std::string table = "id,time,x,y,z,vx,vy,vz\n" + stream_of(csv_line, 15000);
+  expect_the_same_when_killed(write("s.csv", table), crossing_promises + crossing_errors + timing, 2);
+  ASSERT_EQ(std::system(("gzip -k '" + path("s.csv") + "'").c_str()), 0);
+  expect_the_same_when_killed(path("s.csv.gz"), crossing_promises + crossing_errors + timing, 3);
+  expect_the_same_when_killed(write("s.sbs", stream_of(sbs_lines, 15000)),
+                              " --separation sphere:500m --position-error 10:10 --clock stamps" + timing, 4);
+}
+
+/// The last line is cut off each time but the last.
+void WatchRestart::expect_the_same_when_it_grows(const std::string& text, const std::string& options,
+                                                 int parts) {
+  const std::string whole = run_whole(write("s", text), options);
+  const std::string kept =
+      " --quiet --snapshot '" + path("state") + "' --alerts '" + path("parts.jsonl") + "'";
+  // Nothing new the last time: nothing is told twice.
+  for (int part = 1; part <= parts + 1; ++part) {
+    const double size = static_cast<double>(text.size()) * std::min(part, parts) / parts;
+    write("s", text.substr(0, static_cast<std::size_t>(size)));
+    const ProgramRun result = run("watch " + path("s") + options + kept);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+  }
+  expect_same_lines(read_text(path("parts.jsonl")), whole);
+  std::filesystem::remove(path("state"));
+}
+
+TEST_F(WatchRestart, GoesOnWithAFileThatHasGrown) {
+  const std::string timing = " --silence 3 --forget 8 ";
+  expect_the_same_when_it_grows(stream_of(json_line, 8000), crossing_promises + crossing_errors + timing, 5);
+  // Of tracks that keep no promise: each may be at several places.
+  expect_the_same_when_it_grows(stream_of(sbs_lines, 15000),
+                                " --separation sphere:500m --position-error 10:10 --clock stamps" + timing,
+                                40);
+}
+
+TEST_F(WatchRestart, GoesOnWithWhatComesThroughAPipe) {
+  const std::string text = "id,time,x,y,z,vx,vy,vz\n" + stream_of(csv_line, 8000);
+  const std::string options = crossing_promises + crossing_errors;
+  const ProgramRun whole = run("watch --quiet" + options, "cat '" + write("s", text) + "' | ");
+  const std::size_t middle = text.find('\n', text.size() / 2) + 1;
+  std::string parts;
+  for (const std::string& part : {text.substr(0, middle), text.substr(middle)}) {
+    const ProgramRun result = run("watch --quiet --snapshot '" + path("state") + "'" + options,
+                                  "cat '" + write("s", part) + "' | ");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    parts += result.out;
+  }
+  expect_same_lines(parts, whole.out);
+  // Other reports from elsewhere: the tracks are known from before.
+  const ProgramRun other = run("watch --quiet --snapshot '" + path("state") + "'" + options + path("s"));
+  EXPECT_EQ(other.exit_code, 2);
+}
+
+TEST_F(WatchRestart, TakesTracksAlongToAnotherStream) {
+  const std::string first = write("first.csv", "id,time,x,y,z,vx,vy,vz\n" + stream_of(csv_line, 2000));
+  const std::string options = crossing_promises + crossing_errors + " --snapshot '" + path("state") +
+                              "' --summary '" + path("sum") + "' ";
+  ASSERT_EQ(run("watch " + first + options).exit_code, 0);
+  const Json before = summary("sum");
+  // With other columns.
+  const std::string second =
+      write("second.csv", "time,id,x,y,z,vx,vy,vz\n18.001,t3,1,2,0,0,0,0\n18.002,t3,1,2,0,0,0,0\n");
+  const ProgramRun result = run("watch " + second + options);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(summary("sum")["reports"], before["reports"].get<int>() + 2);
+  EXPECT_EQ(summary("sum")["contradictions"], before["contradictions"].get<int>() + 1)
+      << "t3 was elsewhere in the first";
+}
+
+TEST_F(WatchRestart, RefusesWhatItCannotGoOnFrom) {
+  const std::string text = stream_of(json_line, 2000);
+  const std::string stream = write("s.jsonl", text);
+  const std::string kept = " --snapshot '" + path("state") + "' --alerts '" + path("alerts") + "' ";
+  ASSERT_EQ(run("watch " + stream + crossing_promises + crossing_errors + kept).exit_code, 0);
+  const std::string alerts = read_text(path("alerts")), state = read_text(path("state"));
+  expect_wrong_input("watch " + stream +
+                         " --separation sphere:12 --separation cylinder:9:2 --acceleration 5" +
+                         crossing_errors + kept,
+                     {"--separation", "cylinder:9:1", "cylinder:9:2", path("state")});
+  expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + kept + "--silence 4",
+                     {"--silence", "not given", "'4'"});
+  expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + kept + "--format csv",
+                     {"--format", "jsonl", "csv"});
+  write("s.jsonl", "{" + text);
+  expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + kept, {stream, "are others"});
+  write("s.jsonl", text.substr(0, 1000));
+  expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + kept, {stream, "are others"});
+  write("s.jsonl", text);
+  write("alerts", alerts.substr(0, 100));
+  expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + kept, {path("alerts"), "100"});
+  write("alerts", alerts);
+  Random random(3);
+  for (int k = 0; k < 30; ++k) {
+    std::string damaged = state;
+    const auto at = static_cast<std::size_t>(random.uniform(0.0, static_cast<double>(state.size())));
+    if (k % 2 == 0)
+      damaged.resize(at);
+    else
+      damaged[at] = static_cast<char>(damaged[at] ^ 4);
+    write("state", damaged);
+    expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + kept,
+                       {path("state"), "expected a snapshot"});
+  }
+  EXPECT_TRUE(read_text(path("alerts")) == alerts) << "nothing was changed by any of these";
+  expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + " --snapshot " + stream,
+                     {"--snapshot"});
+  expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + " --alerts " + stream,
+                     {"--alerts"});
+  expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + " --alerts /dev/full",
+                     {"--alerts", "/dev/full"});
+  expect_wrong_input(
+      "watch " + stream + crossing_promises + crossing_errors + " --snapshot-every 0s --snapshot x",
+      {"--snapshot-every"});
+}
+
+/// What is sealed well and is still no watch.
+TEST_F(WatchRestart, RefusesSoundFilesOfNonsense) {
+  const std::string stream = write("s.jsonl", stream_of(json_line, 2000));
+  const std::string arguments =
+      "watch " + stream + crossing_promises + crossing_errors + " --snapshot '" + path("state") + "'";
+  ASSERT_EQ(run(arguments).exit_code, 0);
+  const WatchSnapshot sound = read_snapshot(path("state")).value();
+  for (const char* field : {"clock", "held", "tracks", "counts", "monitor", "time_kind", "first"}) {
+    WatchSnapshot wrong = sound;
+    wrong.watcher.erase(field);
+    write_snapshot(path("state"), wrong);
+    expect_wrong_input(arguments, {"expected a snapshot"});
+    wrong.watcher[field] = "text";
+    write_snapshot(path("state"), wrong);
+    expect_wrong_input(arguments, {"expected a snapshot"});
+  }
+}
+
+TEST_F(WatchRestart, SharesTellTogetherWhatOneTells) {
+  const std::string stream = write("s.jsonl", stream_of(json_line, 20000)) + crossing_promises +
+                             crossing_errors + " --silence 3 --forget 8";
+  const auto alerts_of = [&](std::initializer_list<const char*> shares) {
+    AlertsByShare alerts;
+    for (const std::string share : shares) {
+      const ProgramRun result = run("watch --quiet " + stream + share);
+      EXPECT_EQ(result.exit_code, 0) << result.err;
+      add_by_share(result.out, 8, alerts);
+    }
+    return alerts;
+  };
+  const AlertsByShare all = alerts_of({""});
+  ASSERT_EQ(all.size(), 8u);
+  EXPECT_TRUE(alerts_of({" --share 1-4/8", " --share 5-8/8"}) == all);
+  EXPECT_TRUE(alerts_of({" --share 1-2/8", " --share 3/8", " --share 4-7/8", " --share 8/8"}) == all);
+  for (const char* wrong : {"0/4", "5/4", "3-2/4", "1-5/4", "1", "1/", "/4", "a/b", "1.5/4", "1/99999"})
+    expect_wrong_input("watch " + stream + " --share " + wrong, {"--share", std::string("'") + wrong + "'"});
+}
+
+}  // namespace
+}  // namespace kinesphere::program
