@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the library in WebAssembly, its npm package and the viewer, and tests them: in Node.js, with and without SIMD, and
-# the viewer in chromium.
+# the viewer and the map in chromium.
 # Usage: run.sh <native program, for the hashes>
 set -euo pipefail
 
@@ -23,6 +23,6 @@ node_tests() {
 (node_tests) >"$log" 2>&1 &
 in_node=$!
 cd browser/viewer/test
-node --test viewer.test.mjs served.test.mjs hashes.test.mjs dragging.test.mjs pictures.test.mjs
+node --test viewer.test.mjs served.test.mjs hashes.test.mjs dragging.test.mjs pictures.test.mjs map.test.mjs
 wait $in_node || { cat "$log"; exit 1; }
 cat "$log"

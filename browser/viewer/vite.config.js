@@ -1,4 +1,4 @@
-// The page is made of static files with relative paths, so that it works in any folder of any server.
+// The pages are made of static files with relative paths, so that they work in any folder of any server.
 import { resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
@@ -15,5 +15,6 @@ export default defineConfig({
     target: "es2022",
     modulePreload: { polyfill: false },
     chunkSizeWarningLimit: 1000,
+    rollupOptions: { input: { viewer: resolve(here, "index.html"), map: resolve(here, "map.html") } },
   },
 });

@@ -1,11 +1,6 @@
 // The numbers at the edge of the picture, and messages.
+import { Numbers, put, whole } from "./numbers.ts";
 import type { Shown } from "./shown.ts";
-
-interface Row {
-  value: HTMLElement;
-  note: HTMLElement;
-  row: HTMLElement;
-}
 
 /** Means over the last pictures, in milliseconds. */
 export interface Times {
@@ -14,8 +9,6 @@ export interface Times {
   /** From one picture to the next. */
   frame: number;
 }
-
-const whole = new Intl.NumberFormat("en", { maximumFractionDigits: 0 });
 
 function short(count: number): string {
   return count < 100_000 ? whole.format(count) : `${(count / 1000).toFixed(0)}k`;
@@ -26,17 +19,17 @@ export class Hud {
   private readonly about = document.querySelector<HTMLElement>("#about")!;
   private readonly message = document.querySelector<HTMLElement>("#message")!;
   private readonly messageText = document.querySelector<HTMLElement>("#message-text")!;
-  private readonly list = document.querySelector<HTMLElement>("#numbers")!;
-  private readonly time = this.row("time", "Simulated seconds");
-  private readonly contacts = this.row("contacts", "Contacts of two bodies, each told at its exact time");
-  private readonly missed = this.row("missed by 60 Hz", "Contacts that a loop which looks 60 times per second would not see");
-  private readonly crossings = this.row("crossings", "Flights through the zone, each told");
-  private readonly alarms = this.row("alarms", "Pairs that may have been too near to each other; none comes late");
-  private readonly probes = this.row("states asked", "Per second of simulated time; a loop asks every body 60 times");
-  private readonly engine = this.row("engine", "Time of the library for one picture");
-  private readonly drawing = this.row("drawing", "Time of the page for one picture, and pictures per second");
-  private readonly violations = this.row("broken promises", "Bodies that moved as they had promised not to");
-  private readonly hash = this.row("hash", "Of all events so far: the same for every run of the scene, here and in the native library");
+  private readonly numbers = new Numbers(document.querySelector<HTMLElement>("#numbers")!);
+  private readonly time = this.numbers.row("time", "Simulated seconds");
+  private readonly contacts = this.numbers.row("contacts", "Contacts of two bodies, each told at its exact time");
+  private readonly missed = this.numbers.row("missed by 60 Hz", "Contacts that a loop which looks 60 times per second would not see");
+  private readonly crossings = this.numbers.row("crossings", "Flights through the zone, each told");
+  private readonly alarms = this.numbers.row("alarms", "Pairs that may have been too near to each other; none comes late");
+  private readonly probes = this.numbers.row("states asked", "Per second of simulated time; a loop asks every body 60 times");
+  private readonly engine = this.numbers.row("engine", "Time of the library for one picture");
+  private readonly drawing = this.numbers.row("drawing", "Time of the page for one picture, and pictures per second");
+  private readonly violations = this.numbers.row("broken promises", "Bodies that moved as they had promised not to");
+  private readonly hash = this.numbers.row("hash", "Of all events so far: the same for every run of the scene, here and in the native library");
 
   constructor() {
     document.querySelector("#message-close")!.addEventListener("click", () => this.hideMessage());
@@ -52,22 +45,22 @@ export class Hud {
 
   update(shown: Shown, times: Times): void {
     const { tally, bodyCount } = shown;
-    this.put(this.time, `${shown.time.toFixed(3)} s`, `${whole.format(bodyCount)} bodies`);
-    this.put(this.contacts, short(tally.contacts), tally.wallContacts > 0 ? `+ ${short(tally.wallContacts)} at walls` : "");
+    put(this.time, `${shown.time.toFixed(3)} s`, `${whole.format(bodyCount)} bodies`);
+    put(this.contacts, short(tally.contacts), tally.wallContacts > 0 ? `+ ${short(tally.wallContacts)} at walls` : "");
     const share = tally.contacts === 0 ? 0 : tally.missed / tally.contacts;
-    this.put(this.missed, short(tally.missed), tally.contacts === 0 ? "" : `${(100 * share).toFixed(share > 0 && share < 0.1 ? 1 : 0)} %`);
+    put(this.missed, short(tally.missed), tally.contacts === 0 ? "" : `${(100 * share).toFixed(share > 0 && share < 0.1 ? 1 : 0)} %`);
     this.missed.row.classList.toggle("bad", tally.missed > 0);
     if (shown.zone !== null)
-      this.put(this.crossings, short(tally.crossings), `a loop sees ${short(tally.crossings - tally.missedCrossings)}`);
-    if (shown.alarms !== null) this.put(this.alarms, short(tally.alarms), `${short(tally.warnings)} warnings`);
+      put(this.crossings, short(tally.crossings), `a loop sees ${short(tally.crossings - tally.missedCrossings)}`);
+    if (shown.alarms !== null) put(this.alarms, short(tally.alarms), `${short(tally.warnings)} warnings`);
     const asked = shown.probesPerSecond;
     const ofLoop = 60 * bodyCount;
-    this.put(this.probes, `${short(asked)} /s`, `60 Hz: ${short(ofLoop)}`);
-    this.put(this.engine, `${times.engine.toFixed(2)} ms`, "per picture");
-    this.put(this.drawing, `${times.drawing.toFixed(2)} ms`, times.frame > 0 ? `${(1000 / times.frame).toFixed(0)} fps` : "");
-    this.put(this.violations, short(tally.violations), "");
+    put(this.probes, `${short(asked)} /s`, `60 Hz: ${short(ofLoop)}`);
+    put(this.engine, `${times.engine.toFixed(2)} ms`, "per picture");
+    put(this.drawing, `${times.drawing.toFixed(2)} ms`, times.frame > 0 ? `${(1000 / times.frame).toFixed(0)} fps` : "");
+    put(this.violations, short(tally.violations), "");
     this.violations.row.classList.toggle("bad", tally.violations > 0);
-    this.put(this.hash, shown.hash, "");
+    put(this.hash, shown.hash, "");
   }
 
   /** What went wrong. */
@@ -77,24 +70,5 @@ export class Hud {
   }
   hideMessage(): void {
     this.message.hidden = true;
-  }
-
-  private row(label: string, hint: string): Row {
-    const row = document.createElement("div");
-    row.className = "row";
-    row.title = hint;
-    const name = document.createElement("dt");
-    name.textContent = label;
-    const value = document.createElement("dd");
-    const note = document.createElement("dd");
-    note.className = "note";
-    row.append(name, value, note);
-    row.dataset["name"] = label;
-    this.list.append(row);
-    return { value, note, row };
-  }
-  private put(row: Row, value: string, note: string): void {
-    if (row.value.textContent !== value) row.value.textContent = value;
-    if (row.note.textContent !== note) row.note.textContent = note;
   }
 }

@@ -9,10 +9,12 @@ import { makePanel } from "./panel.ts";
 import { Recording } from "./recording.ts";
 import type { TrackTable } from "./scenes/crowd.ts";
 import { sceneAbout, scenes } from "./scenes/list.ts";
-import { type Colouring, firstSettings, type Theme } from "./settings.ts";
+import { type Colouring, firstSettings } from "./settings.ts";
 import type { Shown, Told } from "./shown.ts";
 import { Simulation } from "./simulation.ts";
 import { Stage } from "./stage.ts";
+import { applyTheme, calmQuery, darkQuery, type Theme } from "./theme.ts";
+import "./base.css";
 import "./style.css";
 
 /** Milliseconds that the engine may take for one picture; what is not done then is left for the next. */
@@ -21,9 +23,6 @@ const engineBudget = 14;
 const longestFrame = 0.05;
 
 const element = <E extends HTMLElement>(id: string): E => document.querySelector<E>(`#${id}`)!;
-
-const calmQuery = matchMedia("(prefers-reduced-motion: reduce)");
-const darkQuery = matchMedia("(prefers-color-scheme: dark)");
 
 const settings = firstSettings();
 const hud = new Hud();
@@ -87,9 +86,8 @@ function chooseScene(): void {
 }
 
 function repaint(): void {
-  const isDark = settings.theme === "system" ? darkQuery.matches : settings.theme === "dark";
+  const isDark = applyTheme(settings.theme);
   palette = isDark ? dark : bright;
-  document.documentElement.dataset["theme"] = isDark ? "dark" : "bright";
   stage.paint(palette);
   overlays.paint(palette, isDark);
 }

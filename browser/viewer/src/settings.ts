@@ -1,6 +1,7 @@
 // What can be chosen on the page.
+import type { Theme } from "./theme.ts";
+
 export type Colouring = "size" | "asked" | "safe";
-export type Theme = "system" | "dark" | "bright";
 
 export interface Settings {
   scene: string;

@@ -1,4 +1,4 @@
-// What the page costs here, for docs/browser.md: time to the first picture, and what a picture takes. The variables are
+// What the pages cost here, for docs/browser.md: time to the first picture, and what a picture takes. The variables are
 // those of page.mjs. No test: what it prints is worth something only where nothing else runs.
 import { test } from "node:test";
 
@@ -44,3 +44,58 @@ for (const [scene, bodies] of [["gas", 0], ["gas", 1000], ["gas", 10_000], ["pap
                 `${found.pace.toFixed(2)} simulated seconds a second`);
   });
 }
+
+/** A state of a watch: tracks in a square, of which every third is silent, and pairs of neighbours. */
+function crowdedState(trackCount, pairCount) {
+  // The same at each time.
+  let seed = 1;
+  const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
+  const tracks = Array.from({ length: trackCount }, (_, k) => ({
+    id: `F${k}`, stamp: 0, silent: k % 3 === 0,
+    places: [{ x: 5e5 * (random() - 0.5), y: 5e5 * (random() - 0.5), z: 300 * (k % 40), velocity: [400 * (random() - 0.5), 400 * (random() - 0.5), 0], radius: [4000 * random(), 100] }],
+  }));
+  const { x, y } = tracks[0].places[0];
+  tracks.sort((a, b) => Math.hypot(a.places[0].x - x, a.places[0].y - y) - Math.hypot(b.places[0].x - x, b.places[0].y - y));
+  const pairs = Array.from({ length: pairCount }, (_, k) => ({
+    first: tracks[2 * k].id, second: tracks[2 * k + 1].id, separation: "cylinder:5NM:1000ft", level: 0, verdict: k % 10 === 0 ? "within" : "undecided", since: 0,
+    distance: [1000, 9000], until: 20, closest_distance: 500, closest_time: 30, likely_time: k, ask: tracks[2 * k].id, ask_by: 12,
+  }));
+  return {
+    time: 10, stream: "measured", geographic: false, dimensions: 3, origin: null, silence: 15, forget: 60, counts: { reports: 6000 },
+    separations: [{ name: "cylinder:5NM:1000ft", shape: "cylinder", horizontal: 9260, vertical: 304.8 }], tracks, pairs,
+    needed: pairs.map(({ first, second }) => ({ track: first, by: 12, other: second })),
+  };
+}
+
+test("the map of a watch with 2000 tracks", async () => {
+  const withMap = browserForTests({
+    given: { "/state.json": JSON.stringify(crowdedState(2000, 270)) }, viewport: { width: 1440, height: 900 },
+    graphics: [],
+    isReady: () => window.kinesphereMap?.states > 0 && window.kinesphereMap.pictures > 0,
+  });
+  const page = await withMap.open("map.html");
+  const found = await page.evaluate(async () => {
+    const map = window.kinesphereMap;
+    const median = (numbers) => numbers.sort((a, b) => a - b)[Math.floor(numbers.length / 2)];
+    const picture = () => new Promise((done) => requestAnimationFrame(done));
+    const [own, between, showing] = [[], [], []];
+    let last = performance.now();
+    for (let k = 0; k < 100; ++k) {
+      map.view.pan(k % 20 < 10 ? 4 : -4, 1);
+      map.redraw();
+      await picture();
+      own.push(map.drawing);
+      between.push(performance.now() - last);
+      last = performance.now();
+    }
+    for (let k = 0; k < 20; ++k) {
+      const start = performance.now();
+      map.show(map.scene.state);
+      showing.push(performance.now() - start);
+      await picture();
+    }
+    return { own: median(own), between: median(between), showing: median(showing) };
+  });
+  console.log(`map of 2000 tracks and 270 pairs: ${(1000 / found.between).toFixed(0)} pictures a second while it moves; ` +
+              `${found.own.toFixed(1)} ms in the page's own program for a picture, ${found.showing.toFixed(1)} ms for a new state`);
+});

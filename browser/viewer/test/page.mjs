@@ -1,4 +1,4 @@
-// The built page in a browser: KINESPHERE_VIEWER names its folder, KINESPHERE_PACKAGE that of the npm package,
+// A built page in a browser: KINESPHERE_VIEWER names its folder, KINESPHERE_PACKAGE that of the npm package,
 // CHROMIUM the browser's program, and PLAYWRIGHT, if it is not found otherwise, the folder of playwright-core.
 import { readFile } from "node:fs/promises";
 import { createServer } from "node:http";
@@ -42,12 +42,17 @@ async function serve(given) {
   return server;
 }
 
+/** Without a graphics card the viewer's WebGL takes these. */
+const softwareGraphics = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+const hasViewerDrawn = () => window.kinesphereViewer?.firstPicture != null;
+
 /**
  * A browser that is there for the tests of a file. `open()` loads the page, here or at another server's address, and
- * waits for its first picture;
- * `complaints` is whatever pages complained of, and addresses that they asked for elsewhere.
+ * waits until `isReady` is true there: of the viewer, for its first picture.
+ * `complaints` is whatever pages complained of, and addresses that they asked for elsewhere; `graphics` are options
+ * of the browser.
  */
-export function browserForTests({ given = {}, viewport = { width: 900, height: 700 } } = {}) {
+export function browserForTests({ given = {}, viewport = { width: 900, height: 700 }, isReady = hasViewerDrawn, graphics = softwareGraphics } = {}) {
   const found = { complaints: [], page: undefined, address: undefined, open: undefined };
   let server;
   let browser;
@@ -57,7 +62,7 @@ export function browserForTests({ given = {}, viewport = { width: 900, height: 7
     found.address = `http://127.0.0.1:${server.address().port}/`;
     browser = await chromium.launch({
       executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-      args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+      args: ["--no-sandbox", ...graphics],
     });
   };
   after(async () => {
@@ -78,7 +83,7 @@ export function browserForTests({ given = {}, viewport = { width: 900, height: 7
       if (!url.startsWith(new URL("/", address).href) && !url.startsWith("data:")) found.complaints.push(url);
     });
     await page.goto(address);
-    await page.waitForFunction(() => window.kinesphereViewer?.firstPicture != null, null, { timeout: 60_000 });
+    await page.waitForFunction(isReady, null, { timeout: 60_000 });
     current = found.page = page;
     return page;
   };

@@ -1,0 +1,414 @@
+// The picture: graticule, bounds, tracks, pairs, names.
+import type { EarthPlane } from "./earth.ts";
+import { graticule } from "./graticule.ts";
+import type { DrawnPair, DrawnTrack, Scene } from "./scene.ts";
+import type { Place } from "./state.ts";
+import { lengthText, shortName } from "./text.ts";
+import type { View } from "./view.ts";
+
+/** The colours of a theme, as the style sheet has them. */
+const colourNames = ["ground", "grid", "grid-ink", "track", "silent", "undecided", "within", "need", "chosen", "ink"] as const;
+export type Colours = Record<(typeof colourNames)[number], string>;
+
+export function coloursOfPage(): Colours {
+  const style = getComputedStyle(document.documentElement);
+  return Object.fromEntries(colourNames.map((name) => [name, style.getPropertyValue(`--${name}`).trim()])) as Colours;
+}
+
+export interface Chosen {
+  track: string | null;
+  /** The key of a pair. */
+  pair: string | null;
+  hovered: string | null;
+}
+
+const font = "12px system-ui, sans-serif";
+const smallFont = "11px system-ui, sans-serif";
+const mostNames = 400;
+const fullTurn = 2 * Math.PI;
+
+/** Seconds that the lines ahead of tracks may stand for. */
+const lookAheads = [1200, 600, 300, 120, 60, 30, 20, 10, 5, 2, 1, 0.5, 0.2, 0.1];
+
+type Kind = "silent" | "track" | "undecided" | "within";
+const kindOf = ({ track, verdict }: DrawnTrack): Kind => (track.silent ? "silent" : verdict ?? "track");
+
+export class Chart {
+  colours: Colours = coloursOfPage();
+  /** How far ahead lines show where tracks would go; seconds. */
+  lookAhead = 0;
+  showNames = true;
+  private dotSize = 3.5;
+  /** Pixels of the screen in one of the page. */
+  private ratio = 1;
+  private readonly stamps = new Map<string, HTMLCanvasElement>();
+  private readonly context: CanvasRenderingContext2D;
+  private readonly widths = new Map<string, number>();
+
+  constructor(readonly canvas: HTMLCanvasElement) {
+    this.context = canvas.getContext("2d", { alpha: false })!;
+  }
+
+  /** The canvas gets the size that it has on the page. True if that is another one. */
+  resize(view: View): boolean {
+    const ratio = Math.min(devicePixelRatio, 2);
+    if (ratio !== this.ratio) this.stamps.clear();
+    this.ratio = ratio;
+    const { clientWidth, clientHeight } = this.canvas;
+    view.width = clientWidth;
+    view.height = clientHeight;
+    const [width, height] = [Math.round(clientWidth * ratio), Math.round(clientHeight * ratio)];
+    if (this.canvas.width === width && this.canvas.height === height) return false;
+    Object.assign(this.canvas, { width, height });
+    this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    return true;
+  }
+
+  draw(view: View, scene: Scene | null, plane: EarthPlane | null, chosen: Chosen): void {
+    const { context, colours } = this;
+    context.fillStyle = colours.ground;
+    context.fillRect(0, 0, view.width, view.height);
+    const taken = new Taken();
+    this.dotSize = (scene?.tracks.size ?? 0) > 600 ? 2.7 : 3.5;
+    this.drawGrid(view, plane, taken);
+    if (scene === null) return;
+    const chosenPair = scene.pairs.find(({ key }) => key === chosen.pair) ?? null;
+    const kinds: Record<Kind, DrawnTrack[]> = { silent: [], track: [], undecided: [], within: [] };
+    for (const drawn of scene.tracks.values()) kinds[kindOf(drawn)].push(drawn);
+    for (const kind of ["silent", "track", "undecided", "within"] as const) this.drawBounds(view, kinds[kind], colours[kind]);
+    this.drawSeparations(view, scene, chosen);
+    this.drawPairs(view, scene.pairs, chosenPair);
+    this.drawLookAhead(view, scene);
+    for (const kind of ["silent", "track", "undecided", "within"] as const) this.drawDots(view, kinds[kind], colours[kind], kind === "silent");
+    this.drawNeeds(view, scene);
+    this.drawChosen(view, scene, chosen, chosenPair);
+    if (this.showNames) this.drawNames(view, scene, chosen, chosenPair, taken);
+  }
+
+  private drawGrid(view: View, plane: EarthPlane | null, taken: Taken): void {
+    const { context, colours } = this;
+    const lines = graticule(view, plane);
+    context.strokeStyle = colours.grid;
+    context.lineWidth = 1;
+    context.beginPath();
+    for (const { points } of lines) {
+      for (let k = 0; k < points.length; k += 2) {
+        const [x, y] = view.toScreen(points[k]!, points[k + 1]!);
+        if (k === 0) context.moveTo(x, y);
+        else context.lineTo(x, y);
+      }
+    }
+    context.stroke();
+    context.font = smallFont;
+    context.fillStyle = colours["grid-ink"];
+    context.textBaseline = "alphabetic";
+    const atX = view.insets.left + 6;
+    const atY = view.height - view.insets.bottom + 14;
+    for (const { points, upright, label } of lines) {
+      const at = upright ? crossing(view, points, 1, atY) : crossing(view, points, 0, atX);
+      if (at === null) continue;
+      const [x, y] = upright ? [at + 4, atY] : [atX, at - 4];
+      if (x < view.insets.left || x > view.width - view.insets.right - 40 || y < view.insets.top + 10 || y > view.height - 4) continue;
+      if (taken.take(x, y - 11, this.widthOf(label), 13)) context.fillText(label, x, y);
+    }
+  }
+
+  /** Circle by circle: browsers are slow at paths of many that overlap. */
+  private drawBounds(view: View, tracks: DrawnTrack[], colour: string): void {
+    const { context } = this;
+    const largest = 0.3 * Math.min(...view.free);
+    context.fillStyle = context.strokeStyle = colour;
+    context.lineWidth = 1;
+    for (const { track } of tracks) {
+      for (const place of track.places) {
+        const pixels = (place.radius[0] ?? 0) * view.look.scale;
+        if (pixels < 2.5) continue;
+        const [x, y] = view.toScreen(place.x, place.y);
+        if (isFar(view, x, y, pixels)) continue;
+        context.beginPath();
+        context.arc(x, y, pixels, 0, fullTurn);
+        // Large ones would tint most of the picture.
+        const isLarge = pixels > largest;
+        context.globalAlpha = isLarge ? 0.3 : 0.6;
+        context.stroke();
+        context.globalAlpha = 0.1;
+        if (!isLarge) context.fill();
+      }
+    }
+    context.globalAlpha = 1;
+  }
+
+  /** Around the chosen track: what is nearer than this is within a separation. */
+  private drawSeparations(view: View, scene: Scene, chosen: Chosen): void {
+    const { context, colours } = this;
+    const drawn = scene.tracks.get(chosen.track ?? "");
+    if (drawn === undefined) return;
+    context.strokeStyle = colours.chosen;
+    context.fillStyle = colours.chosen;
+    context.font = smallFont;
+    context.lineWidth = 1;
+    context.setLineDash([2, 4]);
+    for (const { horizontal, name } of scene.state.separations) {
+      const pixels = horizontal * view.look.scale;
+      if (pixels < 6) continue;
+      for (const place of drawn.track.places) {
+        const [x, y] = view.toScreen(place.x, place.y);
+        context.beginPath();
+        context.arc(x, y, pixels, 0, fullTurn);
+        context.stroke();
+        if (pixels > 24) context.fillText(shortName(name), x - this.widthOf(shortName(name)) / 2, y - pixels - 4);
+      }
+    }
+    context.setLineDash([]);
+  }
+
+  /** Undecided ones over those within: of several separations a pair may be both. */
+  private drawPairs(view: View, pairs: DrawnPair[], chosenPair: DrawnPair | null): void {
+    const { context, colours } = this;
+    const path = (drawn: DrawnPair) => {
+      if (drawn.places === null) return;
+      context.moveTo(...view.toScreen(drawn.places[0].x, drawn.places[0].y));
+      context.lineTo(...view.toScreen(drawn.places[1].x, drawn.places[1].y));
+    };
+    if (chosenPair !== null) {
+      // Two lines along it.
+      context.beginPath();
+      path(chosenPair);
+      for (const [colour, width] of [[colours.chosen, 11], [colours.ground, 8]] as const) {
+        context.strokeStyle = colour;
+        context.lineWidth = width;
+        context.stroke();
+      }
+    }
+    for (const verdict of ["within", "undecided"] as const) {
+      const those = pairs.filter(({ pair, places }) => pair.verdict === verdict && places?.some(({ x, y }) => !isFar(view, ...view.toScreen(x, y), 0)));
+      // Many lines are fainter and thinner, so that what lies below them is seen.
+      const strength = Math.max(0.3, Math.min(1, 300 / those.length));
+      context.beginPath();
+      those.forEach(path);
+      context.strokeStyle = colours[verdict];
+      context.globalAlpha = strength;
+      context.lineWidth = (verdict === "within" ? 3.5 : 2) * Math.sqrt(strength);
+      context.setLineDash(verdict === "within" ? [] : [6, 4]);
+      context.stroke();
+    }
+    context.globalAlpha = 1;
+    context.setLineDash([]);
+  }
+
+  private drawLookAhead(view: View, scene: Scene): void {
+    const { context, colours } = this;
+    let fastest = 0;
+    for (const { track } of scene.tracks.values())
+      for (const { velocity } of track.places) fastest = Math.max(fastest, Math.hypot(velocity[0], velocity[1]));
+    const most = 70;
+    this.lookAhead = fastest === 0 ? 0 : lookAheads.find((seconds) => fastest * seconds * view.look.scale <= most) ?? 0;
+    if (this.lookAhead === 0) return;
+    context.beginPath();
+    for (const { track } of scene.tracks.values()) {
+      if (track.silent) continue;
+      for (const { x, y, velocity } of track.places) {
+        const [fromX, fromY] = view.toScreen(x, y);
+        if (isFar(view, fromX, fromY, most)) continue;
+        context.moveTo(fromX, fromY);
+        context.lineTo(...view.toScreen(x + velocity[0] * this.lookAhead, y + velocity[1] * this.lookAhead));
+      }
+    }
+    context.strokeStyle = colours.track;
+    context.globalAlpha = 0.8;
+    context.lineWidth = 1.5;
+    context.stroke();
+    context.globalAlpha = 1;
+  }
+
+  /** Places of one track, of which nobody knows which is right, are joined. */
+  private drawDots(view: View, tracks: DrawnTrack[], colour: string, isHollow: boolean): void {
+    const { context, colours } = this;
+    context.beginPath();
+    for (const { track: { places } } of tracks) {
+      if (places.length < 2) continue;
+      places.forEach(({ x, y }, k) => k === 0 ? context.moveTo(...view.toScreen(x, y)) : context.lineTo(...view.toScreen(x, y)));
+    }
+    context.strokeStyle = colour;
+    context.lineWidth = 1;
+    context.setLineDash([1, 3]);
+    context.stroke();
+    context.setLineDash([]);
+    const size = this.dotSize;
+    const dot = this.stamp(`dot ${colour} ${isHollow} ${size}`, size + 2, (stamp) => {
+      stamp.arc(0, 0, size, 0, fullTurn);
+      stamp.fillStyle = isHollow ? colours.ground : colour;
+      stamp.strokeStyle = isHollow ? colour : colours.ground;
+      stamp.lineWidth = 1.3;
+      stamp.fill();
+      stamp.stroke();
+    });
+    for (const { track } of tracks) for (const place of track.places) this.print(dot, view, place);
+  }
+
+  /** Four corners around those whom to ask next. */
+  private drawNeeds(view: View, scene: Scene): void {
+    const { colours } = this;
+    const half = 9;
+    const corner = 5;
+    const corners = this.stamp(`need ${colours.need}`, half + 2, (stamp) => {
+      for (const [signX, signY] of [[-1, -1], [1, -1], [1, 1], [-1, 1]] as const) {
+        stamp.moveTo(signX * half, signY * (half - corner));
+        stamp.lineTo(signX * half, signY * half);
+        stamp.lineTo(signX * (half - corner), signY * half);
+      }
+      stamp.strokeStyle = colours.need;
+      stamp.lineWidth = 2;
+      stamp.stroke();
+    });
+    for (const { track, need } of scene.tracks.values())
+      if (need !== null) for (const place of track.places) this.print(corners, view, place);
+  }
+
+  private drawChosen(view: View, scene: Scene, chosen: Chosen, chosenPair: DrawnPair | null): void {
+    const { context, colours } = this;
+    const ids = new Set([chosen.track, chosen.hovered, chosenPair?.pair.first, chosenPair?.pair.second]);
+    context.strokeStyle = colours.chosen;
+    for (const id of ids) {
+      const drawn = scene.tracks.get(id ?? "");
+      for (const place of drawn?.track.places ?? []) {
+        const [x, y] = view.toScreen(place.x, place.y);
+        context.beginPath();
+        context.arc(x, y, 7, 0, fullTurn);
+        context.lineWidth = id === chosen.track ? 2.5 : 1.5;
+        context.stroke();
+      }
+    }
+  }
+
+  /** Of those that matter most first, as long as there is room. */
+  private drawNames(view: View, scene: Scene, chosen: Chosen, chosenPair: DrawnPair | null, taken: Taken): void {
+    const { context, colours } = this;
+    const important = new Set([chosen.track, chosen.hovered, chosenPair?.pair.first, chosenPair?.pair.second]);
+    const rank = ({ track, verdict, need }: DrawnTrack) =>
+      important.has(track.id) ? 0 : verdict === "within" ? 1 : verdict === "undecided" ? 2 : need !== null ? 3 : track.silent ? 5 : 4;
+    const dots = new Taken();
+    const inSight: { drawn: DrawnTrack; x: number; y: number; rank: number }[] = [];
+    for (const drawn of scene.tracks.values()) {
+      const place = drawn.track.places[0];
+      if (place === undefined) continue;
+      const [x, y] = view.toScreen(place.x, place.y);
+      if (!isFar(view, x, y, 0)) inSight.push({ drawn, x, y, rank: rank(drawn) });
+      dots.occupy(x - 4, y - 4, 8, 8);
+    }
+    inSight.sort((a, b) => a.rank - b.rank);
+    context.font = font;
+    context.lineJoin = "round";
+    context.textBaseline = "middle";
+    const first = scene.state.tracks[0]?.places[0]?.z;
+    const hasHeights = scene.state.dimensions === 3 && scene.state.tracks.some(({ places }) => places.some(({ z }) => z !== first));
+    const right = view.width - view.insets.right;
+    let left = mostNames;
+    for (const { drawn, x, y, rank } of inSight) {
+      if (--left < 0) break;
+      const name = shortName(drawn.track.id);
+      const height = hasHeights ? `  ${heightText(drawn.track.places[0]!, scene.state.geographic === true)}` : "";
+      const width = this.widthOf(name) + (height === "" ? 0 : this.widthOf(height));
+      const sides = headingOf(drawn, chosenPair) > 0 ? [-12 - width, 12] as const : [12, -12 - width] as const;
+      const spot = ([[sides[0], 0], [sides[1], 0], [-width / 2, -19], [-width / 2, 19], [10, -14], [10, 14]] as const)
+        // Of names that matter little none hides a dot.
+        .find(([dx, dy]) => x + dx + width < right && (rank < 2 || dots.isFree(x + dx, y + dy - 7, width, 14)) &&
+          taken.take(x + dx, y + dy - 7, width, 14, rank === 0));
+      if (spot === undefined) continue;
+      const [atX, atY] = [x + spot[0], y + spot[1]];
+      context.strokeStyle = colours.ground;
+      context.lineWidth = 3;
+      context.strokeText(name + height, atX, atY);
+      context.fillStyle = drawn.track.silent ? colours.silent : colours.ink;
+      context.fillText(name, atX, atY);
+      if (height === "") continue;
+      context.fillStyle = colours["grid-ink"];
+      context.fillText(height, atX + this.widthOf(name), atY);
+    }
+    context.textBaseline = "alphabetic";
+  }
+
+  /** A small picture that is drawn once, and printed often; its middle is at 0, and it reaches `half` pixels in each direction. */
+  private stamp(key: string, half: number, draw: (context: CanvasRenderingContext2D) => void): HTMLCanvasElement {
+    let stamp = this.stamps.get(key);
+    if (stamp === undefined) {
+      const ratio = this.ratio;
+      stamp = Object.assign(document.createElement("canvas"), { width: 2 * Math.ceil(half) * ratio, height: 2 * Math.ceil(half) * ratio });
+      const context = stamp.getContext("2d")!;
+      context.scale(ratio, ratio);
+      context.translate(Math.ceil(half), Math.ceil(half));
+      context.beginPath();
+      draw(context);
+      this.stamps.set(key, stamp);
+    }
+    return stamp;
+  }
+  private print(stamp: HTMLCanvasElement, view: View, { x, y }: Place): void {
+    const [atX, atY] = view.toScreen(x, y);
+    const size = stamp.width / this.ratio;
+    if (!isFar(view, atX, atY, size)) this.context.drawImage(stamp, atX - size / 2, atY - size / 2, size, size);
+  }
+
+  private widthOf(text: string): number {
+    let width = this.widths.get(text);
+    if (width === undefined) {
+      if (this.widths.size > 10_000) this.widths.clear();
+      this.context.font = font;
+      width = this.context.measureText(text).width;
+      this.widths.set(text, width);
+    }
+    return width;
+  }
+}
+
+/** Where there is something to be seen beside a track, to the right (> 0) or to the left: the other of a pair, or where it goes. */
+function headingOf({ track: { id, places } }: DrawnTrack, pair: DrawnPair | null): number {
+  if (pair?.places != null && (pair.pair.first === id || pair.pair.second === id))
+    return (pair.places[1].x - pair.places[0].x) * (pair.pair.first === id ? 1 : -1);
+  return places[0]?.velocity[0] ?? 0;
+}
+
+const heightText = (place: Place, isMetres: boolean): string =>
+  isMetres ? `${Math.round(place.alt ?? 0)} m` : lengthText(place.z, false);
+
+function isFar(view: View, x: number, y: number, margin: number): boolean {
+  return x < -margin || y < -margin || x > view.width + margin || y > view.height + margin;
+}
+
+/** Where a line of points crosses a horizontal (axis 1) or upright (axis 0) line of the screen; null if it does not. */
+function crossing(view: View, points: number[], axis: 0 | 1, at: number): number | null {
+  for (let k = 2; k < points.length; k += 2) {
+    const before = view.toScreen(points[k - 2]!, points[k - 1]!);
+    const after = view.toScreen(points[k]!, points[k + 1]!);
+    if ((before[axis] - at) * (after[axis] - at) > 0 || before[axis] === after[axis]) continue;
+    const part = (at - before[axis]) / (after[axis] - before[axis]);
+    return before[1 - axis]! + part * (after[1 - axis]! - before[1 - axis]!);
+  }
+  return null;
+}
+
+/** Room on the screen that text has taken, in squares. */
+class Taken {
+  private readonly squares = new Set<number>();
+
+  /** False where some of it is taken, unless it is to be taken anyway. */
+  take(x: number, y: number, width: number, height: number, anyway = false): boolean {
+    if (!anyway && !this.isFree(x, y, width, height)) return false;
+    this.occupy(x, y, width, height);
+    return true;
+  }
+  isFree(x: number, y: number, width: number, height: number): boolean {
+    for (const square of squaresOf(x, y, width, height)) if (this.squares.has(square)) return false;
+    return true;
+  }
+  occupy(x: number, y: number, width: number, height: number): void {
+    for (const square of squaresOf(x, y, width, height)) this.squares.add(square);
+  }
+}
+
+function* squaresOf(x: number, y: number, width: number, height: number): Iterable<number> {
+  const [columns, rows] = [8, 7];
+  for (let row = Math.floor(y / rows); row <= Math.floor((y + height) / rows); ++row)
+    for (let column = Math.floor(x / columns); column <= Math.floor((x + width) / columns); ++column)
+      yield row * 65536 + column;
+}

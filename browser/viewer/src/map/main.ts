@@ -1,0 +1,307 @@
+// The map of a watch: asks for its state, and shows it.
+import { applyTheme, calmQuery, darkQuery, type Theme } from "../theme.ts";
+import { Chart, type Chosen, coloursOfPage } from "./chart.ts";
+import { EarthPlane } from "./earth.ts";
+import { scaleBar } from "./graticule.ts";
+import { followPointers } from "./hand.ts";
+import { Lists } from "./lists.ts";
+import { type Lost, Polling } from "./polling.ts";
+import { boundsOf, placesOf, type Scene, sceneOf } from "./scene.ts";
+import type { WatchState } from "./state.ts";
+import { durationText, lengthText, shownName, timeText } from "./text.ts";
+import { View } from "./view.ts";
+import "../base.css";
+import "./style.css";
+
+const element = <E extends HTMLElement>(id: string): E => document.querySelector<E>(`#${id}`)!;
+
+const canvas = element<HTMLCanvasElement>("picture");
+const chart = new Chart(canvas);
+const view = new View();
+const chosen: Chosen = { track: null, pair: null, hovered: null };
+let scene: Scene | null = null;
+let plane: EarthPlane | null = null;
+let theme: Theme = "system";
+/** Whether the view follows the tracks: until somebody moves it. */
+let isFollowing = true;
+
+const lists = new Lists({ choosePair, chooseTrack: (id) => chooseTrack(id, true) });
+
+// Drawing.
+
+let isDue = false;
+function redraw(): void {
+  if (isDue) return;
+  isDue = true;
+  requestAnimationFrame((now) => {
+    isDue = false;
+    const isFlying = view.fly(now);
+    const start = performance.now();
+    chart.draw(view, scene, plane, chosen);
+    map.pictures += 1;
+    map.drawing = performance.now() - start;
+    showScale();
+    if (isFlying) redraw();
+  });
+}
+
+function showScale(): void {
+  const { length, pixels } = scaleBar(view.look.scale, 150);
+  element("scale-bar").style.width = `${pixels}px`;
+  element("scale-text").textContent = scene === null ? "" : lengthText(length, scene.state.geographic === true);
+  element("look-ahead").textContent = chart.lookAhead > 0 ? `; line: straight on for ${chart.lookAhead < 60 ? `${chart.lookAhead} s` : durationText(chart.lookAhead)}` : "";
+}
+
+function repaint(): void {
+  applyTheme(theme);
+  chart.colours = coloursOfPage();
+  redraw();
+}
+
+function resize(): void {
+  const panel = (id: string) => element(id).getBoundingClientRect();
+  const isNarrow = innerWidth <= 720;
+  const gap = 12;
+  view.insets = isNarrow
+    ? { left: gap, right: gap, top: panel("hud").bottom + gap, bottom: innerHeight - panel("transport").top + gap }
+    : { left: panel("hud").right + gap, right: innerWidth - panel("lists").left + gap, top: gap, bottom: innerHeight - panel("transport").top + gap };
+  chart.resize(view);
+  if (isFollowing) fit(false);
+  redraw();
+}
+
+// Where to look.
+
+/** No part of the plane narrower than this is shown by itself: about the bounds and separations that are there. */
+function leastWidth(): number {
+  let width = 0;
+  for (const { horizontal } of scene?.state.separations ?? []) width = Math.max(width, 2 * horizontal);
+  return width;
+}
+
+function fly(ids: readonly string[], margin: number): boolean {
+  const bounds = boundsOf(placesOf(ids.map((id) => scene?.tracks.get(id))));
+  if (bounds === null) return false;
+  view.flyTo(view.lookAt(bounds, margin), calmQuery.matches ? 0 : 0.35);
+  redraw();
+  return true;
+}
+
+function follow(on: boolean): void {
+  isFollowing = on;
+  element("fit").setAttribute("aria-pressed", String(on));
+}
+
+function fit(isSmooth: boolean): void {
+  follow(true);
+  const bounds = scene === null ? null : boundsOf(placesOf(scene.tracks.values()));
+  if (bounds === null) return;
+  view.flyTo(view.lookAt(bounds, leastWidth()), isSmooth && !calmQuery.matches ? 0.35 : 0);
+  redraw();
+}
+
+function zoom(factor: number): void {
+  view.zoom(factor);
+  follow(false);
+  redraw();
+}
+function pan(x: number, y: number): void {
+  view.pan(x, y);
+  follow(false);
+  redraw();
+}
+
+// What is chosen.
+
+function showChosen(): void {
+  lists.showChosen(chosen.track, chosen.pair);
+  redraw();
+}
+
+function chooseTrack(id: string | null, isToBeSeen: boolean): void {
+  chosen.track = id;
+  chosen.pair = null;
+  showChosen();
+  if (id === null || !isToBeSeen) return;
+  follow(false);
+  // Everything around stays as large as it is, where it can.
+  const [width, height] = view.free;
+  fly([id], Math.max(leastWidth() * 2, Math.min(width, height) / view.look.scale * 0.8));
+}
+
+function choosePair(key: string): void {
+  const drawn = scene?.pairs.find((each) => each.key === key);
+  if (drawn === undefined) return;
+  chosen.pair = key;
+  chosen.track = null;
+  showChosen();
+  follow(false);
+  fly([drawn.pair.first, drawn.pair.second], leastWidth());
+}
+
+function nextPair(): void {
+  if (scene === null || scene.pairs.length === 0) return;
+  const at = scene.pairs.findIndex(({ key }) => key === chosen.pair);
+  choosePair(scene.pairs[(at + 1) % scene.pairs.length]!.key);
+}
+
+/** The track whose dot is nearest to a place of the screen, if any is near. */
+function trackAt(x: number, y: number): string | null {
+  let nearest: string | null = null;
+  let least = 14;
+  for (const [id, { track }] of scene?.tracks ?? []) {
+    for (const place of track.places) {
+      const [atX, atY] = view.toScreen(place.x, place.y);
+      const distance = Math.hypot(atX - x, atY - y);
+      if (distance >= least) continue;
+      least = distance;
+      nearest = id;
+    }
+  }
+  return nearest;
+}
+
+function pairAt(x: number, y: number): string | null {
+  for (const { key, places } of scene?.pairs ?? []) {
+    if (places === null) continue;
+    const [a, b] = places.map((place) => view.toScreen(place.x, place.y)) as [[number, number], [number, number]];
+    const length2 = (b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2;
+    const part = length2 === 0 ? 0 : Math.max(0, Math.min(1, ((x - a[0]) * (b[0] - a[0]) + (y - a[1]) * (b[1] - a[1])) / length2));
+    if (Math.hypot(a[0] + part * (b[0] - a[0]) - x, a[1] + part * (b[1] - a[1]) - y) < 6) return key;
+  }
+  return null;
+}
+
+followPointers(canvas, view, {
+  moved: () => {
+    follow(false);
+    redraw();
+  },
+  chooseAt: (x, y) => {
+    chosen.track = trackAt(x, y);
+    chosen.pair = chosen.track === null ? pairAt(x, y) : null;
+    showChosen();
+  },
+  hoverAt: (x, y) => {
+    const hovered = trackAt(x, y);
+    canvas.classList.toggle("pointing", hovered !== null || pairAt(x, y) !== null);
+    if (hovered === chosen.hovered) return;
+    chosen.hovered = hovered;
+    redraw();
+  },
+});
+
+element("find").addEventListener("submit", (event) => {
+  event.preventDefault();
+  const wanted = element<HTMLInputElement>("find-text").value.trim().toLowerCase();
+  const ids = [...scene?.tracks.keys() ?? []];
+  const found = wanted === "" ? [] : ids.filter((id) => id.toLowerCase().includes(wanted));
+  const id = found.find((each) => each.toLowerCase() === wanted) ?? found[0];
+  element("find-answer").textContent = wanted === "" ? "" : found.length === 0 ? "No track is called so."
+    : found.length > 1 ? `${found.length} tracks; this is ${shownName(id!)}` : "";
+  if (id !== undefined) chooseTrack(id, true);
+});
+
+// Keys and buttons.
+
+const step = 80;
+const keys: Record<string, () => void> = {
+  arrowleft: () => pan(step, 0),
+  arrowright: () => pan(-step, 0),
+  arrowup: () => pan(0, step),
+  arrowdown: () => pan(0, -step),
+  "+": () => zoom(1.5),
+  "=": () => zoom(1.5),
+  "-": () => zoom(1 / 1.5),
+  f: () => fit(true),
+  p: nextPair,
+  "/": () => element("find-text").focus(),
+  n: () => {
+    chart.showNames = !chart.showNames;
+    element("names").setAttribute("aria-pressed", String(chart.showNames));
+    redraw();
+  },
+  t: () => {
+    theme = document.documentElement.dataset["theme"] === "dark" ? "bright" : "dark";
+    repaint();
+  },
+  escape: () => chooseTrack(null, false),
+  "?": () => element<HTMLDialogElement>("help").showModal(),
+};
+addEventListener("keydown", (event) => {
+  if (event.ctrlKey || event.metaKey || event.altKey || element<HTMLDialogElement>("help").open) return;
+  const target = event.target as HTMLElement;
+  if (target.matches("input")) {
+    if (event.key === "Escape") canvas.focus();
+    return;
+  }
+  // Lists scroll with arrows.
+  if (event.key.startsWith("Arrow") && target.closest("#lists") !== null) return;
+  const action = keys[event.key.toLowerCase()];
+  if (action === undefined) return;
+  event.preventDefault();
+  action();
+});
+for (const [id, key] of [["zoom-in", "+"], ["zoom-out", "-"], ["fit", "f"], ["names", "n"], ["theme", "t"], ["help-open", "?"], ["details-close", "escape"]] as const)
+  element(id).addEventListener("click", keys[key]!);
+darkQuery.addEventListener("change", repaint);
+new ResizeObserver(resize).observe(canvas);
+
+// The state.
+
+function planeOf({ origin }: WatchState): EarthPlane | null {
+  if (origin === null) return null;
+  return plane?.longitude === origin.lon && plane.latitude === origin.lat ? plane : new EarthPlane(origin.lon, origin.lat);
+}
+
+function show(state: WatchState): void {
+  const isFirst = scene === null || scene.tracks.size === 0;
+  element("lost").hidden = true;
+  document.body.classList.remove("lost");
+  scene = sceneOf(state);
+  plane = planeOf(state);
+  lists.show(scene, chosen.track, chosen.pair);
+  const bounds = boundsOf(placesOf(scene.tracks.values()));
+  if (isFollowing && bounds !== null && (isFirst || !view.suits(bounds, leastWidth()))) fit(!isFirst);
+  map.states += 1;
+  redraw();
+}
+
+function lose({ since, reason }: Lost): void {
+  const clock = since.toLocaleTimeString("en-GB");
+  const last = scene === null ? "" : ` What is shown is its state at ${timeText(scene.state.time).text} of the stream.`;
+  const text = `The stream has ended, or the watch cannot be reached, since ${clock}${reason === "" ? "" : ` (${reason})`}.${last}`;
+  const place = element("lost");
+  place.hidden = false;
+  if (place.textContent !== text) place.textContent = text;
+  document.body.classList.add("lost");
+  if (scene === null) element("about").textContent = "No state has come yet.";
+}
+
+/** For tests, and for whoever looks at it in the console. */
+const map = {
+  get scene(): Scene | null { return scene; },
+  get plane(): EarthPlane | null { return plane; },
+  view,
+  chosen,
+  /** Shows another state than the watch's. */
+  show,
+  redraw,
+  pictures: 0,
+  states: 0,
+  /** Milliseconds of the last picture. */
+  drawing: 0,
+};
+declare global {
+  interface Window { kinesphereMap: typeof map }
+}
+window.kinesphereMap = map;
+
+repaint();
+resize();
+const polling = new Polling("state.json", show, lose);
+void polling.ask();
+// A page that was hidden has not asked for a while.
+document.addEventListener("visibilitychange", () => {
+  if (!document.hidden) void polling.ask();
+});

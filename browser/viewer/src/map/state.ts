@@ -1,0 +1,73 @@
+// What /state.json of `kinesphere watch --serve` tells (docs/watch.md).
+
+/** As in the stream: a number, or a text with a date. */
+export type StreamTime = number | string;
+
+export interface Place {
+  /** In the plane of the watch. Of latitudes and longitudes that is metres east and north of the origin. */
+  x: number;
+  y: number;
+  z: number;
+  lon?: number;
+  lat?: number;
+  alt?: number;
+  velocity: [number, number, number];
+  /** Horizontal and vertical; null where there is no limit. */
+  radius: [number | null, number | null];
+}
+
+export interface Track {
+  id: string;
+  stamp: StreamTime | null;
+  silent: boolean;
+  /** It certainly is in one of these. */
+  places: Place[];
+}
+
+export type OpenVerdict = "undecided" | "within";
+
+export interface Pair {
+  first: string;
+  second: string;
+  separation: string;
+  level: number;
+  verdict: OpenVerdict;
+  since: StreamTime | null;
+  distance: [number | null, number | null];
+  until: StreamTime | null;
+  closest_distance: number | null;
+  closest_time: StreamTime | null;
+  likely_time: StreamTime | null;
+  ask: string;
+  ask_by: StreamTime | null;
+}
+
+/** Without a report of `track` by then something about the two turns undecided. */
+export interface Need {
+  track: string;
+  by: StreamTime | null;
+  other: string;
+}
+
+export interface Separation {
+  name: string;
+  shape: "ellipsoid" | "cylinder";
+  horizontal: number;
+  vertical: number;
+}
+
+export interface WatchState {
+  /** Null before the first report. */
+  time: StreamTime | null;
+  stream: string;
+  geographic: boolean | null;
+  dimensions: 2 | 3 | null;
+  origin: { lon: number; lat: number; radius: number } | null;
+  silence: number | null;
+  forget: number | null;
+  separations: Separation[];
+  counts: Record<string, number>;
+  tracks: Track[];
+  pairs: Pair[];
+  needed: Need[];
+}

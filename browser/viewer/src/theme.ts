@@ -1,0 +1,12 @@
+// Dark or bright, on all pages.
+export type Theme = "system" | "dark" | "bright";
+
+export const darkQuery = matchMedia("(prefers-color-scheme: dark)");
+export const calmQuery = matchMedia("(prefers-reduced-motion: reduce)");
+
+/** Gives the page's elements the colours of a theme. True if that is dark. */
+export function applyTheme(theme: Theme): boolean {
+  const isDark = theme === "system" ? darkQuery.matches : theme === "dark";
+  document.documentElement.dataset["theme"] = isDark ? "dark" : "bright";
+  return isDark;
+}

@@ -1,0 +1,260 @@
+// The map of `kinesphere watch --serve`, as a person uses it: the program, KINESPHERE_PROGRAM, reads a stream that stays
+// open, and serves the page of KINESPHERE_VIEWER.
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { createInterface } from "node:readline";
+import { after, before, describe, test } from "node:test";
+
+import { browserForTests } from "./page.mjs";
+
+const inBrowser = browserForTests({
+  viewport: { width: 1200, height: 800 },
+  graphics: [],
+  isReady: () => window.kinesphereMap?.scene?.tracks.size > 0 && window.kinesphereMap.pictures > 0,
+});
+const { complaints } = inBrowser;
+
+/** A watch whose stream goes on until `end`. */
+class Watch {
+  constructor(...options) {
+    this.process = spawn(process.env.KINESPHERE_PROGRAM, ["watch", "--format", "jsonl", "--serve", "0", "--quiet", ...options],
+                         { stdio: ["pipe", "ignore", "pipe"] });
+    this.address = new Promise((told) => createInterface(this.process.stderr).once("line",
+      (line) => told(/http:\S+/.exec(line)[0])));
+  }
+  report(...reports) {
+    for (const report of reports) this.process.stdin.write(`${JSON.stringify(report)}\n`);
+  }
+  /** The exit code. */
+  end() {
+    const gone = new Promise((done) => this.process.once("exit", done));
+    this.process.stdin.end();
+    return gone;
+  }
+}
+
+const at = (id, stamp, x, y, velocity = [0, 0, 0]) => ({ id, stamp, position: [x, y, 0], velocity });
+const hostile = `<img src=x onerror="window.wasRun = true">\u202e&amp;`;
+/** It is shown as one name in one line. */
+const shownHostile = `<img src=x onerror="window.wasRun = true">\ufffd&amp;`;
+
+/** Colours, of 255 each, of the picture at places of the screen. */
+const coloursAt = (page, places) => page.evaluate((places) => {
+  const canvas = document.querySelector("#picture");
+  const { data, width } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  const ratio = width / canvas.clientWidth;
+  return places.map(([x, y]) => 4 * (Math.floor(y * ratio) * width + Math.floor(x * ratio))).map((at) => [...data.slice(at, at + 3)]);
+}, places);
+/** One of the map's, as the style sheet has it. */
+const namedColour = (page, name) => page.evaluate((name) => {
+  const text = getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+  return [1, 3, 5].map((k) => parseInt(text.slice(k, k + 2), 16));
+}, name);
+const difference = (a, b) => Math.max(...a.map((value, k) => Math.abs(value - b[k])));
+
+/** How much of the line between two tracks has a colour. */
+async function shareOfLine(page, first, second, name) {
+  await isDrawn(page);
+  const ends = await page.evaluate((ids) => ids.map((id) => {
+    const [place] = window.kinesphereMap.scene.tracks.get(id).track.places;
+    return window.kinesphereMap.view.toScreen(place.x, place.y);
+  }), [first, second]);
+  const places = Array.from({ length: 60 }, (_, k) => [0, 1].map((axis) => ends[0][axis] + (ends[1][axis] - ends[0][axis]) * (0.25 + k / 120)));
+  const colour = await namedColour(page, name);
+  return (await coloursAt(page, places)).filter((found) => difference(found, colour) < 40).length / places.length;
+}
+
+const texts = (page, selector) => page.$$eval(selector, (found) => found.map((each) => each.textContent));
+const number = (page, name) => page.textContent(`#numbers [data-name="${name}"] dd`);
+/** The browser tells of every question that nobody answers. */
+const isNoMissingServer = (complaint) => !complaint.startsWith("Failed to load resource: net::ERR_CONNECTION");
+/** The picture shows what was asked for last: nothing flies. */
+const isDrawn = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+const calmly = { reducedMotion: "reduce" };
+
+describe("a stream with x and y", () => {
+  const watch = new Watch("--dimensions", "2", "--separation", "sphere:30", "--acceleration", "1", "--position-error", "0.5",
+                          "--velocity-error", "0.1", "--silence", "5");
+  let page;
+  before(async () => {
+    watch.report(at("quiet", 0, 300, 100), at("far", 0, 0, -200), at("far", 6, 0, -200));
+    watch.report(at(hostile, 6, 0, 100), at("near", 6, 20, 100));
+    // 34 apart, which is not certain to be more than 30 after two seconds without a report.
+    watch.report(at("west", 6, -100, 0), at("east", 6, -66, 0));
+    watch.report(at("split", 7, -200, 0), at("split", 7.5, -200, 90), at("far", 8, 0, -200));
+    page = await inBrowser.open(await watch.address, calmly);
+    await page.waitForFunction(() => window.kinesphereMap.scene.state.time === 8);
+  });
+  after(() => watch.process.kill());
+
+  test("its numbers are those of the watch", async () => {
+    assert.equal(await number(page, "time"), "8.0 s");
+    assert.equal(await number(page, "tracks"), "7");
+    assert.match(await page.textContent('#numbers [data-name="tracks"]'), /1 silent/);
+    assert.equal(await number(page, "within"), "1");
+    assert.equal(await number(page, "undecided"), "1");
+    assert.equal(await number(page, "reports"), "10");
+    assert.equal(await page.textContent("#about"), "standard input");
+  });
+
+  test("pairs and needs are told in words", async () => {
+    const [within, undecided, ...others] = await texts(page, "#pairs li");
+    assert.deepEqual(others, []);
+    assert.match(within, /within.*sphere:30 · 1\d[.]?\d* to 2\d/s);
+    assert.match(within, /certain for/);
+    assert.match(undecided, /^east–west.*undecided.*ask (east|west) now/s);
+    const needs = await texts(page, "#needs li");
+    assert.ok(needs.some((text) => /^(east|west)now/.test(text)), needs.join("; "));
+    assert.equal(await number(page, "needed"), String(needs.length));
+  });
+
+  test("a pair that is clicked is gone to, and drawn in the colour of its verdict", async () => {
+    await page.click("#pairs li:nth-child(2) button");
+    assert.equal(await page.getAttribute("#pairs li:nth-child(2) button", "aria-pressed"), "true");
+    assert.ok(await shareOfLine(page, "west", "east", "undecided") > 0.4);
+    await page.keyboard.press("p");
+    assert.ok(await shareOfLine(page, hostile, "near", "within") > 0.9);
+    assert.ok(await shareOfLine(page, hostile, "near", "undecided") < 0.1);
+  });
+
+  test("who is needed has corners", async () => {
+    await page.keyboard.press("f");
+    await isDrawn(page);
+    const places = await page.evaluate(() => [...window.kinesphereMap.scene.tracks.values()].filter(({ need }) => need !== null)
+      .map(({ track }) => window.kinesphereMap.view.toScreen(track.places[0].x, track.places[0].y)).map(([x, y]) => [x + 9, y + 7]));
+    assert.ok(places.length > 0);
+    const need = await namedColour(page, "need");
+    for (const colour of await coloursAt(page, places)) assert.ok(difference(colour, need) < 60, `${colour}`);
+  });
+
+  test("an id is nothing but text", async () => {
+    assert.ok((await texts(page, "#pairs .ids")).some((text) => text.includes(shownHostile)));
+    await page.fill("#find-text", "onerror");
+    await page.keyboard.press("Enter");
+    assert.equal(await page.textContent("#details-title"), shownHostile);
+    assert.equal(await page.evaluate(() => document.images.length), 0);
+    assert.equal(await page.evaluate(() => window.wasRun), undefined);
+  });
+
+  test("a track that is clicked, or found by the keyboard, tells all about itself", async () => {
+    await page.keyboard.press("Escape");
+    await page.keyboard.press("f");
+    await isDrawn(page);
+    const [x, y] = await page.evaluate(() => {
+      const [place] = window.kinesphereMap.scene.tracks.get("quiet").track.places;
+      return window.kinesphereMap.view.toScreen(place.x, place.y);
+    });
+    await page.mouse.click(x, y);
+    assert.equal(await page.textContent("#details-title"), "quiet");
+    assert.match(await page.textContent("#details-rows"), /8\.0 s ago, silent/);
+    await page.keyboard.press("/");
+    await page.keyboard.type("spl");
+    await page.keyboard.press("Enter");
+    assert.equal(await page.textContent("#details-title"), "split");
+    assert.match(await page.textContent("#details-rows"), /in one of 2 places/);
+    await page.keyboard.press("Escape");
+    await page.keyboard.press("Escape");
+    assert.equal(await page.isHidden("#details"), true);
+  });
+
+  test("keys move the map, and another theme paints it anew", async () => {
+    const look = () => page.evaluate(() => ({ ...window.kinesphereMap.view.look }));
+    const first = await look();
+    await page.keyboard.press("ArrowRight");
+    await page.keyboard.press("+");
+    const second = await look();
+    assert.ok(second.x > first.x && second.scale > first.scale);
+    assert.equal(await page.getAttribute("#fit", "aria-pressed"), "false");
+    const ground = await namedColour(page, "ground");
+    await page.keyboard.press("t");
+    await isDrawn(page);
+    assert.notDeepEqual(await namedColour(page, "ground"), ground);
+    const [corner] = await coloursAt(page, [[600, 3]]);
+    assert.ok(difference(corner, await namedColour(page, "ground")) < 30, `${corner}`);
+    await page.keyboard.press("t");
+  });
+
+  test("it follows the stream", async () => {
+    watch.report(at("west", 9, -140, 0), at("east", 9, -66, 0), at("far", 10, 0, -200));
+    await page.waitForFunction(() => window.kinesphereMap.scene.state.time === 10);
+    assert.equal(await number(page, "time"), "10.0 s");
+  });
+
+  test("nothing was complained of, and the end of the stream is told", async () => {
+    assert.deepEqual(complaints, []);
+    assert.equal(await page.isHidden("#lost"), true);
+    assert.equal(await watch.end(), 0);
+    await page.waitForSelector("#lost:not([hidden])");
+    assert.match(await page.textContent("#lost"), /^The stream has ended, or the watch cannot be reached, since \d\d:\d\d:\d\d\. What is shown is its state at 10\.0 s/);
+    assert.deepEqual(complaints.filter(isNoMissingServer), []);
+    complaints.length = 0;
+  });
+});
+
+describe("a stream with longitudes and latitudes", () => {
+  const watch = new Watch("--separation", "cylinder:5NM:1000ft", "--origin", "60,10", "--radius", "500km", "--acceleration", "6",
+                          "--largest-speed", "300", "--position-error", "50", "--velocity-error", "10");
+  after(() => watch.process.kill());
+
+  test("its places lie where the map's own graticule has them", async () => {
+    for (const [id, lon, lat] of [["middle", 10, 60], ["north-east", 12, 61.5], ["west", 3, 59.5], ["south", 10.5, 56]])
+      watch.report({ id, stamp: 1, lon, lat, alt: 1000 });
+    const page = await inBrowser.open(await watch.address, calmly);
+    await page.waitForFunction(() => window.kinesphereMap.scene.tracks.size === 4);
+    const errors = await page.evaluate(() => {
+      const { scene, plane } = window.kinesphereMap;
+      return [...scene.tracks.values()].map(({ track: { places: [place] } }) => {
+        const [x, y] = plane.toPlane(place.lon, place.lat);
+        const [lon, lat] = plane.toEarth(place.x, place.y);
+        return { metres: Math.hypot(x - place.x, y - place.y), degrees: Math.hypot(lon - place.lon, lat - place.lat) };
+      });
+    });
+    for (const { metres, degrees } of errors) assert.ok(metres < 20 && degrees < 1e-3, JSON.stringify(errors));
+    await isDrawn(page);
+    assert.match(await page.textContent("#scale-text"), /^\d+ km$/);
+    assert.match(await page.textContent("#pairs-more"), /certainly apart/);
+    await page.fill("#find-text", "north-east");
+    await page.keyboard.press("Enter");
+    assert.match(await page.textContent("#details-rows"), /61°30′00\.0″N 12°00′00\.0″E, 1000 m/);
+  });
+
+  test("its colours differ for the colour-blind, and from the ground", async () => {
+    const page = inBrowser.page;
+    for (const theme of ["dark", "bright"]) {
+      await page.evaluate((theme) => void (document.documentElement.dataset.theme = theme), theme);
+      const named = {};
+      for (const name of ["ground", "undecided", "within", "need", "track", "silent"]) named[name] = await namedColour(page, name);
+      for (const [name, colour] of Object.entries(named))
+        if (name !== "ground") assert.ok(contrast(colour, named.ground) >= 3, `${theme}: ${name} on the ground`);
+      for (const [sight, matrix] of Object.entries(sights)) {
+        const seen = ["undecided", "within", "need"].map((name) => lab(matrix, named[name]));
+        for (const [a, b] of [[0, 1], [0, 2], [1, 2]])
+          assert.ok(Math.hypot(...seen[a].map((value, k) => value - seen[b][k])) > 25, `${theme}, ${sight}: ${a} and ${b}`);
+      }
+    }
+    assert.equal(await watch.end(), 0);
+    assert.deepEqual(complaints.filter(isNoMissingServer), []);
+  });
+});
+
+/** What is seen of linear red, green and blue (Machado, Oliveira and Fernandes 2009). */
+const sights = {
+  usual: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+  protanopia: [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
+  deuteranopia: [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.01182, 0.04294, 0.968881]],
+  tritanopia: [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.3039]],
+};
+const linear = (colour) => colour.map((value) => value / 255).map((value) => value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4);
+const product = (matrix, vector) => matrix.map((row) => row.reduce((sum, value, k) => sum + value * vector[k], 0));
+const toXyz = [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]];
+
+function contrast(a, b) {
+  const [one, other] = [a, b].map((colour) => product(toXyz, linear(colour))[1] + 0.05);
+  return Math.max(one, other) / Math.min(one, other);
+}
+
+function lab(matrix, colour) {
+  const seen = product(matrix, linear(colour)).map((value) => Math.max(0, Math.min(1, value)));
+  const [x, y, z] = product(toXyz, seen).map((value, k) => Math.cbrt(value / [0.9505, 1, 1.089][k]));
+  return [116 * y - 16, 500 * (x - y), 200 * (y - z)];
+}
