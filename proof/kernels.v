@@ -384,6 +384,10 @@ Definition meeting_step (a b : bound) (from distance d : double) : double :=
   let t46 := (((((literal 0 0) * t7) + ((literal 0 0) * t13)) + ((literal 0 0) * t18)) - t26) - t45 in
   first_crossing ((((literal 0 0) - t23) - t28) - t38) t44 t46.
 
+(* src/bound/certificates.cpp *)
+Definition earliest_meeting (a b : bound) (from until distance : double) : double :=
+  advance_by_safe_steps (meeting_step a b from distance) from until.
+
 (* src/window/capsule_search_plain.cpp: one capsule of a table *)
 Definition left_out (other one : capsule) (from to : single) : bool :=
   let t1 := other.(centre_x) - one.(centre_x) in

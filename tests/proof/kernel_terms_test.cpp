@@ -4,8 +4,13 @@
 // holds.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
 
 #include "proof/traced_kernels.hpp"
 
@@ -41,20 +46,41 @@ kernels::Capsule capsule(const std::string& name) {
           .radius = part("ball")};
 }
 
-/// Whether the search leaves the one capsule of a table out.
-bool left_out() {
-  const kernels::Capsule other = capsule("other");
-  const kernels::CapsuleColumns table{
-      other.centre.data(),   other.centre.data() + 1,   other.centre.data() + 2,
-      other.velocity.data(), other.velocity.data() + 1, other.velocity.data() + 2,
-      &other.radius};
-  const std::array queries{kernels::CapsuleQuery{
-      .capsule = capsule("one"), .from = variable<Single>("from"), .to = variable<Single>("to")}};
-  const std::array runs{kernels::Run{.begin = 0, .end = 1}};
-  std::array<std::uint32_t, 1> found{};
-  std::array<std::uint32_t, 1> ends{};
-  kernels::near_capsules_plain(table, queries, runs, found.data(), ends.data());
-  return ends[0] == 0;
+kernels::CapsuleQuery query(const std::string& name, const std::string& number = "") {
+  return {.capsule = capsule(name),
+          .from = variable<Single>("from" + number),
+          .to = variable<Single>("to" + number)};
+}
+
+/// What a search finds, run by run, in a table of these capsules.
+std::vector<std::vector<std::uint32_t>> found(const std::vector<kernels::Capsule>& capsules,
+                                              const std::vector<kernels::CapsuleQuery>& queries,
+                                              const std::vector<kernels::Run>& runs) {
+  std::array<std::vector<Single>, 7> columns;
+  for (const kernels::Capsule& capsule : capsules) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      columns[axis].push_back(capsule.centre[axis]);
+      columns[3 + axis].push_back(capsule.velocity[axis]);
+    }
+    columns[6].push_back(capsule.radius);
+  }
+  kernels::CapsuleColumns table;
+  for (std::size_t k = 0; k < columns.size(); ++k) table[k] = columns[k].data();
+  std::vector<std::uint32_t> places(capsules.size() * runs.size());
+  std::vector<std::uint32_t> ends(runs.size());
+  kernels::near_capsules_plain(table, queries, runs, places.data(), ends.data());
+  std::vector<std::vector<std::uint32_t>> answer;
+  std::uint32_t begin = 0;
+  for (const std::uint32_t end : ends) {
+    answer.emplace_back(places.begin() + begin, places.begin() + end);
+    begin = end;
+  }
+  return answer;
+}
+
+/// Whether a search leaves a capsule out.
+bool left_out(const kernels::Capsule& other, const kernels::CapsuleQuery& one) {
+  return found({other}, {one}, {kernels::Run{.begin = 0, .end = 1}})[0].empty();
 }
 
 std::string kernels_file() {
@@ -81,11 +107,18 @@ std::string kernels_file() {
   add("src/bound/safe_steps.hpp",
       "advance_by_safe_steps (step : double -> double) (from until : double) : double",
       [&] { return kernels::advance_by_safe_steps(from, until, [](Double d) { return call("step", d); }); });
+  const auto earliest_meeting = [&] {
+    return kernels::earliest_meeting(bound("a"), bound("b"), from, until, distance);
+  };
   add("src/bound/certificates.cpp: the step of earliest_meeting, d after from",
-      "meeting_step (a b : bound) (from distance d : double) : double",
-      [&] { return kernels::earliest_meeting(bound("a"), bound("b"), from, until, distance); });
+      "meeting_step (a b : bound) (from distance d : double) : double", earliest_meeting);
+  kernels::name_of_step = "meeting_step a b from distance";
+  add("src/bound/certificates.cpp", "earliest_meeting (a b : bound) (from until distance : double) : double",
+      earliest_meeting);
+  kernels::name_of_step.clear();
   add("src/window/capsule_search_plain.cpp: one capsule of a table",
-      "left_out (other one : capsule) (from to : single) : bool", left_out);
+      "left_out (other one : capsule) (from to : single) : bool",
+      [] { return left_out(capsule("other"), query("one")); });
   return text;
 }
 
@@ -96,6 +129,27 @@ TEST(KernelTerms, AreThoseThatHaveBeenProved) {
   std::ifstream file(path);
   const std::string proved{std::istreambuf_iterator<char>(file), {}};
   EXPECT_EQ(written, proved) << "the library computes something else than what proof/ is about";
+}
+
+/// However its comparisons turn out, a search finds those whom it does not leave out one by one.
+TEST(KernelTerms, ASearchLooksAtEachCapsuleByItself) {
+  const std::vector<kernels::Capsule> capsules{capsule("a"), capsule("b")};
+  const std::vector<kernels::CapsuleQuery> queries{query("c", "_1"), query("d", "_2")};
+  const std::vector<kernels::Run> runs{{.begin = 0, .end = 2, .query = 1},
+                                       {.begin = 1, .end = 2, .query = 0}};
+  int ways = 0;
+  traced::term_of([&] {
+    const auto places = found(capsules, queries, runs);
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      std::vector<std::uint32_t> expected;
+      for (std::uint32_t k = runs[r].begin; k < runs[r].end; ++k)
+        if (!left_out(capsules[k], queries[runs[r].query])) expected.push_back(k);
+      EXPECT_EQ(places[r], expected);
+    }
+    ++ways;
+    return true;
+  });
+  EXPECT_GT(ways, 100);
 }
 
 }  // namespace

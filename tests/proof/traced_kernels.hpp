@@ -58,13 +58,16 @@ inline double called_first_crossing(double c, double b, double a) {
 #include "bound/safe_steps.hpp"
 
 namespace kinesphere {
-/// The step that one round takes, d after the beginning.
+/// What advance_by_safe_steps() is handed: the step that a round takes, d after the beginning; or, where the
+/// step is a term by itself, of this name, from when until when it goes on.
+inline std::string name_of_step;
 template <class SafeStep>
-double one_step(double, double, SafeStep step) {
-  return step(traced::variable("d"));
+double advance_by_a_step(double from, double until, SafeStep step) {
+  if (name_of_step.empty()) return step(traced::variable("d"));
+  return traced::call("advance_by_safe_steps", traced::variable(name_of_step), from, until);
 }
 }  // namespace kinesphere
-#define advance_by_safe_steps one_step
+#define advance_by_safe_steps advance_by_a_step
 
 #include "bound/certificates.cpp"
 #include "bound/encounter.hpp"

@@ -36,7 +36,8 @@ inline const Node* node_of(const std::string& operation, const std::vector<const
 
 /// m 2^e, exactly.
 inline const Node* literal(double value) {
-  if (std::isinf(value)) return value > 0.0 ? node_of("infinity") : node_of("-", {node_of("infinity")});
+  if (std::signbit(value)) return node_of("-", {literal(-value)});
+  if (std::isinf(value)) return node_of("infinity");
   int exponent = 0;
   double mantissa = std::frexp(value, &exponent);
   while (mantissa != std::trunc(mantissa)) {
@@ -48,8 +49,9 @@ inline const Node* literal(double value) {
     mantissa *= 2.0;
     --exponent;
   }
-  const auto number = [](long long n) { return n < 0 ? "(" + std::to_string(n) + ")" : std::to_string(n); };
-  return node_of("literal " + number(static_cast<long long>(mantissa)) + " " + number(exponent));
+  const std::string power = std::to_string(exponent);
+  return node_of("literal " + std::to_string(static_cast<long long>(mantissa)) + " " +
+                 (exponent < 0 ? "(" + power + ")" : power));
 }
 
 struct Undecided {
@@ -74,7 +76,7 @@ class Number {
  public:
   constexpr Number() = default;
   template <class Value, class = std::enable_if_t<std::is_arithmetic_v<Value>>>
-  constexpr Number(Value value) : constant_(static_cast<double>(value)) {}  // NOLINT
+  constexpr Number(Value value) : constant_(rounded(static_cast<double>(value))) {}  // NOLINT
   explicit Number(const Node* node) : node_(node) {}
   /// Rounded to another width.
   template <int other, class = std::enable_if_t<other != width>>
@@ -123,6 +125,9 @@ class Number {
   friend constexpr bool operator>=(Number a, Number b) { return b <= a; }
 
  private:
+  static constexpr double rounded(double value) {
+    return width == 24 ? static_cast<double>(static_cast<float>(value)) : value;
+  }
   static constexpr bool are_constant(Number a, Number b) { return a.node_ == nullptr && b.node_ == nullptr; }
   static Number binary(const char* operation, Number a, Number b) {
     return Number(node_of(operation, {a.node(), b.node()}));
