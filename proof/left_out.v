@@ -222,3 +222,56 @@ Proof.
     - change (radii other one) with r. clear - Short Pr PReach. rewrite u_value in *. lra. }
   rewrite Out in Lc. discriminate.
 Qed.
+
+(* It does say something: a ball at the origin, and one that is 128 away and comes nearer with a speed of 1, are left
+   out for the span from 0 to 1. *)
+Section Example.
+Local Transparent literal.
+Lemma power_in_single (e : Z) : (-100 <= e <= 100)%Z -> finite (literal 1 e : single) /\ B (literal 1 e) = bpow radix2 e.
+Proof.
+  intros He. unfold literal.
+  generalize (binary_normalize_correct 24 128 _ _ mode_NE 1 e false). cbv zeta.
+  change (round_mode mode_NE) with ZnearestE.
+  replace (F2R (Float radix2 1 e)) with (bpow radix2 e) by (unfold F2R; simpl; ring).
+  replace (round radix2 (SpecFloat.fexp 24 128) ZnearestE (bpow radix2 e)) with (bpow radix2 e).
+  2: { symmetry. apply round_generic; auto with typeclass_instances.
+       apply generic_format_bpow. unfold SpecFloat.fexp, SpecFloat.emin. lia. }
+  rewrite Rlt_bool_true.
+  - intros (E & F & _). auto.
+  - rewrite Rabs_pos_eq by apply bpow_ge_0. apply bpow_lt. lia.
+Qed.
+Lemma stored_zero : stored (literal 0 0) 0.
+Proof.
+  split; [reflexivity|]. replace (B (literal 0 0)) with 0 by reflexivity.
+  rewrite Rminus_diag_eq, Rabs_R0, u_value, low_value by reflexivity. lra.
+Qed.
+Lemma stored_power (e : Z) : (-100 <= e <= 100)%Z -> stored (literal 1 e) (bpow radix2 e).
+Proof.
+  intros He. destruct (power_in_single e He) as [F E]. split; [exact F|].
+  rewrite E, Rminus_diag_eq, Rabs_R0, u_value, low_value by reflexivity. generalize (Rabs_pos (bpow radix2 e)). lra.
+Qed.
+Lemma stored_minus_one : stored (neg (literal 1 0)) (-1).
+Proof.
+  destruct (stored_power 0) as [F E]; [lia|]. split; [apply neg_finite; exact F|]. rewrite neg_value.
+  change (-1) with (- (1)). rewrite (Rabs_Ropp 1). replace (- B (literal 1 0) - - (1)) with (- (B (literal 1 0) - 1)) by ring.
+  rewrite Rabs_Ropp. exact E.
+Qed.
+End Example.
+
+Theorem somebody_is_left_out : exists (other one : capsule) (p q : ball_in_motion) (S : R),
+  0 < reach p /\ 0 < reach q /\ contains other p S 1 /\ contains one q S 1 /\ V1 p <> V1 q /\
+  stored (literal 0 0) 0 /\ stored (literal 1 0) 1 /\ left_out other one (literal 0 0) (literal 1 0) = true.
+Proof.
+  set (o := literal 0 0 : single).
+  exists {| centre_x := literal 1 7; centre_y := o; centre_z := o; motion_x := neg (literal 1 0); motion_y := o; motion_z := o; ball := literal 1 1 |}.
+  exists {| centre_x := o; centre_y := o; centre_z := o; motion_x := o; motion_y := o; motion_z := o; ball := literal 1 1 |}.
+  exists {| X1 := 128; X2 := 0; X3 := 0; V1 := -1; V2 := 0; V3 := 0; reach := 1 |}.
+  exists {| X1 := 0; X2 := 0; X3 := 0; V1 := 0; V2 := 0; V3 := 0; reach := 1 |}, 256.
+  assert (L1 := proj2 (power_in_single 1 ltac:(lia))). change (bpow radix2 1) with 2 in L1.
+  assert (H7 := stored_power 7 ltac:(lia)). assert (H0 := stored_power 0 ltac:(lia)).
+  assert (E1 : Rabs (-1) = 1) by (rewrite Rabs_left; lra). assert (E7 : Rabs 128 = 128) by (apply Rabs_pos_eq; lra).
+  split; [simpl; lra|]. split; [simpl; lra|]. split; [right|split; [right|]].
+  1, 2: split; cbn [X1 X2 X3 V1 V2 V3 reach ball centre_x centre_y centre_z motion_x motion_y motion_z];
+    auto using stored_zero, stored_minus_one; rewrite ?L1, ?p18, ?p48, ?p60, ?p120, ?Rabs_R0, ?E1, ?E7, ?u_value; lra.
+  simpl. split; [lra|]. split; [exact stored_zero|]. split; [exact H0|]. vm_compute. reflexivity.
+Qed.
