@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -20,7 +21,13 @@ struct Run {
 /// Seven columns of one length: the centres, velocities and radii of capsules of one frame. Behind the last
 /// one there must be room to read `capsule_lanes` numbers, as many as are looked at at a time.
 using CapsuleColumns = std::array<const float*, 7>;
-inline constexpr std::size_t capsule_lanes = 8;
+inline constexpr std::size_t capsule_lanes = 16;
+
+/// What a search finds in a run: a bit for each place, 64 to a word, from the run's begin on.
+inline constexpr std::uint32_t places_in_a_word = 64;
+inline std::size_t words_for(const Run& run) {
+  return (std::size_t{run.end} - run.begin + places_in_a_word - 1) / places_in_a_word;
+}
 
 namespace capsule_search {
 /// What is added to squares, as those of small numbers are lost.
@@ -34,14 +41,22 @@ struct CapsuleQuery {
   float to;
 };
 
-/// Writes to `found`, run by run, the places of all capsules that may touch the capsule of the run's query
-/// during its span, and to `ends` how many there are up to the end of each run. `found` has room for all
-/// places of all runs. Every capsule that does touch it is among them, if speeds
+/// Writes the words of all runs, one run after the other: a bit is set if the capsule at that place may touch
+/// the capsule of the run's query during its span. Every capsule that does touch it is among them, if speeds
 /// are as capsule_of() lets them be. The same on all processors, to the bit: the best vectors of this one are
 /// used (Google Highway), and near_capsules_plain() is the same without.
 void near_capsules(const CapsuleColumns& table, std::span<const CapsuleQuery> queries,
-                   std::span<const Run> runs, std::uint32_t* found, std::uint32_t* ends);
+                   std::span<const Run> runs, std::uint64_t* words);
 void near_capsules_plain(const CapsuleColumns& table, std::span<const CapsuleQuery> queries,
-                         std::span<const Run> runs, std::uint32_t* found, std::uint32_t* ends);
+                         std::span<const Run> runs, std::uint64_t* words);
+
+/// Calls visit(query, place) for each bit that is set.
+template <class Visit>
+void for_each_near(std::span<const Run> runs, const std::uint64_t* words, Visit visit) {
+  for (const Run& run : runs)
+    for (std::uint32_t first = run.begin; first < run.end; first += places_in_a_word)
+      for (std::uint64_t bits = *words++; bits != 0; bits &= bits - 1)
+        visit(run.query, first + static_cast<std::uint32_t>(std::countr_zero(bits)));
+}
 
 }  // namespace kinesphere

@@ -4,16 +4,18 @@
 // one division gives, is more than the sum of their radii. As squares: no root. Where numbers are too small
 // for their squares nothing is certain; neither where radii are too large for that, or something is not a
 // number: then no comparison holds.
+#include <algorithm>
+
 #include "window/capsule_search.hpp"
 
 namespace kinesphere {
 
 void near_capsules_plain(const CapsuleColumns& table, std::span<const CapsuleQuery> queries,
-                         std::span<const Run> runs, std::uint32_t* found, std::uint32_t* ends) {
-  std::uint32_t* next = found;
+                         std::span<const Run> runs, std::uint64_t* words) {
   for (const Run& run : runs) {
     const auto& [capsule, from, to] = queries[run.query];
     const auto& [centre, velocity, radius] = capsule;
+    std::fill_n(words, words_for(run), 0);
     for (std::uint32_t k = run.begin; k < run.end; ++k) {
       const float dx = table[0][k] - centre[0], dy = table[1][k] - centre[1], dz = table[2][k] - centre[2];
       const float du = table[3][k] - velocity[0], dv = table[4][k] - velocity[1],
@@ -26,9 +28,11 @@ void near_capsules_plain(const CapsuleColumns& table, std::span<const CapsuleQue
       const float s = late < to ? late : to;
       const float px = dx + du * s, py = dy + dv * s, pz = dz + dw * s;
       const float square = px * px + py * py + pz * pz;
-      if (!(square > radii * radii + capsule_search::least_square)) *next++ = k;
+      const std::uint32_t at = k - run.begin;
+      if (!(square > radii * radii + capsule_search::least_square))
+        words[at / places_in_a_word] |= std::uint64_t{1} << (at % places_in_a_word);
     }
-    *ends++ = static_cast<std::uint32_t>(next - found);
+    words += words_for(run);
   }
 }
 

@@ -457,11 +457,10 @@ void Layer::add_search_behind(std::uint32_t place, Searches& searches) const {
 }
 
 void Layer::make(Searches& searches) const {
-  std::size_t most = 0;
-  for (const Run& run : searches.runs) most += run.end - run.begin;
-  if (searches.places.size() < most) searches.places.resize(most);
-  if (searches.ends.size() < searches.runs.size()) searches.ends.resize(searches.runs.size());
-  near_capsules(columns(), searches.queries, searches.runs, searches.places.data(), searches.ends.data());
+  std::size_t words = 0;
+  for (const Run& run : searches.runs) words += words_for(run);
+  if (searches.words.size() < words) searches.words.resize(words);
+  near_capsules(columns(), searches.queries, searches.runs, searches.words.data());
 }
 
 bool Layer::is_sound() const {

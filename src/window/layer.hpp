@@ -32,21 +32,16 @@ class Layer {
   struct Searches {
     std::vector<CapsuleQuery> queries;
     std::vector<Run> runs;
-    // What they have found: all places, and where those of each run end.
-    std::vector<std::uint32_t> places;
-    std::vector<std::uint32_t> ends;
+    std::vector<std::uint64_t> words;  ///< what they have found
 
     void clear() {
       queries.clear();
       runs.clear();
     }
-    std::size_t found() const { return runs.empty() ? 0 : ends[runs.size() - 1]; }
     /// Calls visit(query, place).
     template <class Visit>
     void for_each_found(Visit visit) const {
-      std::uint32_t k = 0;
-      for (std::size_t run = 0; run < runs.size(); ++run)
-        for (; k < ends[run]; ++k) visit(runs[run].query, places[k]);
+      for_each_near(runs, words.data(), visit);
     }
   };
 

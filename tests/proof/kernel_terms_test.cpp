@@ -66,14 +66,15 @@ std::vector<std::vector<std::uint32_t>> found(const std::vector<kernels::Capsule
   }
   kernels::CapsuleColumns table;
   for (std::size_t k = 0; k < columns.size(); ++k) table[k] = columns[k].data();
-  std::vector<std::uint32_t> places(capsules.size() * runs.size());
-  std::vector<std::uint32_t> ends(runs.size());
-  kernels::near_capsules_plain(table, queries, runs, places.data(), ends.data());
+  std::vector<std::uint64_t> words(capsules.size() * runs.size());
+  kernels::near_capsules_plain(table, queries, runs, words.data());
   std::vector<std::vector<std::uint32_t>> answer;
-  std::uint32_t begin = 0;
-  for (const std::uint32_t end : ends) {
-    answer.emplace_back(places.begin() + begin, places.begin() + end);
-    begin = end;
+  const std::uint64_t* word = words.data();
+  for (const kernels::Run& run : runs) {
+    answer.emplace_back();
+    kernels::for_each_near(std::span(&run, 1), word,
+                           [&](std::uint32_t, std::uint32_t place) { answer.back().push_back(place); });
+    word += kernels::words_for(run);
   }
   return answer;
 }

@@ -282,11 +282,13 @@ class Mirrored {
     }
     CapsuleColumns pointers{};
     for (std::size_t k = 0; k < pointers.size(); ++k) pointers[k] = columns[k].data();
-    std::vector<std::uint32_t> found(places);
-    std::uint32_t end = 0;
-    near_capsules_plain(pointers, std::array{query}, std::array{kinesphere::Run{0, places}}, found.data(),
-                        &end);
-    return {found.begin(), found.begin() + end};
+    const std::array all{kinesphere::Run{0, places}};
+    std::vector<std::uint64_t> words(kinesphere::words_for(all[0]));
+    near_capsules_plain(pointers, std::array{query}, all, words.data());
+    std::set<std::uint32_t> found;
+    kinesphere::for_each_near(all, words.data(),
+                              [&](std::uint32_t, std::uint32_t place) { found.insert(place); });
+    return found;
   }
   std::vector<std::uint32_t> search(const CapsuleQuery& query) {
     searches_.clear();
@@ -467,7 +469,7 @@ TEST(Layer, IsEmptyAfterClear) {
   EXPECT_TRUE(layer.is_sound());
   layer.add_search({{}, 0.0f, 1.0f}, searches);
   layer.make(searches);
-  EXPECT_EQ(searches.found(), 0u);
+  searches.for_each_found([](std::uint32_t, std::uint32_t) { FAIL(); });
 }
 
 TEST(Layer, GetsUntidyWhereManyHaveEnteredOrLeft) {
