@@ -10,13 +10,12 @@ set -euo pipefail
 scene_hash=$(realpath "$1")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-# Name, compiler and flags of each build; the one given is one more. Both compilers, without optimisation and with all that
-# this processor has (-march=native brings in fused multiply-add and wider vectors); once with sanitizers, once as a shared
-# library.
+# Name, compiler and flags of each build; the one given is one more. Both compilers with all that this processor has
+# (-march=native brings in fused multiply-add and wider vectors), once as a shared library; and one without optimisation,
+# with sanitizers.
 configurations=(
-  "gcc-O0-sanitized g++ -O0 -fsanitize=address,undefined -fno-sanitize-recover=all"
+  "clang-O0-sanitized clang++ -O0 -fsanitize=address,undefined -fno-sanitize-recover=all"
   "gcc-O3-native-shared g++ -O3 -DNDEBUG -march=native"
-  "clang-O0 clang++ -O0"
   "clang-O3-native clang++ -O3 -DNDEBUG -march=native"
 )
 
