@@ -55,7 +55,7 @@ Proof. destruct a as [|a], b as [|[|b]]; simpl; tauto. Qed.
 Lemma nobody_is_dirty a : there (bodies two a) = true -> dirty (bodies two a) = false.
 Proof. unfold two. simpl. destruct a as [|[|a]]; simpl; auto. Qed.
 
-Theorem contact_is_reported : reachable on after_the_contact /\
+Lemma contact_is_reported : reachable on after_the_contact /\
   (forall t, 0 <= t < stop -> lived after_the_contact 0%nat t 1%nat /\ lived after_the_contact 1%nat t 1%nat) /\
   told after_the_contact 0%nat 1%nat u touching /\
   (forall t, 0 <= t < u -> stood after_the_contact 0%nat 1%nat t apart) /\
