@@ -2,18 +2,26 @@
    move, whatever they do within their promises. *)
 From Coq Require Import Reals Lra.
 From Flocq Require Import Core BinarySingleNaN.
-From Kinesphere Require floats inputs kernels direction meeting_coefficients earliest_meeting meeting_facts.
+From Kinesphere Require floats errors inputs kernels direction meeting_coefficients earliest_meeting meeting_facts.
 From Kinesphere Require Import rounding geometry_vectors geometry_motion geometry_bounds geometry_certificates geometry_knowledge.
 Open Scope R_scope.
 Notation finite x := (is_finite x = true).
 
-(* The numbers of a bound are a report, and the promise of the body, whose radius and limits may have been rounded up. *)
+(* The numbers of a bound are a report, and the promise of the body. Radius and limits may have been rounded up; and the
+   radius may be the rounded sum of the body's radius and of the error of its position, as bound_of makes it. *)
 Definition describes (f : inputs.bound) (b : body) (x : report) : Prop :=
   B (inputs.time f) = at_time x /\
   Vector (B (inputs.position_x f)) (B (inputs.position_y f)) (B (inputs.position_z f)) = at_place x /\
   Vector (B (inputs.velocity_x f)) (B (inputs.velocity_y f)) (B (inputs.velocity_z f)) = with_velocity x /\
   Vector (B (inputs.plan_x f)) (B (inputs.plan_y f)) (B (inputs.plan_z f)) = g b /\
-  r b + e0 b <= B (inputs.radius f) /\ e1 b <= B (inputs.growth_speed f) /\ A b <= B (inputs.growth_acceleration f).
+  r b + e0 b <= B (inputs.radius f) * (1 + 3 * u) /\ e1 b <= B (inputs.growth_speed f) /\ A b <= B (inputs.growth_acceleration f).
+
+Lemma rounded_radius (x y : floats.double) : 0 <= B x + B y -> finite (floats.add x y) -> B x + B y <= B (floats.add x y) * (1 + 3 * u).
+Proof.
+  intros P F. destruct (floats.add_finite _ _ F) as (_ & _ & E). generalize (errors.rounded_sum (prec := 53) (emax := 1024) x y).
+  rewrite <- E, (Rabs_pos_eq _ P). change (errors.roundoff (prec := 53)) with u. intros R. apply Rabs_le_inv in R.
+  rewrite u_value in *. lra.
+Qed.
 
 (* Since its report a body keeps its promise, and the report is true. *)
 Definition keeps_since (b : body) (m : motion) (x : report) (until : R) : Prop :=
@@ -50,7 +58,8 @@ Proof.
   rewrite <- P, <- V, <- G, <- P', <- V', <- G', <- T, <- T'. unfold meeting_coefficients.moved. f_equal. coordinates. field.
 Qed.
 Lemma radius_of_bound (f : inputs.bound) (b : body) (x : report) (t : R) :
-  describes f b x -> at_time x <= t -> rho (bound_from b x) (t - at_time x) <= earliest_meeting.radius_at f t.
+  describes f b x -> at_time x <= t ->
+  rho (bound_from b x) (t - at_time x) <= earliest_meeting.radius_at f t + 3 * u * B (inputs.radius f).
 Proof.
   intros (T & _ & _ & _ & H0 & H1 & H2) Ht. unfold earliest_meeting.radius_at, meeting_coefficients.moved, bound_from, bound_of, rho.
   cbn [size growth_speed growth]. rewrite T. set (s := t - at_time x). assert (0 <= s) as P by (unfold s; lra).
