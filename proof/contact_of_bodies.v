@@ -88,3 +88,16 @@ Proof.
   rewrite <- (distance_of_bounds f h a b x y t Df Dh).
   generalize (radius_of_bound f a x t Df ltac:(lra)) (radius_of_bound h b y t Dh ltac:(lra)). lra.
 Qed.
+
+(* And the bound is what bound_of makes of a report and of the promise. *)
+Theorem bound_describes_the_body (r' limit gx gy gz e0' e1' x y z vx vy vz t : floats.double) :
+  0 <= B r' -> 0 <= B e0' -> finite (floats.add r' e0') ->
+  describes (kernels.bound_of r' limit gx gy gz e0' e1' x y z vx vy vz t)
+    {| r := B r'; A := B limit; g := Vector (B gx) (B gy) (B gz); e0 := B e0'; e1 := B e1' |}
+    {| at_time := B t; at_place := Vector (B x) (B y) (B z); with_velocity := Vector (B vx) (B vy) (B vz) |}.
+Proof.
+  intros P0 P1 F. assert (0 <= B r' + B e0') as P by lra. generalize (rounded_radius r' e0' P F).
+  unfold describes, kernels.bound_of. cbn [inputs.time inputs.position_x inputs.position_y inputs.position_z inputs.velocity_x
+    inputs.velocity_y inputs.velocity_z inputs.plan_x inputs.plan_y inputs.plan_z inputs.radius inputs.growth_speed
+    inputs.growth_acceleration r A g e0 e1 at_time at_place with_velocity]. intros L. repeat split; lra.
+Qed.

@@ -52,6 +52,23 @@ kernels::CapsuleQuery query(const std::string& name, const std::string& number =
           .to = variable<Single>("to" + number)};
 }
 
+/// The bound that comes of a report, as the term that builds it.
+Double bound_of_report() {
+  const auto three = [](const std::string& name) {
+    return kernels::Vec3{variable(name + "x"), variable(name + "y"), variable(name + "z")};
+  };
+  const kernels::Bound bound =
+      kernels::bound_of({.radius = variable("r"),
+                         .acceleration_limit = variable("limit"),
+                         .planned_acceleration = three("g"),
+                         .position_error = variable("e0"),
+                         .velocity_error = variable("e1")},
+                        {.position = three(""), .velocity = three("v")}, variable("t"));
+  const kernels::Vec3 &x = bound.position, &v = bound.velocity, &g = bound.planned_acceleration;
+  return call("Build_bound", bound.time, x.x, x.y, x.z, v.x, v.y, v.z, g.x, g.y, g.z, bound.radius,
+              bound.growth_speed, bound.growth_acceleration);
+}
+
 /// What a search finds, run by run, in a table of these capsules.
 std::vector<std::vector<std::uint32_t>> found(const std::vector<kernels::Capsule>& capsules,
                                               const std::vector<kernels::CapsuleQuery>& queries,
@@ -111,6 +128,8 @@ std::string kernels_file() {
   const auto earliest_meeting = [&] {
     return kernels::earliest_meeting(bound("a"), bound("b"), from, until, distance);
   };
+  add("src/bound/bound.cpp", "bound_of (r limit gx gy gz e0 e1 x y z vx vy vz t : double) : bound",
+      bound_of_report);
   add("src/bound/certificates.cpp: the step of earliest_meeting, d after from",
       "meeting_step (a b : bound) (from distance d : double) : double", earliest_meeting);
   kernels::name_of_step = "meeting_step a b from distance";
