@@ -8,7 +8,8 @@ Open Scope R_scope.
 Notation B := (B2R (prec := 53) (emax := 1024)).
 
 (* Any world with two bodies, of which a certificate says at the time 0 that they do not meet before u, and another one
-   at u that their contact does not end before v. *)
+   at u that their contact does not end before v. After the contact has been reported time goes on by a part of a phase,
+   in which the two are an island. *)
 Section Contact.
 Context {W : World}.
 Variable on : rule -> Prop.
@@ -21,6 +22,7 @@ Hypothesis times : 0 <= u <= stop /\ stop <= v.
 Hypothesis nothing_begins : certifies apart p q 0 (Some u).
 Hypothesis nothing_ends : certifies touching p q u (Some v).
 Hypothesis nothing_new : forall r : relation, only_ends r r.
+Hypothesis nobody_is_fixed : forall a, fixed a = false.
 
 Definition no_capsule : capsule := capsule_of p 0 None.
 Definition at_rest : state :=
@@ -40,15 +42,19 @@ Definition two : state :=
   let s := with_body 1%nat q (with_body 0%nat p at_rest) in
   mkState _ (now s) (phase s) (started s both (fun _ => None)) (book s) (news s) (due_at u)
     (noted s both (fun _ => None)) (told s) (lived s) (stood s).
-Definition gone_on (t : R) (s : state) : state :=
+Definition passed (own : body -> bool) (t : R) (s : state) : state :=
   mkState _ t (phase s) (bodies s) (book s) (news s) (agenda s) (kicks s) (told s)
-    (fun a w e => lived s a w e \/ (everybody a = true /\ there (bodies s a) = true /\ now s <= w < t /\ e = stamp (bodies s a)))
-    (fun a b w r => stood s a b w r \/ ((everybody a = true \/ everybody b = true) /\ now s <= w < t /\ r = book s a b)).
+    (fun a w e => lived s a w e \/ (own a = true /\ there (bodies s a) = true /\ now s <= w < t /\ e = stamp (bodies s a)))
+    (fun a b w r => stood s a b w r \/ ((own a = true \/ own b = true) /\ now s <= w < t /\ r = book s a b)).
+Definition gone_on := passed everybody.
 Definition looked_at : state := set_pairs (book two) the_two nobody (gone_on u two).
 Definition reported : state := tell 0%nat 1%nat touching (set_pairs (in_the_book touching) the_two nobody looked_at).
 Definition seen_again : state := set_pairs (in_the_book touching) no_news (due_at u) reported.
 Definition guarded : state := set_pairs (in_the_book touching) no_news (due_at v) seen_again.
-Definition after_the_contact : state := gone_on stop guarded.
+(* The rest is a part of a phase, with one island, which has both. *)
+Definition island (a : body) : option nat := if a <? 2 then Some 0%nat else None.
+Definition run (i : nat) : state := passed (own_of island i) stop (begin_part guarded).
+Definition after_the_contact : state := merged guarded island stop run (due_at v).
 
 Lemma not_the_two {A} (yes no : A) a b : ~ (a = 0%nat /\ b = 1%nat) -> (if (a =? 0) && (b =? 1) then yes else no) = no.
 Proof. destruct a as [|a], b as [|[|b]]; simpl; tauto. Qed.
@@ -63,7 +69,7 @@ Lemma contact_is_reported : reachable on after_the_contact /\
 Proof.
   split; [|split; [|split; [|split]]].
   2: { intros t Ht. simpl. destruct (Rlt_or_le t u); split; [left|left|right|right]; try right; repeat split; auto; lra. }
-  2: { simpl. right. auto. }
+  2: { simpl. left. right. auto. }
   2: { intros t Ht. simpl. left. right. unfold everybody. repeat split; auto; lra. }
   2: { intros t Ht. simpl. right. unfold everybody. repeat split; auto; lra. }
   eapply then_one; [eapply then_one; [eapply then_one; [eapply then_one; [eapply then_one; [eapply then_one; [eapply then_one;
@@ -98,9 +104,17 @@ Proof.
     + intros x y _. reflexivity.
     + intros x y _. reflexivity.
     + left. exists p, q, (Some v). simpl. repeat split; auto. right. exists v. split; reflexivity.
-  - apply alone. apply (advance on everybody guarded stop); simpl; try tauto; try lra.
-    + intros a _. apply nobody_is_dirty.
-    + intros h _ E _ _. change (due_at v h) in E. unfold due_at in E. subst h. simpl. lra.
+  - apply part.
+    + split; simpl; try tauto.
+      * split; [intros a; apply nobody_is_dirty|intros; tauto].
+      * intros a F. rewrite nobody_is_fixed in F. discriminate.
+      * intros h E _ Lt. change (due_at v h) in E. unfold due_at in E. subst h. simpl in Lt. lra.
+      * intros i. eapply one_more; [apply no_step|]. apply (advance on (own_of island i) (begin_part guarded) stop); simpl; try tauto; try lra.
+        -- intros a _. apply nobody_is_dirty.
+        -- intros h _ E _ _. change (due_at v h) in E. unfold due_at in E. subst h. simpl. lra.
+      * intros i. split; [intros a _; apply nobody_is_dirty|intros; tauto].
+    + intros h H _. exact H.
+    + intros _ i h H _. exact H.
 Qed.
 End Contact.
 
@@ -193,6 +207,7 @@ Proof.
     assert (norm (Vector (2 * t - 6) 0 0) <= 6 - 2 * t) by (apply norm_at_most; [lra|unfold dot; cbn [x_of y_of z_of]; nra]).
     nra.
   - simpl. auto.
+  - reflexivity.
   - clear F. revert An R Li To S1 S2. generalize (B answer). intros u An R Li To S1 S2.
     exists Balls, L, (@after_the_contact Balls p q true u 3 3), u, true.
     assert (forall t, 0 <= t <= 3 -> gap_of (fun _ => unit_ball) ways (0%nat, 1%nat) (1%nat, 1%nat) t = 6 - 2 * t - 2) as G.
