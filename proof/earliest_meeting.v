@@ -19,7 +19,8 @@ Definition distance_at (a b : bound) (t : R) : R :=
         - moved (B b.(position_y)) (B b.(velocity_y)) (B b.(plan_y)) (t - B b.(time)))
        (moved (B a.(position_z)) (B a.(velocity_z)) (B a.(plan_z)) (t - B a.(time))
         - moved (B b.(position_z)) (B b.(velocity_z)) (B b.(plan_z)) (t - B b.(time))).
-(* No number is infinite or none: [B] makes zero of these, so nothing is said about them. *)
+(* Apart by the distance, and by a little more, so that each radius may be a sum that was rounded.
+   No number is infinite or none: [B] makes zero of these, so nothing is said about them. *)
 Definition all_finite (a : bound) : Prop :=
   finite a.(time) /\
   (finite a.(position_x) /\ finite a.(position_y) /\ finite a.(position_z)) /\
@@ -28,7 +29,7 @@ Definition all_finite (a : bound) : Prop :=
   (finite a.(radius) /\ finite a.(growth_speed) /\ finite a.(growth_acceleration)).
 Definition apart (a b : bound) (distance : double) (t : R) : Prop :=
   (all_finite a /\ all_finite b /\ finite distance) /\
-  radius_at a t + radius_at b t + B distance < distance_at a b t.
+  radius_at a t + radius_at b t + B distance + 3 * u * (B a.(radius) + B b.(radius)) < distance_at a b t.
 
 Lemma sum_of_sizes_finite (x y z r : double) : finite (sum_of_sizes x y z r) -> (finite x /\ finite y /\ finite z) /\ finite r.
 Proof.
@@ -52,7 +53,8 @@ Qed.
 
 Lemma along_apart (a b : bound) (from distance : double) (n1 n2 n3 t : R) :
   all_finite a /\ all_finite b /\ finite distance -> n1 * n1 + n2 * n2 + n3 * n3 <= 1 ->
-  0 < along a b from n1 n2 n3 t - (radii a b from t + B distance) -> apart a b distance (B from + t).
+  0 < along a b from n1 n2 n3 t - (radii a b from t + B distance) - 3 * u * (B a.(radius) + B b.(radius)) ->
+  apart a b distance (B from + t).
 Proof.
   intros Hf Hn Hp. split; [exact Hf|]. unfold distance_at, radius_at.
   replace (B from + t - B a.(time)) with (B from - B a.(time) + t) by ring.

@@ -276,6 +276,10 @@ Definition advance_by_safe_steps (step : double -> double) (from until : double)
   else
   from.
 
+(* src/bound/bound.cpp *)
+Definition bound_of (r limit gx gy gz e0 e1 x y z vx vy vz t : double) : bound :=
+  Build_bound t x y z vx vy vz gx gy gz (r + e0) e1 limit.
+
 (* src/bound/certificates.cpp: the step of earliest_meeting, d after from *)
 Definition meeting_step (a b : bound) (from distance d : double) : double :=
   let t1 := from - a.(time) in

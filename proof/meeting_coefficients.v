@@ -322,9 +322,20 @@ Lemma quadratic_below (l : double) (e : R) :
   finite (gap a b from distance d l) -> finite (speed a b from d x y z) -> finite (acceleration a b x y z) ->
   bpow radix2 (-975) < B (gap a b from distance d l) -> 0 <= e ->
   quadratic (B (gap a b from distance d l)) (B (speed a b from d x y z)) (B (acceleration a b x y z)) e
-    <= along (D + e) - (radii (D + e) + B distance).
+    <= along (D + e) - (radii (D + e) + B distance) - 3 * u * (B a.(radius) + B b.(radius)).
 Proof.
   intros C Fc Fb Fa Lc Pe.
+  assert (RT : 0 <= B a.(radius) + B b.(radius) <= 9 / 8 * (length_sum + Rabs (B distance))).
+  { destruct parts_positive as (_ & (R1 & _) & _ & (R2 & _)). split; [lra|].
+    destruct (known_a _ _ _ _ _ _ _ _ facts) as [A1 _]. destruct (known_b _ _ _ _ _ _ _ _ facts) as [B1 _].
+    assert (P + Q <= length_sum).
+    { destruct (known_sizes _ _ _ _ _ _ _ _ facts) as (? & ? & ? & ? & ? & ?).
+      destruct (known_times _ _ _ _ _ _ _ _ facts) as (? & ? & ?). unfold whole_length.
+      repeat match goal with |- context [?x * ?y] =>
+        assert (0 <= x * y) by (repeat first [assumption | apply Rplus_le_le_0_compat | apply Rmult_le_pos | lra]);
+        generalize dependent (x * y); intros end. lra. }
+    generalize (Rabs_pos (B distance)) (Rabs_pos (B a.(position_x))) (Rabs_pos (B a.(position_y))) (Rabs_pos (B a.(position_z)))
+      (Rabs_pos (B b.(position_x))) (Rabs_pos (B b.(position_y))) (Rabs_pos (B b.(position_z))). lra. }
   destruct (gap_below l _ C Fc) as [Uc Lower]. assert (Ub := speed_below Fb). assert (Ua := acceleration_below Fa).
   assert (quadratic (along D - (radii D + B distance)) (along_speed D - radii_speed D)
     (along_acceleration - (B a.(growth_acceleration) + B b.(growth_acceleration))) e
@@ -341,15 +352,15 @@ Proof.
   { unfold whole_acceleration. generalize (proj2 (proj2 loss_a)) (proj2 (proj2 loss_b)). generalize G H few. clear.
     intros x1 x2 x3 I1 I2. lra. }
   assert (PA : 0 <= acceleration_sum) by (apply Rplus_le_le_0_compat; assumption).
-  revert Uc Lower Ub Ua Lc LK1 LK2 PS PA Tiny PY. generalize LK_pos.
+  revert RT Uc Lower Ub Ua Lc LK1 LK2 PS PA Tiny PY. generalize LK_pos (B a.(radius) + B b.(radius)).
   generalize (along D - (radii D + B distance)) (along_speed D - radii_speed D)
     (along_acceleration - (B a.(growth_acceleration) + B b.(growth_acceleration))).
   generalize (B (gap a b from distance d l)) (B (speed a b from d x y z)) (B (acceleration a b x y z)).
   generalize (length_sum + Rabs (B distance)) speed_sum acceleration_sum (L + K) tiny (bpow radix2 (-975)).
   clear - Pe.
-  intros T1 T2 T3 LK t q c0 b0 a0 c1 b1 a1 LKp Uc Lower Ub Ua Lc LK1 LK2 PS PA Tiny PY.
+  intros T1 T2 T3 LK t q c0 b0 a0 c1 b1 a1 LKp radii' RT Uc Lower Ub Ua Lc LK1 LK2 PS PA Tiny PY.
   rewrite few_value in LK2.
-  assert (c0 <= c1 - 100000000 * u * t) as C1 by (rewrite u_value in *; lra).
+  assert (c0 <= c1 - 100000000 * u * t - 3 * u * radii') as C1 by (rewrite u_value in *; lra).
   assert (b0 * e <= (b1 + 20000 * u * LK) * e) as B1.
   { apply Rmult_le_compat_r; [exact Pe|]. rewrite u_value in *. lra. }
   assert (0 <= e * e) as Pee by (apply Rmult_le_pos; exact Pe).

@@ -2,10 +2,21 @@
 # Fails unless the docs tell the truth: the C++ example of README.md is examples/first_contact.cpp, word for word, and what
 # it says that this example and the main job print is what they print, timings aside; the C++ in the guides (docs/worlds.md,
 # running.md, recipes.md, from-box2d.md, distributed.md) is taken from the examples, and what examples/sensors.cpp prints in docs/worlds.md is what it prints.
+# What docs/guarantee.md says is proved or tested names a theorem or a test that there is, and the tables of proof/README.md
+# have all theorems of proof/.
 # Usage: check_docs.sh <example first_contact> <example sensors> <program kinesphere>
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+theorems=$(sed -nE 's/^Theorem ([a-z_0-9]+).*/\1/p' proof/*.v | sort)
+# In a mark, what has a slash is a test, and all else a theorem.
+sed 's/⟨/\n⟨/g; s/⟩/\n/g' docs/guarantee.md | grep '^⟨' | grep -oE '`[^`]*`' | tr -d '`' | sort -u | while IFS= read -r name; do
+  if [[ $name == */* ]] && [[ -f tests/$name.cpp ]] || grep -qxF -- "$name" <<<"$theorems"; then continue; fi
+  echo "docs/guarantee.md: no theorem, and no test, is named $name" >&2
+  exit 1
+done
+diff <(awk -F'|' '!/^\|/ {on = 0} on {print $2} /^\| theorem / {on = 1}' proof/README.md | grep -oE '`[^`]*`' | tr -d '`' | sort) - <<<"$theorems"
+
 # The lines of the first block in a file after a line that matches a pattern.
 block_after() {
   awk -v pattern="$2" '$0 ~ pattern {near = 1; next} near && /^```/ {if (on) exit; on = 1; next} on {print}' "$1"

@@ -69,6 +69,7 @@ double advance_by_a_step(double from, double until, SafeStep step) {
 }  // namespace kinesphere
 #define advance_by_safe_steps advance_by_a_step
 
+#include "bound/bound.cpp"
 #include "bound/certificates.cpp"
 #include "bound/encounter.hpp"
 #include "window/capsule.hpp"

@@ -1,0 +1,103 @@
+(* From doubles to bodies: what earliest_meeting and the search compute, operation by operation, says how two bodies
+   move, whatever they do within their promises. *)
+From Coq Require Import Reals Lra.
+From Flocq Require Import Core BinarySingleNaN.
+From Kinesphere Require floats errors inputs kernels direction meeting_coefficients earliest_meeting meeting_facts.
+From Kinesphere Require Import rounding geometry_vectors geometry_motion geometry_bounds geometry_certificates geometry_knowledge.
+Open Scope R_scope.
+Notation finite x := (is_finite x = true).
+
+(* The numbers of a bound are a report, and the promise of the body. Radius and limits may have been rounded up; and the
+   radius may be the rounded sum of the body's radius and of the error of its position, as bound_of makes it. *)
+Definition describes (f : inputs.bound) (b : body) (x : report) : Prop :=
+  B (inputs.time f) = at_time x /\
+  Vector (B (inputs.position_x f)) (B (inputs.position_y f)) (B (inputs.position_z f)) = at_place x /\
+  Vector (B (inputs.velocity_x f)) (B (inputs.velocity_y f)) (B (inputs.velocity_z f)) = with_velocity x /\
+  Vector (B (inputs.plan_x f)) (B (inputs.plan_y f)) (B (inputs.plan_z f)) = g b /\
+  r b + e0 b <= B (inputs.radius f) * (1 + 3 * u) /\ e1 b <= B (inputs.growth_speed f) /\ A b <= B (inputs.growth_acceleration f).
+
+Lemma rounded_radius (x y : floats.double) : 0 <= B x + B y -> finite (floats.add x y) -> B x + B y <= B (floats.add x y) * (1 + 3 * u).
+Proof.
+  intros P F. destruct (floats.add_finite _ _ F) as (_ & _ & E). generalize (errors.rounded_sum (prec := 53) (emax := 1024) x y).
+  rewrite <- E, (Rabs_pos_eq _ P). change (errors.roundoff (prec := 53)) with u. intros R. apply Rabs_le_inv in R.
+  rewrite u_value in *. lra.
+Qed.
+
+(* Since its report a body keeps its promise, and the report is true. *)
+Definition keeps_since (b : body) (m : motion) (x : report) (until : R) : Prop :=
+  keeps_promise b m (at_time x) until /\ true_report b m (at_time x) (at_place x) (with_velocity x).
+
+Definition gap (a b : body) (ma mb : motion) (t : R) : R := norm (place ma t - place mb t) - r a - r b.
+
+Lemma near_its_bound (b : body) (m : motion) (x : report) (t : R) :
+  keeps_since b m x t -> at_time x <= t ->
+  norm (place m t - c (bound_from b x) (t - at_time x)) <= rho (bound_from b x) (t - at_time x) - r b.
+Proof.
+  intros [K T] H. generalize (centre_is_near b m (at_time x) t (at_time x) (at_place x) (with_velocity x) (t - at_time x) K).
+  replace (at_time x + (t - at_time x)) with t by ring. intros N. apply N; auto; lra.
+Qed.
+
+Lemma bounds_apart_bodies_apart (a b : body) (ma mb : motion) (x y : report) (distance t : R) :
+  keeps_since a ma x t -> keeps_since b mb y t -> at_time x <= t -> at_time y <= t ->
+  rho (bound_from a x) (t - at_time x) + rho (bound_from b y) (t - at_time y) + distance <
+    norm (c (bound_from a x) (t - at_time x) - c (bound_from b y) (t - at_time y)) ->
+  distance < gap a b ma mb t.
+Proof.
+  intros Ka Kb Ha Hb L. generalize (near_its_bound a ma x t Ka Ha) (near_its_bound b mb y t Kb Hb). unfold gap.
+  set (ca := c (bound_from a x) (t - at_time x)) in *. set (cb := c (bound_from b y) (t - at_time y)) in *.
+  generalize (norm_by_way_of (place ma t) ca cb) (norm_by_way_of (place mb t) (place ma t) cb).
+  rewrite (norm_symmetric ca (place ma t)). lra.
+Qed.
+
+Lemma distance_of_bounds (f h : inputs.bound) (a b : body) (x y : report) (t : R) :
+  describes f a x -> describes h b y ->
+  earliest_meeting.distance_at f h t = norm (c (bound_from a x) (t - at_time x) - c (bound_from b y) (t - at_time y)).
+Proof.
+  intros (T & P & V & G & _) (T' & P' & V' & G' & _).
+  unfold earliest_meeting.distance_at, direction.norm, norm, bound_from, bound_of, c. cbn [start speed plan].
+  rewrite <- P, <- V, <- G, <- P', <- V', <- G', <- T, <- T'. unfold meeting_coefficients.moved. f_equal. coordinates. field.
+Qed.
+Lemma radius_of_bound (f : inputs.bound) (b : body) (x : report) (t : R) :
+  describes f b x -> at_time x <= t ->
+  rho (bound_from b x) (t - at_time x) <= earliest_meeting.radius_at f t + 3 * u * B (inputs.radius f).
+Proof.
+  intros (T & _ & _ & _ & H0 & H1 & H2) Ht. unfold earliest_meeting.radius_at, meeting_coefficients.moved, bound_from, bound_of, rho.
+  cbn [size growth_speed growth]. rewrite T. set (s := t - at_time x). assert (0 <= s) as P by (unfold s; lra).
+  assert (e1 b * s <= B (inputs.growth_speed f) * s) by (apply Rmult_le_compat_r; assumption).
+  assert (A b * (s * s) <= B (inputs.growth_acceleration f) * (s * s)) by (apply Rmult_le_compat_r; nra). lra.
+Qed.
+
+(* Until the answer of earliest_meeting, or the end of the span, the gap of two bodies is above the distance that was
+   asked about, whatever they do: all rounding included. *)
+Theorem answer_is_before_the_contact (a b : body) (ma mb : motion) (x y : report) (f h : inputs.bound)
+  (from until distance : floats.double) (t : R) :
+  describes f a x -> describes h b y -> meeting_facts.sound f from -> meeting_facts.sound h from ->
+  finite from -> finite until \/ until = floats.infinity ->
+  at_time x <= B from -> at_time y <= B from -> keeps_since a ma x t -> keeps_since b mb y t ->
+  let answer := kernels.earliest_meeting f h from until distance in
+  B from <= t -> answer = floats.infinity /\ (finite until -> t <= B until) \/ finite answer /\ t < B answer ->
+  B distance < gap a b ma mb t.
+Proof.
+  intros Df Dh Sf Sh Ff Fu Hx Hy Ka Kb answer Ht Hr.
+  assert (earliest_meeting.apart f h distance t) as [_ L].
+  { destruct (earliest_meeting.earliest_meeting_is_early f h from until distance Sf Sh Ff Fu) as [[E H]|(F & _ & H)];
+      fold answer in E, H || fold answer in F, H.
+    - destruct Hr as [[_ Hu]|[F _]]; [apply H; assumption|]. rewrite E in F. discriminate.
+    - destruct Hr as [[E _]|[_ Lt]]; [rewrite E in F; discriminate|]. apply H. lra. }
+  apply (bounds_apart_bodies_apart a b ma mb x y (B distance) t Ka Kb); try lra.
+  rewrite <- (distance_of_bounds f h a b x y t Df Dh).
+  generalize (radius_of_bound f a x t Df ltac:(lra)) (radius_of_bound h b y t Dh ltac:(lra)). lra.
+Qed.
+
+(* And the bound is what bound_of makes of a report and of the promise. *)
+Theorem bound_describes_the_body (r' limit gx gy gz e0' e1' x y z vx vy vz t : floats.double) :
+  0 <= B r' -> 0 <= B e0' -> finite (floats.add r' e0') ->
+  describes (kernels.bound_of r' limit gx gy gz e0' e1' x y z vx vy vz t)
+    {| r := B r'; A := B limit; g := Vector (B gx) (B gy) (B gz); e0 := B e0'; e1 := B e1' |}
+    {| at_time := B t; at_place := Vector (B x) (B y) (B z); with_velocity := Vector (B vx) (B vy) (B vz) |}.
+Proof.
+  intros P0 P1 F. assert (0 <= B r' + B e0') as P by lra. generalize (rounded_radius r' e0' P F).
+  unfold describes, kernels.bound_of. cbn [inputs.time inputs.position_x inputs.position_y inputs.position_z inputs.velocity_x
+    inputs.velocity_y inputs.velocity_z inputs.plan_x inputs.plan_y inputs.plan_z inputs.radius inputs.growth_speed
+    inputs.growth_acceleration r A g e0 e1 at_time at_place with_velocity]. intros L. repeat split; lra.
+Qed.
