@@ -155,14 +155,14 @@ int watch(const WatchOptions& options) {
   const bool is_file = options.file != "-" && !is_nats_address(options.file);
   const std::string inputs[] = {is_file ? options.file : ""};
   check_outputs(outputs, inputs);
-  WatchRun watch(options);
   std::optional<OutputFile> summary;
   if (!options.summary.empty()) summary.emplace(options.summary);
+  WatchRun watch(options);
   const auto started = std::chrono::steady_clock::now();
   const auto conclude = [&] {
     watch.close();
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-    const std::string_view format = name_of(watch.format());
+    const std::string_view format = watch.format_name();
     if (!options.quiet) fmt::print(stderr, "{}", watch_summary_text(watch.watcher(), format, seconds));
     if (!summary) return;
     summary->write(watch_summary_json(watch.watcher(), format, seconds));
@@ -179,8 +179,7 @@ int watch(const WatchOptions& options) {
   const WatchCounts& counts = watch.watcher().counts();
   if (counts.malformed > 0 && watch.watcher().monitor_counters().reports == 0)
     throw ProgramError(fmt::format("{}: expected reports of format {}, but there are none, and {} malformed",
-                                   watch.watcher().settings().source, name_of(watch.format()),
-                                   counts.malformed));
+                                   watch.watcher().settings().source, watch.format_name(), counts.malformed));
   return exit_fine;
 }
 

@@ -3,14 +3,17 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
 #include "program_error.hpp"
 #include "standard_output.hpp"
+#include "watch/checksum.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -25,7 +28,7 @@ class AlertLines final : public AlertOutput {
     if (is_open_) finish_output();
     is_open_ = false;
   }
-  std::uint64_t sync() override { return 0; }
+  AlertsPlace sync() override { return {}; }
 
  private:
   bool is_open_ = false;
@@ -33,25 +36,18 @@ class AlertLines final : public AlertOutput {
 
 class AlertFile final : public AlertOutput {
  public:
-  AlertFile(const std::string& path, std::uint64_t kept)
-      : path_(path), descriptor_(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666)), length_(kept) {
+  AlertFile(const std::string& path, const std::optional<ToldBefore>& before)
+      : path_(path), descriptor_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
     if (descriptor_ < 0) fail();
     struct stat status {};
     if (::fstat(descriptor_, &status) != 0) fail();
-    if (!S_ISREG(status.st_mode)) {
-      close();
-      throw ProgramError(
-          fmt::format("--alerts: expected a file to write to, but {} is something else", path));
-    }
-    if (static_cast<std::uint64_t>(status.st_size) < kept) {
-      close();
-      throw ProgramError(
-          fmt::format("{}: expected the {} bytes of alerts that an earlier run has written, but it has {}",
-                      path, kept, status.st_size));
-    }
-    if (::ftruncate(descriptor_, static_cast<off_t>(kept)) != 0 ||
-        ::lseek(descriptor_, static_cast<off_t>(kept), SEEK_SET) < 0)
-      fail();
+    if (!S_ISREG(status.st_mode))
+      refuse(fmt::format("--alerts: expected a file to write to, but {} is something else", path));
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+      refuse(fmt::format("{}: another program writes alerts to it", path));
+    if (before) length_ = kept_of(*before, static_cast<std::uint64_t>(status.st_size));
+    const auto end = static_cast<off_t>(length_);
+    if (::ftruncate(descriptor_, end) != 0 || ::lseek(descriptor_, end, SEEK_SET) < 0) fail();
   }
   ~AlertFile() override { close(); }
   AlertFile(const AlertFile&) = delete;
@@ -69,33 +65,70 @@ class AlertFile final : public AlertOutput {
     }
     waiting_.clear();
   }
-  std::uint64_t sync() override {
+  AlertsPlace sync() override {
     if (::fdatasync(descriptor_) != 0) fail();
-    return length_;
+    return {length_, check_before(length_)};
   }
 
  private:
+  /// How many of `size` bytes are to be kept.
+  std::uint64_t kept_of(const ToldBefore& before, std::uint64_t size) {
+    const auto& [bytes, check] = before.place;
+    if (bytes > 0 && before.was_here && size < bytes)
+      refuse(fmt::format("{}: expected the {} bytes of alerts that an earlier run has written, but it has {}",
+                         path_, bytes, size));
+    const bool goes_on = bytes > 0 ? size >= bytes && check_before(bytes) == check : before.was_here;
+    if (goes_on) return before.is_told_again ? bytes : end_of_lines(bytes, size);
+    if (before.was_here)
+      refuse(
+          fmt::format("{}: expected the alerts that an earlier run has written, but its first {} bytes are "
+                      "others",
+                      path_, bytes));
+    if (size > 0)
+      refuse(
+          fmt::format("--alerts: expected a file that is new, or has what the run before has written, but "
+                      "{} has something else",
+                      path_));
+    return 0;
+  }
+
+  /// Of the bytes in between, behind the last line that is whole.
+  std::uint64_t end_of_lines(std::uint64_t begin, std::uint64_t end) const {
+    for (std::uint64_t at = end; at > begin; --at)
+      if (bytes_before(at, 1) == "\n") return at;
+    return begin;
+  }
+
+  std::string bytes_before(std::uint64_t end, std::uint64_t most) const {
+    std::string bytes(std::min(end, most), '\0');
+    const auto got = ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(end - bytes.size()));
+    bytes.resize(static_cast<std::size_t>(std::max<ssize_t>(0, got)));
+    return bytes;
+  }
+  std::uint32_t check_before(std::uint64_t end) const { return checksum(bytes_before(end, 4096)); }
+
   void close() {
     if (descriptor_ >= 0) ::close(descriptor_);
     descriptor_ = -1;
   }
-  [[noreturn]] void fail() {
-    const int error = errno;
+  [[noreturn]] void fail() { refuse(fmt::format("{}: cannot write: {}", path_, std::strerror(errno))); }
+  [[noreturn]] void refuse(const std::string& why) {
     close();
-    throw ProgramError(fmt::format("{}: cannot write: {}", path_, std::strerror(error)));
+    throw ProgramError(why);
   }
 
   std::string path_;
   int descriptor_;
-  std::uint64_t length_;
+  std::uint64_t length_ = 0;
   std::string waiting_;
 };
 
 }  // namespace
 
 std::unique_ptr<AlertOutput> make_alert_lines() { return std::make_unique<AlertLines>(); }
-std::unique_ptr<AlertOutput> make_alert_file(const std::string& path, std::uint64_t kept) {
-  return std::make_unique<AlertFile>(path, kept);
+std::unique_ptr<AlertOutput> make_alert_file(const std::string& path,
+                                             const std::optional<ToldBefore>& before) {
+  return std::make_unique<AlertFile>(path, before);
 }
 
 }  // namespace kinesphere::program

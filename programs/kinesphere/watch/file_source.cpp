@@ -14,11 +14,15 @@
 #include <filesystem>
 
 #include "program_error.hpp"
+#include "watch/checksum.hpp"
 
 namespace kinesphere::program {
 namespace {
 
 constexpr std::size_t source_block = std::size_t{1} << 16;
+/// So many bytes, at most, tell one stream from another.
+constexpr std::size_t most_checked = 4096;
+constexpr std::string_view gzip_begin = "\x1f\x8b";
 
 }  // namespace
 
@@ -81,6 +85,11 @@ FileSource::FileSource(const std::string& path, const StopSignals& stop, const S
   if (descriptor_ < 0) fail(std::strerror(errno));
   struct stat status {};
   is_file_ = ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
+  // Who opened standard input may have read some of it.
+  if (is_file_)
+    handed_over_ = static_cast<std::uint64_t>(std::max<off_t>(0, ::lseek(descriptor_, 0, SEEK_CUR)));
+  is_packed_ = is_file_ && bytes_at(handed_over_, 2) == gzip_begin;
+  if (is_packed_) handed_over_ = 0;
   if (from != nullptr && from->stream == name()) go_on_from(*from);
 }
 
@@ -92,37 +101,56 @@ void FileSource::fail(std::string_view reason) const {
   throw ProgramError(fmt::format("{}: cannot read: {}", name(), reason));
 }
 
+void FileSource::fail_as_another() const {
+  throw ProgramError(
+      fmt::format("{}: expected the stream that the snapshot was made of, but its first {} bytes are others",
+                  name(), from_->position));
+}
+
 void FileSource::go_on_from(const StreamPlace& place) {
-  handed_over_ = place.position;
-  if (!is_file_) return;
-  const auto start = ::lseek(descriptor_, 0, SEEK_CUR), end = ::lseek(descriptor_, 0, SEEK_END);
-  const auto before = static_cast<off_t>(place.position);
-  if (place.check == 0) {
-    to_pass_over_ = place.position;
-    ::lseek(descriptor_, start, SEEK_SET);
-  } else if (end < before || check_before(place.position) != place.check) {
-    throw ProgramError(fmt::format(
-        "{}: expected the stream that the snapshot was made of, but its first {} bytes are others", name(),
-        place.position));
-  } else {
-    ::lseek(descriptor_, before, SEEK_SET);
+  if (!is_file_) {
+    handed_over_ = place.position;
+    return;
   }
+  // What came through a pipe before is not in this file.
+  if (place.check == 0) return;
+  from_ = place;
+  if (is_packed_) {
+    to_pass_over_ = place.position;
+    return;
+  }
+  if (check_before(place.position) != place.check) fail_as_another();
+  handed_over_ = place.position;
+  ::lseek(descriptor_, static_cast<off_t>(place.position), SEEK_SET);
+}
+
+std::string FileSource::bytes_at(std::uint64_t position, std::size_t most) const {
+  std::string bytes(most, '\0');
+  const auto got = ::pread(descriptor_, bytes.data(), most, static_cast<off_t>(position));
+  bytes.resize(static_cast<std::size_t>(std::max<ssize_t>(0, got)));
+  return bytes;
 }
 
 std::uint32_t FileSource::check_before(std::uint64_t position) const {
-  if (!is_file_ || inflater_ || position == 0) return 0;
-  std::vector<unsigned char> bytes(std::min<std::uint64_t>(position, 4096));
-  const auto got =
-      ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(position - bytes.size()));
-  if (got != static_cast<ssize_t>(bytes.size())) return 0;
+  if (!is_file_ || position == 0) return 0;
+  const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(position, most_checked));
+  const std::string bytes = is_packed_ ? beginning_.substr(0, count) : bytes_at(position - count, count);
+  if (bytes.size() < count) return 0;
   // 0 says that there is none.
-  return std::max<std::uint32_t>(
-      1, static_cast<std::uint32_t>(crc32(0, bytes.data(), static_cast<uInt>(bytes.size()))));
+  return std::max<std::uint32_t>(1, checksum(bytes));
 }
 
 StreamPlace FileSource::place(std::size_t without) const {
+  if (to_pass_over_ > 0) return *from_;
   const std::uint64_t position = handed_over_ - without;
   return {name(), position, check_before(position)};
+}
+
+std::optional<std::string> FileSource::identity() const {
+  if (!is_file_) return std::nullopt;
+  // It may grow, and have other names.
+  constexpr std::size_t enough = 512;
+  return fmt::format("file {:08x}", checksum(bytes_at(0, enough)));
 }
 
 ReportSource::Outcome FileSource::read_some(std::chrono::milliseconds patience) {
@@ -141,12 +169,21 @@ ReportSource::Outcome FileSource::read_some(std::chrono::milliseconds patience) 
 
 ReportSource::Outcome FileSource::next(std::chrono::milliseconds patience, std::string_view& text) {
   const Outcome outcome = unpacked(patience, text);
+  if (outcome == Outcome::end && to_pass_over_ > 0) fail_as_another();
   if (outcome != Outcome::text) return outcome;
+  if (is_packed_ && beginning_.size() < most_checked)
+    beginning_ += text.substr(0, most_checked - beginning_.size());
+  if (to_pass_over_ > 0) pass_over(text);
+  handed_over_ += text.size();
+  return text.empty() ? Outcome::quiet : Outcome::text;
+}
+
+void FileSource::pass_over(std::string_view& text) {
   const auto passed = std::min<std::uint64_t>(to_pass_over_, text.size());
   text.remove_prefix(passed);
   to_pass_over_ -= passed;
-  handed_over_ += text.size();
-  return text.empty() ? Outcome::quiet : Outcome::text;
+  handed_over_ += passed;
+  if (to_pass_over_ == 0 && check_before(from_->position) != from_->check) fail_as_another();
 }
 
 ReportSource::Outcome FileSource::unpacked(std::chrono::milliseconds patience, std::string_view& text) {

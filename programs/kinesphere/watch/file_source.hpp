@@ -14,15 +14,17 @@ namespace kinesphere::program {
 class FileSource final : public ReportSource {
  public:
   /// "-" is standard input. A file is read on from the place, if that is in it; what comes through a pipe
-  /// goes on by itself. Throws ProgramError when it cannot be opened, or is not the one that was read.
+  /// goes on by itself. Throws ProgramError when it cannot be opened, or is not the one that was read; next()
+  /// does where that shows only when it has been unpacked.
   FileSource(const std::string& path, const StopSignals& stop, const StreamPlace* from = nullptr);
   ~FileSource() override;
   FileSource(const FileSource&) = delete;
   FileSource& operator=(const FileSource&) = delete;
 
   Outcome next(std::chrono::milliseconds patience, std::string_view& text) override;
-  std::uint64_t position() const override { return handed_over_; }
+  std::uint64_t position(std::size_t without) const override { return handed_over_ - without; }
   StreamPlace place(std::size_t without) const override;
+  std::optional<std::string> identity() const override;
   std::string name() const override { return path_ == "-" ? "standard input" : path_; }
 
  private:
@@ -30,9 +32,12 @@ class FileSource final : public ReportSource {
   Outcome read_some(std::chrono::milliseconds patience);
   Outcome unpacked(std::chrono::milliseconds patience, std::string_view& text);
   void go_on_from(const StreamPlace& place);
-  /// Of bytes of a file that end there; 0 if it is none, or packed.
+  void pass_over(std::string_view& text);
+  std::string bytes_at(std::uint64_t position, std::size_t most) const;
+  /// Of a file that has been read up to there; 0 of what is none.
   std::uint32_t check_before(std::uint64_t position) const;
   [[noreturn]] void fail(std::string_view reason) const;
+  [[noreturn]] void fail_as_another() const;
 
   std::string path_;
   const StopSignals& stop_;
@@ -40,10 +45,14 @@ class FileSource final : public ReportSource {
   std::vector<char> buffer_;
   std::size_t filled_ = 0;
   bool has_begun_ = false;
-  bool is_file_ = false;  ///< which can be read again
+  bool is_file_ = false;    ///< which can be read again
+  bool is_packed_ = false;  ///< such a file, and gzipped
   std::uint64_t handed_over_ = 0;
-  std::uint64_t to_pass_over_ = 0;      ///< of what is packed: bytes that an earlier run has read
-  std::unique_ptr<Inflater> inflater_;  ///< of what is gzipped
+  // Of what is gzipped.
+  std::unique_ptr<Inflater> inflater_;
+  std::string beginning_;            ///< unpacked
+  std::optional<StreamPlace> from_;  ///< until what an earlier run has read is passed over
+  std::uint64_t to_pass_over_ = 0;   ///< of it, bytes
 };
 
 }  // namespace kinesphere::program

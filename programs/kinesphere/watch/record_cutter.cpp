@@ -23,7 +23,8 @@ void RecordCutter::feed(std::string_view text) {
 std::optional<Record> RecordCutter::next() { return kind_ == Kind::lines ? next_line() : next_document(); }
 
 Record RecordCutter::cut(std::size_t end, std::size_t next, bool is_whole) {
-  const Record record{std::string_view(text_).substr(begin_, end - begin_), line_, is_whole};
+  const Record record{std::string_view(text_).substr(begin_, end - begin_), line_, is_whole,
+                      text_.size() - begin_};
   line_ += static_cast<std::size_t>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(begin_),
                                                text_.begin() + static_cast<std::ptrdiff_t>(next), '\n'));
   begin_ = at_ = next;
@@ -39,7 +40,7 @@ std::optional<Record> RecordCutter::next_line() {
         begin_ = at_;
       } else if (at_ - begin_ > longest_line) {
         skips_line_ = true;
-        return Record{std::string_view(text_).substr(begin_, 80), line_, false};
+        return Record{std::string_view(text_).substr(begin_, 80), line_, false, at_ - begin_};
       }
       return std::nullopt;
     }
@@ -53,7 +54,7 @@ std::optional<Record> RecordCutter::next_line() {
     }
     std::string_view text = std::string_view(text_).substr(begin, end - begin);
     if (text.ends_with('\r')) text.remove_suffix(1);
-    return Record{text, line, text.size() <= longest_line};
+    return Record{text, line, text.size() <= longest_line, text_.size() - begin};
   }
 }
 

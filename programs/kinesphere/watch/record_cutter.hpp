@@ -9,9 +9,10 @@
 namespace kinesphere::program {
 
 struct Record {
-  std::string_view text;  ///< valid until the next call; without the end of its line
-  std::size_t line = 0;   ///< where it begins, from 1
-  bool is_whole = true;   ///< otherwise it ends too early, or is longer than what is read
+  std::string_view text;   ///< valid until the next call; without the end of its line
+  std::size_t line = 0;    ///< where it begins, from 1
+  bool is_whole = true;    ///< otherwise it ends too early, or is longer than what is read
+  std::size_t behind = 0;  ///< so many bytes have been fed since it began
 };
 
 /// Of JSON, each object that is not inside of another is a record, whatever stands between it and the next: a

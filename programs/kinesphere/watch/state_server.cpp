@@ -17,6 +17,25 @@ const char* const map_policy =
 
 }  // namespace
 
+/// Holds off changes, and comes first before any more of them.
+class StateServer::Reading {
+ public:
+  explicit Reading(StateServer& server) : server_(server) {
+    ++server_.waiting_;
+    server_.mutex_.lock();
+  }
+  ~Reading() {
+    --server_.waiting_;
+    server_.mutex_.unlock();
+    server_.changed_.notify_one();
+  }
+  Reading(const Reading&) = delete;
+  Reading& operator=(const Reading&) = delete;
+
+ private:
+  StateServer& server_;
+};
+
 StateServer::StateServer(const Watcher& watcher, int port)
     : watcher_(watcher), server_("--serve", map_policy) {
   serve_state("/state\\.json", "application/json", watch_state_json);
@@ -33,15 +52,8 @@ void StateServer::lock() {
 
 void StateServer::serve_state(const char* address, const char* type, std::string (*text)(const Watcher&)) {
   server_.serve(address, type, [this, text] {
-    std::string content;
-    {
-      ++waiting_;
-      const std::lock_guard lock(mutex_);
-      content = text(watcher_);
-      --waiting_;
-    }
-    changed_.notify_one();
-    return content;
+    const Reading reading(*this);
+    return text(watcher_);
   });
 }
 

@@ -27,6 +27,7 @@ class StateServer {
   void unlock() { mutex_.unlock(); }
 
  private:
+  class Reading;
   void serve_state(const char* address, const char* type, std::string (*text)(const Watcher&));
   void serve_map();
 

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <random>
+
 #include "program_error.hpp"
 #include "watch/file_source.hpp"
 #include "watch/nats/nats_streams.hpp"
@@ -33,22 +36,39 @@ std::unique_ptr<ReportSource> source_of(const WatchOptions& options, const StopS
                                         const std::optional<WatchSnapshot>& snapshot) {
   const StreamPlace* const from = snapshot ? &snapshot->place : nullptr;
   if (is_nats_address(options.file))
-    return make_nats_source(parse_nats_address(options.file, "FILE"), stop, options.clock == "arrival", from);
+    return make_nats_source(parse_nats_address(options.file, "FILE"), stop, options.clock == "arrival",
+                            options.quiet, from);
   return std::make_unique<FileSource>(options.file, stop, from);
 }
 
-std::unique_ptr<AlertOutput> alerts_of(const WatchOptions& options, const StopSignals& stop,
-                                       const std::optional<WatchSnapshot>& snapshot) {
-  if (options.alerts.empty()) return make_alert_lines();
-  if (is_nats_address(options.alerts))
-    return make_nats_alerts(parse_nats_address(options.alerts, "--alerts"), stop);
-  const bool goes_on = snapshot && snapshot->alerts == options.alerts;
-  return make_alert_file(options.alerts, goes_on ? snapshot->alert_bytes : 0);
+/// By which a later run knows the place of alerts again.
+std::string alerts_name(const WatchOptions& options) {
+  if (options.alerts.empty()) return {};
+  if (is_nats_address(options.alerts)) return parse_nats_address(options.alerts, "--alerts").name;
+  return std::filesystem::absolute(options.alerts).lexically_normal().string();
 }
 
-/// Reads until the stream's first line has come in, and says what it is.
-StreamFormat format_of(const WatchOptions& options, const std::optional<WatchSnapshot>& snapshot,
-                       ReportSource& source, RecordCutter& cutter, const StopSignals& stop) {
+/// A word for the alerts that are told of a stream: the same for all who read it and judge it in the same
+/// way, whatever their shares are; where they cannot, another for each.
+std::string alerts_origin(const WatchOptions& options, const WatchSettings& settings,
+                          const ReportSource& source) {
+  const auto identity = source.identity();
+  const bool is_the_same = settings.clock != WatchSettings::Clock::machine || source.has_clock();
+  if (!identity || !is_the_same) {
+    std::random_device random;
+    return fmt::format("{:08x}{:08x}", random(), random());
+  }
+  std::string text = fmt::format("{}\n{}", *identity, settings.share.of);
+  for (const auto& [option, given] : given_options(options))
+    if (option != "--share") text += fmt::format("\n{} {}", option, given);
+  return fmt::format("{:016x}", track_id_of(text));
+}
+
+/// Reads until the stream's first line has come in, and says what it is. None when the program is asked to
+/// stop before.
+std::optional<StreamFormat> format_of(const WatchOptions& options,
+                                      const std::optional<WatchSnapshot>& snapshot, ReportSource& source,
+                                      RecordCutter& cutter, const StopSignals& stop) {
   const std::string& said = snapshot ? snapshot->format : options.format;
   if (!said.empty()) return stream_format_named(said).value();
   bool has_ended = false;
@@ -69,7 +89,7 @@ StreamFormat format_of(const WatchOptions& options, const std::optional<WatchSna
   if (!options.choices.columns.empty()) return StreamFormat::csv;
   const std::string_view beginning = cutter.waiting();
   if (const auto format = recognised_format(beginning)) return *format;
-  if (stop.asked()) return StreamFormat::jsonl;
+  if (stop.asked()) return std::nullopt;
   if (beginning.find_first_not_of(" \t\r\n") == std::string_view::npos)
     throw ProgramError(fmt::format("{}: expected reports, but it is empty", source.name()));
   if (beginning.find("!AIVDM") != std::string_view::npos ||
@@ -93,38 +113,58 @@ WatchRun::WatchRun(const WatchOptions& options)
     : options_(options),
       begun_from_(snapshot_of(options)),
       source_(source_of(options, stop_, begun_from_)),
-      format_(format_of(options, begun_from_, *source_, cutter_, stop_)),
-      alerts_(alerts_of(options, stop_, begun_from_)),
+      known_format_(format_of(options, begun_from_, *source_, cutter_, stop_)),
+      // One that needs no options.
+      format_(known_format_.value_or(StreamFormat::readsb)),
       watcher_(settings_of(options, format_, source_->name()),
                [this](std::uint64_t share, std::string_view line) { alerts_->write(share, line); }),
       reader_(make_format(format_, choices_of(options))),
       snapshot_interval_(snapshot_interval(options)) {
   cutter_.set_kind(records_of(format_));
-  if (begun_from_) {
-    try {
-      watcher_.restore(begun_from_->watcher);
-      // What another stream begins with is not what this one began with.
-      if (begun_from_->place.stream == source_->name()) {
-        reader_->restore(begun_from_->reader);
-        cutter_.begin_at(begun_from_->line);
-      }
-    } catch (const nlohmann::json::exception&) {
-      throw ProgramError(
-          fmt::format("{}: expected a snapshot of kinesphere watch, but it is none", options.snapshot));
-    }
-    complaints_ = watcher_.counts().first_malformed.size();
-    begun_from_.reset();
-  }
-  if (!options.serve) return;
-  server_ = std::make_unique<StateServer>(watcher_, *options.serve);
-  fmt::print(stderr, "kinesphere: the map is at {} (beside it: state.json, metrics)\n", server_->address());
+  if (begun_from_) go_on_from(*begun_from_);
+  if (options.serve) server_ = std::make_unique<StateServer>(watcher_, *options.serve);
+  alerts_ = open_alerts();
+  begun_from_.reset();
+  if (server_)
+    fmt::print(stderr, "kinesphere: the map is at {} (beside it: state.json, metrics)\n", server_->address());
 }
+
+void WatchRun::go_on_from(const WatchSnapshot& snapshot) {
+  try {
+    watcher_.restore(snapshot.watcher);
+    // What another stream begins with is not what this one began with.
+    if (snapshot.place.stream == source_->name()) {
+      reader_->restore(snapshot.reader);
+      cutter_.begin_at(snapshot.line);
+    }
+  } catch (const nlohmann::json::exception&) {
+    throw ProgramError(
+        fmt::format("{}: expected a snapshot of kinesphere watch, but it is none", options_.snapshot));
+  }
+  complaints_ = watcher_.counts().first_malformed.size();
+}
+
+std::unique_ptr<AlertOutput> WatchRun::open_alerts() const {
+  if (options_.alerts.empty()) return make_alert_lines();
+  if (is_nats_address(options_.alerts))
+    return make_nats_alerts(parse_nats_address(options_.alerts, "--alerts"), stop_, options_.quiet,
+                            alerts_origin(options_, watcher_.settings(), *source_));
+  if (!begun_from_) return make_alert_file(options_.alerts, std::nullopt);
+  const bool reads_again = begun_from_->place.stream == source_->name() && source_->identity();
+  return make_alert_file(options_.alerts, ToldBefore{.place = begun_from_->alerts_place,
+                                                     .was_here = begun_from_->alerts == alerts_name(options_),
+                                                     .is_told_again = reads_again});
+}
+
+std::string_view WatchRun::format_name() const { return known_format_ ? name_of(format_) : "unknown"; }
 
 void WatchRun::run() {
   const bool by_machine = watcher_.settings().clock == WatchSettings::Clock::machine;
   // So often alerts come by the passing of time alone.
   const std::chrono::milliseconds patience(by_machine ? 50 : 1000);
   bool has_ended = false;
+  // From here on it goes on: with the file of alerts as it is now.
+  if (watcher_.monitor()) keep_snapshot();
   // What has come in is taken, even when the program is asked to stop meanwhile.
   take();
   while (!has_ended && !stop_.asked()) {
@@ -138,7 +178,7 @@ void WatchRun::run() {
     const bool is_later = source_->has_clock() ? outcome == ReportSource::Outcome::text
                                                : outcome == ReportSource::Outcome::quiet;
     if (by_machine && is_later) pass_time();
-    if (std::chrono::steady_clock::now() - last_snapshot_ > snapshot_interval_) keep_snapshot();
+    if (is_time_for_snapshot()) keep_snapshot();
   }
   // A later run reads what may not be whole again.
   keep_snapshot();
@@ -147,9 +187,11 @@ void WatchRun::run() {
   }
   // A stream that others read, too, goes on.
   if (!has_ended && source_->has_clock()) return;
-  const auto guard = guarded();
-  watcher_.finish();
-  flush();
+  {
+    const auto guard = guarded();
+    watcher_.finish();
+  }
+  alerts_->flush(source_->position(cutter_.waiting().size()));
 }
 
 std::unique_lock<StateServer> WatchRun::guarded() {
@@ -158,33 +200,39 @@ std::unique_lock<StateServer> WatchRun::guarded() {
 
 void WatchRun::take() {
   while (const auto record = cutter_.next()) read(*record);
+  if (!source_->has_whole_records()) return;
+  if (const auto cut_off = cutter_.rest()) read(*cut_off);
 }
 
 void WatchRun::read(const Record& record) {
-  const auto guard = guarded();
-  if (watcher_.settings().clock == WatchSettings::Clock::machine) watcher_.machine_time_is(now());
-  watcher_.begin_record(record.line);
+  const std::uint64_t position = source_->position(record.behind);
   const std::uint64_t malformed = watcher_.counts().malformed;
-  try {
-    reader_->read(record, watcher_);
-  } catch (const MalformedRecord& error) {
-    watcher_.refuse(error.what());
+  {
+    const auto guard = guarded();
+    if (watcher_.settings().clock == WatchSettings::Clock::machine) watcher_.machine_time_is(now());
+    watcher_.begin_record(record.line);
+    try {
+      reader_->read(record, watcher_);
+    } catch (const MalformedRecord& error) {
+      watcher_.refuse(error.what());
+    }
+    watcher_.end_record();
   }
-  watcher_.end_record();
-  flush();
+  // Who asks for the state does not wait for a server that is to take alerts.
+  alerts_->flush(position);
   if (watcher_.counts().malformed > malformed) complain();
 }
 
 void WatchRun::pass_time() {
-  const auto guard = guarded();
-  watcher_.machine_time_is(now());
-  watcher_.end_record();
-  flush();
+  {
+    const auto guard = guarded();
+    watcher_.machine_time_is(now());
+    watcher_.end_record();
+  }
+  alerts_->flush(source_->position(cutter_.waiting().size()));
 }
 
 FileTime WatchRun::now() const { return source_->has_clock() ? source_->arrival() : machine_time(); }
-
-void WatchRun::flush() { alerts_->flush(source_->position()); }
 
 void WatchRun::complain() {
   const auto& lines = watcher_.counts().first_malformed;
@@ -193,16 +241,24 @@ void WatchRun::complain() {
                lines[complaints_].reason);
 }
 
+bool WatchRun::is_time_for_snapshot() const {
+  // The first is kept as soon as there is something to lose: so a later run goes on with what was told, and
+  // who cannot write it learns so at once.
+  if (!last_snapshot_) return watcher_.monitor().has_value();
+  return std::chrono::steady_clock::now() - *last_snapshot_ > snapshot_interval_;
+}
+
 void WatchRun::keep_snapshot() {
-  if (options_.snapshot.empty()) return;
-  WatchSnapshot snapshot{.options = given_options(options_),
-                         .format = std::string(name_of(format_)),
-                         .place = source_->place(cutter_.waiting().size()),
-                         .line = cutter_.line(),
-                         .reader = reader_->save(),
-                         .watcher = watcher_.save(),
-                         .alerts = options_.alerts,
-                         .alert_bytes = alerts_->sync()};
+  last_snapshot_ = std::chrono::steady_clock::now();
+  if (options_.snapshot.empty() || !known_format_) return;
+  const WatchSnapshot snapshot{.options = given_options(options_),
+                               .format = std::string(name_of(format_)),
+                               .place = source_->place(cutter_.waiting().size()),
+                               .line = cutter_.line(),
+                               .reader = reader_->save(),
+                               .watcher = watcher_.save(),
+                               .alerts = alerts_name(options_),
+                               .alerts_place = alerts_->sync()};
   write_snapshot(options_.snapshot, snapshot);
   last_snapshot_ = std::chrono::steady_clock::now();
 }

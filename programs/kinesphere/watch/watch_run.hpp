@@ -28,33 +28,38 @@ class WatchRun {
   void close() { server_.reset(); }
 
   const Watcher& watcher() const { return watcher_; }
-  StreamFormat format() const { return format_; }
+  /// "unknown" where nothing of the stream has come in.
+  std::string_view format_name() const;
 
  private:
   /// Holds off whoever asks for the state.
   std::unique_lock<StateServer> guarded();
+  void go_on_from(const WatchSnapshot& snapshot);
+  std::unique_ptr<AlertOutput> open_alerts() const;
   /// Takes what of the stream has come in.
   void take();
   void read(const Record& record);
   void pass_time();
   FileTime now() const;
-  void flush();
   void complain();
+  bool is_time_for_snapshot() const;
   void keep_snapshot();
 
   const WatchOptions& options_;
   StopSignals stop_;
-  std::optional<WatchSnapshot> begun_from_;  ///< until it has been gone on from
+  std::optional<WatchSnapshot> begun_from_;  ///< until all is there that goes on from it
   std::unique_ptr<ReportSource> source_;
   RecordCutter cutter_;
+  std::optional<StreamFormat> known_format_;  ///< none where the program was asked to stop before
   StreamFormat format_;
-  std::unique_ptr<AlertOutput> alerts_;
   Watcher watcher_;
   std::unique_ptr<ReportFormat> reader_;
   std::unique_ptr<StateServer> server_;
   std::size_t complaints_ = 0;
   std::chrono::duration<double> snapshot_interval_;
-  std::chrono::steady_clock::time_point last_snapshot_ = std::chrono::steady_clock::now();
+  std::optional<std::chrono::steady_clock::time_point> last_snapshot_;
+  /// Nothing is written before all else is found to be right.
+  std::unique_ptr<AlertOutput> alerts_;
 };
 
 }  // namespace kinesphere::program

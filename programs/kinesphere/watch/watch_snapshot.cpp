@@ -2,7 +2,6 @@
 #include "watch/watch_snapshot.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <filesystem>
 #include <fstream>
@@ -10,6 +9,7 @@
 
 #include "output_file.hpp"
 #include "program_error.hpp"
+#include "watch/checksum.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -18,10 +18,6 @@ namespace {
 /// more; then comes CBOR. Raise the number when the fields change.
 constexpr std::string_view snapshot_title = "kinesphere watch snapshot 1\n";
 
-std::uint32_t checksum(std::string_view bytes) {
-  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
-
 std::string heading(std::string_view content) {
   return fmt::format("{}{:016x} {:08x}\n", snapshot_title, content.size(), checksum(content));
 }
@@ -29,7 +25,7 @@ std::string heading(std::string_view content) {
 }  // namespace
 
 void write_snapshot(const std::string& path, const WatchSnapshot& snapshot) {
-  const auto& [options, format, place, line, reader, watcher, alerts, alert_bytes] = snapshot;
+  const auto& [options, format, place, line, reader, watcher, alerts, alerts_place] = snapshot;
   std::string content;
   nlohmann::json::to_cbor({{"options", options},
                            {"format", format},
@@ -40,7 +36,7 @@ void write_snapshot(const std::string& path, const WatchSnapshot& snapshot) {
                            {"reader", reader},
                            {"watcher", watcher},
                            {"alerts", alerts},
-                           {"alert_bytes", alert_bytes}},
+                           {"alerts_place", {alerts_place.bytes, alerts_place.check}}},
                           content);
   // What a killed run has begun to write is overwritten.
   OutputFile file(OutputPlace{path, 0});
@@ -52,7 +48,11 @@ void write_snapshot(const std::string& path, const WatchSnapshot& snapshot) {
 
 std::optional<WatchSnapshot> read_snapshot(const std::string& path) {
   std::error_code error;
-  if (!std::filesystem::exists(path, error) && !error) return std::nullopt;
+  const auto status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) return std::nullopt;
+  // Some of what is no file has no end.
+  if (!error && !std::filesystem::is_regular_file(status))
+    throw ProgramError(fmt::format("--snapshot: expected a file, but {} is something else", path));
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file.is_open() || file.bad()) throw ProgramError(fmt::format("{}: cannot read", path));
@@ -70,7 +70,7 @@ std::optional<WatchSnapshot> read_snapshot(const std::string& path) {
                          .reader = json.at("reader"),
                          .watcher = json.at("watcher"),
                          .alerts = json.at("alerts"),
-                         .alert_bytes = json.at("alert_bytes")};
+                         .alerts_place = {json.at("alerts_place").at(0), json.at("alerts_place").at(1)}};
   } catch (const nlohmann::json::exception&) {
     throw ProgramError(fmt::format("{}: expected a snapshot of kinesphere watch, but it is none", path));
   }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "watch/alert_output.hpp"
 #include "watch/record_cutter.hpp"
 #include "watch/report_source.hpp"
 
@@ -23,8 +24,8 @@ struct WatchSnapshot {
   RecordCutter::Line line;  ///< at that place
   nlohmann::json reader;    ///< what the format keeps
   nlohmann::json watcher;
-  std::string alerts;             ///< where alerts go, as --alerts says it
-  std::uint64_t alert_bytes = 0;  ///< of those that are out
+  std::string alerts;  ///< where they go: the whole path of a file, or an address
+  AlertsPlace alerts_place{};
 };
 
 /// The file is there as a whole or, whatever happens, as it was. Throws ProgramError naming the file.

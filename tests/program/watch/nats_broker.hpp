@@ -82,7 +82,8 @@ class NatsBroker {
   }
   std::uint64_t messages_in(const std::string& stream) const {
     const NatsConnection connection = connect();
-    const NatsStreamInfo info = connection.stream_info(stream);
+    natsStatus status{};
+    const NatsStreamInfo info = connection.stream_info(stream, status);
     return info ? info->State.Msgs : 0;
   }
   /// What a stream has under a subject, in order.

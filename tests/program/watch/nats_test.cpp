@@ -2,9 +2,13 @@
 // killed, the server as well.
 #ifdef KINESPHERE_WITH_NATS
 
+#include <atomic>
+#include <chrono>
+#include <functional>
 #include <memory>
 #include <thread>
 
+#include "kinesphere/random.hpp"
 #include "program/support.hpp"
 #include "program/watch/crossing_tracks.hpp"
 #include "program/watch/live_watch.hpp"
@@ -33,7 +37,8 @@ class WatchNats : public ProgramTest {
   }
 
   /// As messages of several lines, on several subjects.
-  void publish(double from = 0.0, double until = 1.0) {
+  void publish(double from = 0.0, double until = 1.0,
+               std::chrono::milliseconds between = std::chrono::milliseconds(0)) {
     const NatsConnection connection = broker_->connect();
     constexpr std::size_t lines_at_once = 7;
     std::istringstream lines(text_);
@@ -43,6 +48,7 @@ class WatchNats : public ProgramTest {
       const double done = static_cast<double>(++number * lines_at_once) / 12000.0;
       if (!message.empty() && from < done && done <= until)
         publish_surely(connection, number % 2 == 0 ? "sky.a" : "sky.b", message, std::to_string(number));
+      if (between.count() > 0) std::this_thread::sleep_for(between);
       message.clear();
     };
     while (std::getline(lines, line)) {
@@ -141,6 +147,42 @@ TEST_F(WatchNats, TheServerMayBeStartedAgain) {
   expect_no_complaints();
 }
 
+/// All of it at once: four share the pairs, one watches them all as well, the server and one of them are
+/// killed, and another takes over from its snapshot, all while reports come in.
+TEST_F(WatchNats, WhileReportsComeInAllMayBeKilled) {
+  const std::string kept = " --snapshot '" + path("state") + "' --snapshot-every 20ms";
+  std::vector<std::unique_ptr<LiveWatch>> all;
+  for (const char* share : {"1-2/8", "3-4/8", "5-6/8", "1-8/8"}) all.push_back(watch(share));
+  auto killed = watch("7-8/8", kept);
+  std::atomic<bool> is_published = false;
+  std::thread publisher([&] {
+    publish(0.0, 1.0, std::chrono::milliseconds(4));
+    is_published = true;
+  });
+  wait_for_alerts(count_ / 10);
+  killed->signal(SIGKILL);
+  killed->wait();
+  broker_->stop(SIGKILL);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  broker_->start();
+  ASSERT_TRUE(broker_->is_running());
+  const bool came_in_before = is_published;
+  killed = watch("7-8/8", kept);
+  wait_for_alerts(count_ / 4);
+  broker_->stop(SIGTERM);
+  broker_->start();
+  ASSERT_TRUE(broker_->is_running());
+  EXPECT_FALSE(came_in_before) << "all reports had come in before";
+  publisher.join();
+  expect_all_alerts();
+  all.push_back(std::move(killed));
+  for (const auto& live : all) {
+    live->signal(SIGTERM);
+    EXPECT_EQ(live->wait(), 0);
+  }
+  expect_no_complaints();
+}
+
 TEST_F(WatchNats, TimePassesForAllByTheClockOfTheServer) {
   using namespace std::chrono;
   auto one = watch("1-4/8", "--clock arrival"), other = watch("5-8/8", "--clock arrival");
@@ -160,8 +202,144 @@ TEST_F(WatchNats, TimePassesForAllByTheClockOfTheServer) {
   EXPECT_EQ(silent, 20u);
 }
 
+TEST_F(WatchNats, OfAFileThatIsReadAgainAndAgainEachIsToldOnce) {
+  const std::string arguments = path("s.jsonl") + options + " --share 1-8/8 --alerts " +
+                                broker_->url("alerts") + " --snapshot '" + path("state") +
+                                "' --snapshot-every 3ms";
+  Random random(1);
+  int killed = 0;
+  for (bool has_ended = false; !has_ended;) {
+    LiveWatch live(arguments, path("err"));
+    const double longest = 100.0 + 50.0 * killed;
+    std::this_thread::sleep_for(std::chrono::milliseconds(static_cast<int>(random.uniform(30.0, longest))));
+    live.signal(SIGKILL);
+    has_ended = live.wait() == 0;
+    killed += has_ended ? 0 : 1;
+  }
+  EXPECT_GE(killed, 3) << "the stream was too short";
+  expect_all_alerts();
+  // Nor does anything come twice of one that knows nothing, and reads in other pieces.
+  EXPECT_EQ(run("watch " + path("s.jsonl") + options + " --share 1-8/8 --alerts " + broker_->url("alerts"))
+                .exit_code,
+            0);
+  expect_all_alerts();
+}
+
+/// What was told of one stream says nothing of another.
+TEST_F(WatchNats, OtherStreamsHaveOtherAlerts) {
+  const std::string told = options + " --share 1-8/8 --alerts " + broker_->url("alerts");
+  const auto tell = [&](const std::string& arguments, const std::string& before = "") {
+    const std::size_t already = broker_->messages_in("ALERTS");
+    EXPECT_EQ(run("watch " + arguments + told, before).exit_code, 0);
+    return broker_->messages_in("ALERTS") - already;
+  };
+  EXPECT_EQ(tell(path("s.jsonl")), count_);
+  EXPECT_EQ(tell("-", "cat '" + path("s.jsonl") + "' | "), count_) << "through a pipe";
+  EXPECT_EQ(tell("-", "cat '" + path("s.jsonl") + "' | "), count_) << "through another one";
+  std::string other = text_;
+  other.erase(0, other.find('\n') + 1);
+  EXPECT_GT(tell(write("other.jsonl", other)), count_ / 2);
+  // Nor of the same that is judged otherwise.
+  EXPECT_GT(tell(path("s.jsonl") + " --separation sphere:20"), count_ / 2);
+}
+
+TEST_F(WatchNats, AStreamThatIsMadeAnewEndsIt) {
+  publish(0.0, 0.3);
+  auto live = watch("1-8/8");
+  wait_for_alerts(count_ / 5);
+  const NatsConnection connection = broker_->connect();
+  ASSERT_EQ(js_DeleteStream(connection.jetstream(), "SKY", nullptr, nullptr), NATS_OK);
+  broker_->add_stream("SKY", "sky.*");
+  publish(0.3, 1.0);
+  EXPECT_EQ(live->wait(), 2);
+  EXPECT_NE(read_text(path("err1")).find("made anew"), std::string::npos) << read_text(path("err1"));
+}
+
+/// The snapshot of one knows no place in the other.
+TEST_F(WatchNats, ASubjectAndAStreamOfTheSameNameAreTwo) {
+  const std::string kept = " --snapshot '" + path("state") + "' --summary '" + path("sum") + "' ";
+  const std::string arguments = "'" + broker_->url("plain.x") + "'" + options + kept;
+  const NatsConnection connection = broker_->connect();
+  const auto read_until_stopped = [&](const std::function<void()>& send) {
+    LiveWatch live("--format jsonl " + arguments, path("err"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1000));
+    send();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1000));
+    live.signal(SIGTERM);
+    EXPECT_EQ(live.wait(), 0) << live.err();
+    return nlohmann::json::parse(read_text(path("sum")))["reports"].get<int>();
+  };
+  std::istringstream lines(text_);
+  std::string line;
+  EXPECT_EQ(read_until_stopped([&] {
+              for (int k = 0; k < 20 && std::getline(lines, line); ++k)
+                natsConnection_PublishString(connection.get(), "plain.x", line.c_str());
+              natsConnection_FlushTimeout(connection.get(), 1000);
+            }),
+            20);
+  broker_->add_stream("PLAIN", "plain.*");
+  EXPECT_EQ(read_until_stopped([&] {
+              for (int k = 0; k < 10 && std::getline(lines, line); ++k)
+                publish_surely(connection, "plain.x", line, std::to_string(k));
+            }),
+            30);
+  ASSERT_EQ(js_DeleteStream(connection.jetstream(), "PLAIN", nullptr, nullptr), NATS_OK);
+  expect_wrong_input("watch " + arguments, {"plain.x", "no stream"});
+}
+
+TEST_F(WatchNats, AMessageThatIsCutOffTakesNoneAlong) {
+  const auto document = [](double now, const char* end) {
+    return fmt::format(
+        R"({{"now": {}, "aircraft": [{{"hex": "400a01", "lat": 50, "lon": 8, "alt_baro": 30000, )"
+        R"("gs": 400, "track": 90, "seen_pos": 0.1, "nac_p": 9, "nac_v": 2, "rc": 100}}{})",
+        now, end);
+  };
+  const NatsConnection connection = broker_->connect();
+  publish_surely(connection, "sky.a", document(1000.0, "]}"), "0");
+  publish_surely(connection, "sky.a", document(1000.5, "]}"), "1");
+  publish_surely(connection, "sky.a", document(1001.0, ""), "2");
+  const std::string arguments = "'" + broker_->url("sky.*") +
+                                "' --separation sphere:500 --quiet --snapshot '" + path("state") +
+                                "' --summary '" + path("sum") + "'";
+  for (int part = 0; part < 2; ++part) {
+    LiveWatch live(arguments, path("err"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1000));
+    live.signal(SIGTERM);
+    EXPECT_EQ(live.wait(), 0) << live.err();
+    publish_surely(connection, "sky.a", document(1002.0, "]}"), "3");
+  }
+  const auto sum = nlohmann::json::parse(read_text(path("sum")));
+  EXPECT_EQ(sum["reports"], 3) << sum;
+  EXPECT_EQ(sum["malformed"], 1) << sum;
+}
+
+TEST(NatsSubjects, HoldOthersAsAWhole) {
+  const auto holds = [](const char* held, const char* subject) {
+    return holds_all_of(std::vector<std::string>{"else", held}, subject);
+  };
+  for (const auto& [held, subject] : {std::pair{"a", "a"},
+                                      {"a.*", "a.b"},
+                                      {"a.*", "a.*"},
+                                      {"a.>", "a.*"},
+                                      {"a.>", "a.b.>"},
+                                      {">", "a"},
+                                      {"*.b", "a.b"}})
+    EXPECT_TRUE(holds(held, subject)) << held << " " << subject;
+  for (const auto& [held, subject] : {std::pair{"a", "b"},
+                                      {"a.b", "a.*"},
+                                      {"a.*", "a.>"},
+                                      {"a.*", "a"},
+                                      {"a.>", "a"},
+                                      {"a", "a.b"},
+                                      {"a.*", "a.b.c"},
+                                      {"*.b", "a.*"}})
+    EXPECT_FALSE(holds(held, subject)) << held << " " << subject;
+}
+
 TEST_F(WatchNats, ReadsASubjectWithoutAStream) {
-  LiveWatch live("'" + broker_->url("plain.>") + "'" + options, path("err"));
+  std::string loud = options;
+  loud.erase(loud.find("--quiet"), 7);
+  LiveWatch live("'" + broker_->url("plain.>") + "'" + loud, path("err"));
   const NatsConnection connection = broker_->connect();
   natsConnection_FlushTimeout(connection.get(), 1000);
   // It may not listen yet.
@@ -182,6 +360,8 @@ TEST_F(WatchNats, RefusesWhatCannotBe) {
     expect_wrong_input("watch " + std::string(wrong) + options, {"FILE", "nats://HOST:PORT/SUBJECT"});
   expect_wrong_input("watch " + path("s.jsonl") + options + " --alerts " + "'" + broker_->url("a.*") + "'",
                      {"--alerts", "without wildcards"});
+  // What a stream holds some of is not all there.
+  expect_wrong_input("watch '" + broker_->url("sky.>") + "'" + options, {"all of 'sky.>'", "sky.*"});
   // A stream that was made anew is not the one that was read.
   publish(0.0, 0.2);
   const std::string kept = " --snapshot '" + path("state") + "' --snapshot-every 20ms";

@@ -183,9 +183,149 @@ TEST_F(WatchRestart, RefusesWhatItCannotGoOnFrom) {
                      {"--alerts"});
   expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + " --alerts /dev/full",
                      {"--alerts", "/dev/full"});
+  for (const std::string& wrong : {path("."), std::string("/dev/full")})
+    expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + " --snapshot " + wrong,
+                       {"--snapshot", wrong});
   expect_wrong_input(
       "watch " + stream + crossing_promises + crossing_errors + " --snapshot-every 0s --snapshot x",
       {"--snapshot-every"});
+}
+
+TEST_F(WatchRestart, LeavesAlertsAsTheyAreWhenItRefuses) {
+  const std::string text = stream_of(json_line, 2000);
+  const std::string stream = write("s.jsonl", text), options = crossing_promises + crossing_errors;
+  const std::string alerts = " --alerts '" + path("alerts") + "'",
+                    kept = " --snapshot '" + path("state") + "'";
+  write("alerts", "precious\n");
+  expect_wrong_input("watch " + stream + " --separation sphere:a --acceleration 5" + alerts,
+                     {"--separation"});
+  expect_wrong_input("watch " + stream + options + alerts + " --snapshot-every 0s", {"--snapshot-every"});
+  expect_wrong_input("watch " + stream + options + alerts + " --summary /nowhere/sum", {"/nowhere/sum"});
+  EXPECT_EQ(read_text(path("alerts")), "precious\n");
+  // Others than those that the snapshot's run has written.
+  ASSERT_EQ(run("watch --quiet " + stream + options + kept + alerts).exit_code, 0);
+  std::string changed = read_text(path("alerts"));
+  const std::string told = changed;
+  changed[changed.size() - 5] = '#';
+  write("alerts", changed);
+  expect_wrong_input("watch " + stream + options + kept + alerts, {path("alerts"), "are others"});
+  EXPECT_TRUE(read_text(path("alerts")) == changed);
+  write("other", "precious\n");
+  expect_wrong_input("watch " + stream + options + kept + " --alerts '" + path("other") + "'",
+                     {"--alerts", path("other"), "something else"});
+  EXPECT_EQ(read_text(path("other")), "precious\n");
+  // The same file under other names is the same, and another one is begun.
+  write("alerts", told);
+  ASSERT_EQ(std::system(("cp '" + path("alerts") + "' '" + path("copy") + "'").c_str()), 0);
+  for (const std::string& name : {path("./alerts"), path("copy")})
+    EXPECT_EQ(run("watch --quiet " + stream + options + kept + " --alerts '" + name + "'").exit_code, 0);
+  EXPECT_TRUE(read_text(path("alerts")) == told);
+  EXPECT_TRUE(read_text(path("copy")) == told);
+  EXPECT_EQ(run("watch --quiet " + stream + options + kept + " --alerts '" + path("new") + "'").exit_code, 0);
+  EXPECT_EQ(read_text(path("new")), "");
+}
+
+TEST_F(WatchRestart, TwoDoNotWriteToOneFileOfAlerts) {
+  const std::string options = crossing_promises + crossing_errors + " --alerts '" + path("alerts") + "'";
+  LiveWatch first("--quiet --format jsonl" + options, path("err"));
+  first.write(stream_of(json_line, 300));
+  for (int k = 0; k < 500 && read_text(path("alerts")).empty(); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  expect_wrong_input("watch " + write("s.jsonl", stream_of(json_line, 300)) + options,
+                     {path("alerts"), "another program"});
+  first.end_input();
+  EXPECT_EQ(first.wait(), 0);
+  EXPECT_NE(read_text(path("alerts")), "");
+}
+
+/// What came through a pipe does not come again, so what was told of it stays.
+TEST_F(WatchRestart, KeepsWhatWasToldOfAPipe) {
+  const std::string text = stream_of(json_line, 4000);
+  const std::size_t middle = text.find('\n', text.size() / 2) + 1;
+  const std::string arguments = "--quiet" + crossing_promises + crossing_errors + " --alerts '" +
+                                path("alerts") + "' --snapshot '" + path("state") + "' --snapshot-every 1h";
+  LiveWatch killed(arguments, path("err"));
+  std::istringstream lines(text.substr(0, middle));
+  for (std::string line; std::getline(lines, line);) killed.write(line + "\n");
+  std::string told;
+  const auto count = [&] { return std::count(told.begin(), told.end(), '\n'); };
+  for (int k = 0; k < 500 && (count() < 100 || told != read_text(path("alerts"))); ++k) {
+    told = read_text(path("alerts"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  killed.signal(SIGKILL);
+  killed.wait();
+  EXPECT_GT(count(), 100);
+  // It was writing.
+  write("alerts", told + "{\"event\": \"ver");
+  const ProgramRun later = run("watch " + arguments, "cat '" + write("rest", text.substr(middle)) + "' | ");
+  EXPECT_EQ(later.exit_code, 0) << later.err;
+  const std::string all = read_text(path("alerts"));
+  EXPECT_EQ(all.substr(0, told.size()), told);
+  EXPECT_GT(all.size(), told.size() + 1000);
+  std::istringstream alerts(all);
+  for (std::string line; std::getline(alerts, line);) EXPECT_TRUE(Json::accept(line)) << line;
+}
+
+/// One that is stopped before anything has come in knows no format, and needs no options of one.
+TEST_F(WatchRestart, StoppedBeforeTheFirstLineItKeepsNothing) {
+  for (const char* beginning : {"", "{\"id\": \"t1\", \"sta"}) {
+    LiveWatch live(
+        "--separation sphere:50 --snapshot '" + path("state") + "' --summary '" + path("sum") + "'",
+        path("err"));
+    live.write(beginning);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    live.signal(SIGTERM);
+    EXPECT_EQ(live.wait(), 0) << live.err();
+    EXPECT_FALSE(std::filesystem::exists(path("state")));
+    EXPECT_EQ(summary("sum")["format"], "unknown");
+  }
+}
+
+TEST_F(WatchRestart, RefusesAnotherPackedFile) {
+  const std::string table = "id,time,x,y,z,vx,vy,vz\n" + stream_of(csv_line, 2000);
+  const std::string arguments = "watch --quiet " + path("s.csv.gz") + crossing_promises + crossing_errors +
+                                " --snapshot '" + path("state") + "'";
+  const auto pack = [&](const std::string& text) {
+    write("s.csv", text);
+    ASSERT_EQ(std::system(("gzip -kf '" + path("s.csv") + "'").c_str()), 0);
+  };
+  pack(table);
+  ASSERT_EQ(run(arguments).exit_code, 0);
+  std::string other = table;
+  other[100] = other[100] == '1' ? '2' : '1';
+  pack(other);
+  expect_wrong_input(arguments, {path("s.csv.gz"), "are others"});
+  pack(table.substr(0, table.size() / 2));
+  expect_wrong_input(arguments, {path("s.csv.gz"), "are others"});
+  pack(table);
+  EXPECT_EQ(run(arguments).exit_code, 0);
+}
+
+/// Of a file on standard input no more is passed over than was read of that file.
+TEST_F(WatchRestart, ReadsAFileBehindAPipeFromItsBegin) {
+  const std::string text = stream_of(json_line, 2000);
+  const std::size_t middle = text.find('\n', text.size() / 2) + 1;
+  const std::string arguments = "watch --quiet" + crossing_promises + crossing_errors + " --snapshot '" +
+                                path("state") + "' --summary '" + path("sum") + "'";
+  const std::string rest = write("rest", text.substr(middle));
+  ASSERT_EQ(run(arguments, "cat '" + write("first", text.substr(0, middle)) + "' | ").exit_code, 0);
+  const int first = summary("sum")["reports"];
+  ASSERT_EQ(run_shell("'" KINESPHERE_PROGRAM "' " + arguments + " <'" + rest + "'").exit_code, 0);
+  EXPECT_GT(summary("sum")["reports"].get<int>(), 3 * first / 2);
+  // Who hands it over may have read some of it.
+  const ProgramRun behind =
+      run_shell("{ read first; '" KINESPHERE_PROGRAM "' " + arguments + "; } <'" + rest + "'");
+  EXPECT_EQ(behind.exit_code, 0) << behind.err;
+}
+
+TEST_F(WatchRestart, SaysAtOnceThatItCannotKeepASnapshot) {
+  LiveWatch live("--quiet" + crossing_promises + crossing_errors +
+                     " --snapshot-every 1h --snapshot /nowhere/state --alerts '" + path("alerts") + "'",
+                 path("err"));
+  live.write(stream_of(json_line, 300));
+  EXPECT_EQ(live.wait(), 2);
+  EXPECT_NE(live.err().find("/nowhere/state"), std::string::npos) << live.err();
 }
 
 /// What is sealed well and is still no watch.

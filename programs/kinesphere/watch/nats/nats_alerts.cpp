@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* told_header = "Kinesphere-Told";
 
-/// What an alert came of: the position in the stream of reports, and which one of those of its share.
+/// What an alert came of: the place in the stream of reports, and which one of those of its share.
 struct Told {
   std::uint64_t position = 0;
   std::uint64_t number = 0;
@@ -25,31 +25,32 @@ struct Told {
   friend auto operator<=>(const Told&, const Told&) = default;
 };
 
-std::string text_of(const Told& told) { return fmt::format("{} {}", told.position, told.number); }
+std::string text_of(const Told& told, const std::string& origin) {
+  return fmt::format("{} {} {}", told.position, told.number, origin);
+}
 
-Told told_by(natsMsg* message) {
+/// Of another origin it says nothing of what has been told of this one.
+Told told_by(natsMsg* message, const std::string& origin) {
   const char* text = nullptr;
+  if (natsMsgHeader_Get(message, told_header, &text) != NATS_OK) return {};
   Told told;
-  if (natsMsgHeader_Get(message, told_header, &text) != NATS_OK) return told;
   const char* const end = text + std::char_traits<char>::length(text);
-  const auto after = std::from_chars(text, end, told.position);
-  if (after.ptr != end) std::from_chars(after.ptr + 1, end, told.number);
-  return told;
+  auto after = std::from_chars(text, end, told.position);
+  if (after.ptr != end) after = std::from_chars(after.ptr + 1, end, told.number);
+  return std::string_view(after.ptr, end) == " " + origin ? told : Told{};
 }
 
 class NatsAlerts final : public AlertOutput {
  public:
-  NatsAlerts(const NatsAddress& address, const StopSignals& stop)
-      : connection_(address), stop_(stop), stream_(connection_.stream_of(address.subject + ".1")) {
-    if (address.subject.find_first_of("*>") != std::string::npos)
-      throw ProgramError(
-          fmt::format("--alerts: expected a subject without wildcards, but got '{}'", address.name));
+  NatsAlerts(const NatsAddress& address, const StopSignals& stop, bool is_quiet, std::string origin)
+      : connection_(address, is_quiet),
+        stop_(stop),
+        origin_(std::move(origin)),
+        stream_(connection_.stream_of(address.subject + ".*")) {
     if (!stream_)
-      fmt::print(
-          stderr,
-          "kinesphere: warning: {}.*: no stream of JetStream holds it: alerts reach those who listen, and "
-          "may reach them twice\n",
-          address.name);
+      connection_.warn(
+          "no stream of JetStream holds what is below it: alerts reach those who listen, and may reach them "
+          "twice");
   }
 
   void write(std::uint64_t share, std::string_view line) override {
@@ -70,7 +71,7 @@ class NatsAlerts final : public AlertOutput {
     if (!stream_ && !waiting_.empty()) natsConnection_FlushTimeout(connection_.get(), 5000);
     waiting_.clear();
   }
-  std::uint64_t sync() override { return 0; }
+  AlertsPlace sync() override { return {}; }
 
  private:
   struct Waiting {
@@ -101,7 +102,7 @@ class NatsAlerts final : public AlertOutput {
                                               share.subject.c_str(), nullptr, nullptr);
       const NatsMessage message(got);
       if (status == NATS_OK) {
-        share.last = told_by(got);
+        share.last = told_by(got, origin_);
         share.last_sequence = natsMsg_GetSequence(got);
         return;
       }
@@ -110,7 +111,7 @@ class NatsAlerts final : public AlertOutput {
         share.last_sequence = 0;
         return;
       }
-      wait_for_server(status);
+      wait_for_server(share, status);
     }
   }
 
@@ -118,7 +119,7 @@ class NatsAlerts final : public AlertOutput {
   void tell_once(Share& share, const std::string& line) {
     while (share.last < share.next) {
       NatsMessage message = message_of(share.subject, line);
-      natsMsgHeader_Set(message.get(), told_header, text_of(share.next).c_str());
+      natsMsgHeader_Set(message.get(), told_header, text_of(share.next, origin_).c_str());
       natsMsgHeader_Set(message.get(), "Nats-Expected-Last-Subject-Sequence",
                         fmt::to_string(share.last_sequence).c_str());
       jsPubAck* got = nullptr;
@@ -128,10 +129,12 @@ class NatsAlerts final : public AlertOutput {
       if (status == NATS_OK) {
         share.last = share.next;
         share.last_sequence = ack->Sequence;
+        failing_since_.reset();
+        is_failure_told_ = false;
         return;
       }
       // Somebody else has told one. So may this program itself have, when it has not heard the answer.
-      if (code != JSStreamWrongLastSequenceErr) wait_for_server(status);
+      if (code != JSStreamWrongLastSequenceErr) wait_for_server(share, status);
       find_last(share);
     }
   }
@@ -150,22 +153,39 @@ class NatsAlerts final : public AlertOutput {
     return NatsMessage(made);
   }
 
-  void wait_for_server(natsStatus status) const {
+  void wait_for_server(const Share& share, natsStatus status) {
     if (stop_.asked()) connection_.fail(status, "alerts cannot be sent");
+    connection_.check_open();
+    // A server that is started again takes a while.
+    constexpr std::chrono::seconds patience(2);
+    const auto now = std::chrono::steady_clock::now();
+    if (!failing_since_) failing_since_ = now;
+    if (!is_failure_told_ && now - *failing_since_ > patience) {
+      connection_.warn(
+          fmt::format("{}: alerts cannot be sent, but wait: {}", share.subject, natsStatus_GetText(status)));
+      is_failure_told_ = true;
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
 
   NatsConnection connection_;
   const StopSignals& stop_;
+  std::string origin_;
   std::optional<std::string> stream_;
+  std::optional<std::chrono::steady_clock::time_point> failing_since_;
+  bool is_failure_told_ = false;
   std::unordered_map<std::uint64_t, Share> shares_;
   std::vector<Waiting> waiting_;
 };
 
 }  // namespace
 
-std::unique_ptr<AlertOutput> make_nats_alerts(const NatsAddress& address, const StopSignals& stop) {
-  return std::make_unique<NatsAlerts>(address, stop);
+std::unique_ptr<AlertOutput> make_nats_alerts(const NatsAddress& address, const StopSignals& stop,
+                                              bool is_quiet, const std::string& origin) {
+  if (address.subject.find_first_of("*>") != std::string::npos)
+    throw ProgramError(
+        fmt::format("--alerts: expected a subject without wildcards, but got '{}'", address.name));
+  return std::make_unique<NatsAlerts>(address, stop, is_quiet, origin);
 }
 
 }  // namespace kinesphere::program

@@ -3,13 +3,38 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "program_error.hpp"
 
 namespace kinesphere::program {
 
-NatsConnection::NatsConnection(const NatsAddress& address) : address_(address) {
+namespace {
+
+bool holds_all_of(std::string_view held, std::string_view subject) {
+  const auto next_token = [](std::string_view& text) {
+    const std::string_view token = text.substr(0, text.find('.'));
+    text.remove_prefix(std::min(token.size() + 1, text.size()));
+    return token;
+  };
+  while (!held.empty() && !subject.empty()) {
+    const std::string_view holds = next_token(held), token = next_token(subject);
+    if (holds == ">") return true;
+    if (token == ">" || (holds != "*" && holds != token)) return false;
+  }
+  return held.empty() && subject.empty();
+}
+
+}  // namespace
+
+bool holds_all_of(const std::vector<std::string>& held, std::string_view subject) {
+  return std::any_of(held.begin(), held.end(),
+                     [&](const std::string& each) { return holds_all_of(std::string_view(each), subject); });
+}
+
+NatsConnection::NatsConnection(const NatsAddress& address, bool is_quiet)
+    : address_(address), is_quiet_(is_quiet) {
   natsOptions* created = nullptr;
   natsStatus status = natsOptions_Create(&created);
   const std::unique_ptr<natsOptions, NatsDelete<natsOptions_Destroy>> options(created);
@@ -41,18 +66,51 @@ std::optional<std::string> NatsConnection::stream_of(const std::string& subject)
   if (status != NATS_OK) fail(status, "cannot ask for streams");
   const std::string_view text(natsMsg_GetData(reply), static_cast<std::size_t>(natsMsg_GetDataLength(reply)));
   const auto answer = nlohmann::json::parse(text, nullptr, false);
+  if (!answer.is_object())
+    throw ProgramError(
+        fmt::format("{}: expected an answer about streams, but got '{}'", address_.name, text));
+  if (const auto error = answer.find("error"); error != answer.end()) {
+    // JetStream is not there for this account, or not at all.
+    constexpr int not_for_account = 10039, not_at_all = 10076;
+    const int code = error->value("err_code", 0);
+    if (code == not_for_account || code == not_at_all) return std::nullopt;
+    throw ProgramError(fmt::format("{}: cannot ask for streams: {}", address_.name,
+                                   error->value("description", "the server does not say why")));
+  }
   const auto streams = answer.find("streams");
   if (streams == answer.end() || !streams->is_array() || streams->empty()) return std::nullopt;
   if (streams->size() > 1)
     throw ProgramError(fmt::format("{}: expected one stream of JetStream that holds '{}', but there are {}",
                                    address_.name, subject, streams->size()));
-  return streams->front().get<std::string>();
+  const auto stream = streams->front().get<std::string>();
+  natsStatus got{};
+  const NatsStreamInfo info = stream_info(stream, got);
+  if (!info) fail(got, "cannot ask for its stream");
+  const char* const* const subjects = info->Config->Subjects;
+  const std::vector<std::string> held(subjects, subjects + info->Config->SubjectsLen);
+  if (!holds_all_of(held, subject))
+    throw ProgramError(
+        fmt::format("{}: expected a stream of JetStream that holds all of '{}', but {} holds '{}'",
+                    address_.name, subject, stream, fmt::join(held, "', '")));
+  return stream;
 }
 
-NatsStreamInfo NatsConnection::stream_info(const std::string& stream) const {
+NatsStreamInfo NatsConnection::stream_info(const std::string& stream, natsStatus& status) const {
   jsStreamInfo* info = nullptr;
-  if (js_GetStreamInfo(&info, jetstream(), stream.c_str(), nullptr, nullptr) != NATS_OK) return nullptr;
-  return NatsStreamInfo(info);
+  status = js_GetStreamInfo(&info, jetstream(), stream.c_str(), nullptr, nullptr);
+  return NatsStreamInfo(status == NATS_OK ? info : nullptr);
+}
+
+void NatsConnection::warn(const std::string& what) const {
+  if (!is_quiet_) fmt::print(stderr, "kinesphere: warning: {}: {}\n", address_.name, what);
+}
+
+void NatsConnection::check_open() const {
+  if (natsConnection_Status(get()) != NATS_CONN_STATUS_CLOSED) return;
+  const char* reason = nullptr;
+  natsConnection_GetLastError(get(), &reason);
+  throw ProgramError(fmt::format("{}: the server has closed the connection: {}", address_.name,
+                                 reason != nullptr && *reason != '\0' ? reason : "it does not say why"));
 }
 
 void NatsConnection::fail(natsStatus status, const char* what) const {

@@ -14,11 +14,12 @@ namespace {
 
 }  // namespace
 
-std::unique_ptr<ReportSource> make_nats_source(const NatsAddress& address, const StopSignals&, bool,
+std::unique_ptr<ReportSource> make_nats_source(const NatsAddress& address, const StopSignals&, bool, bool,
                                                const StreamPlace*) {
   refuse(address);
 }
-std::unique_ptr<AlertOutput> make_nats_alerts(const NatsAddress& address, const StopSignals&) {
+std::unique_ptr<AlertOutput> make_nats_alerts(const NatsAddress& address, const StopSignals&, bool,
+                                              const std::string&) {
   refuse(address);
 }
 

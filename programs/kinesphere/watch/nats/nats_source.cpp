@@ -34,7 +34,8 @@ class MessageText {
 /// Messages of a subscription as they come.
 class NatsSubjectSource final : public ReportSource {
  public:
-  NatsSubjectSource(const NatsAddress& address, const StopSignals& stop) : connection_(address), stop_(stop) {
+  NatsSubjectSource(const NatsAddress& address, const StopSignals& stop, bool is_quiet)
+      : connection_(address, is_quiet), stop_(stop) {
     natsSubscription* subscription = nullptr;
     if (const auto status =
             natsConnection_SubscribeSync(&subscription, connection_.get(), address.subject.c_str());
@@ -55,16 +56,27 @@ class NatsSubjectSource final : public ReportSource {
         text = text_.take(got);
         return text.empty() ? Outcome::quiet : Outcome::text;
       }
-      // Some were lost, because too many waited: those that follow come.
-      if (status != NATS_TIMEOUT && status != NATS_SLOW_CONSUMER) connection_.fail(status, "cannot read");
+      if (status == NATS_SLOW_CONSUMER)
+        warn_of_lost();
+      else if (status != NATS_TIMEOUT)
+        connection_.fail(status, "cannot read");
     } while (Clock::now() < until && !stop_.asked());
     return Outcome::quiet;
   }
-  std::uint64_t position() const override { return position_; }
+  std::uint64_t position(std::size_t) const override { return position_; }
   StreamPlace place(std::size_t) const override { return {name(), position_, 0}; }
+  std::optional<std::string> identity() const override { return std::nullopt; }
+  bool has_whole_records() const override { return true; }
   std::string name() const override { return connection_.address().name; }
 
  private:
+  /// Too many waited. Those that follow come.
+  void warn_of_lost() const {
+    std::int64_t lost = 0;
+    natsSubscription_GetDropped(subscription_.get(), &lost);
+    connection_.warn(fmt::format("{} messages are lost by now: they come faster than they are read", lost));
+  }
+
   NatsConnection connection_;
   const StopSignals& stop_;
   NatsSubscription subscription_;
@@ -77,20 +89,23 @@ class NatsSubjectSource final : public ReportSource {
 class NatsStreamSource final : public ReportSource {
  public:
   NatsStreamSource(const NatsAddress& address, std::string stream, const StopSignals& stop, bool keeps_time,
-                   const StreamPlace* from)
-      : connection_(address), stream_(std::move(stream)), stop_(stop), keeps_time_(keeps_time) {
-    const NatsStreamInfo info = connection_.stream_info(stream_);
-    if (!info) connection_.fail(NATS_TIMEOUT, "cannot ask for its stream");
-    if (from != nullptr && from->stream == name()) {
+                   bool is_quiet, const StreamPlace* from)
+      : connection_(address, is_quiet), stream_(std::move(stream)), stop_(stop), keeps_time_(keeps_time) {
+    natsStatus status{};
+    const NatsStreamInfo info = connection_.stream_info(stream_, status);
+    if (!info) connection_.fail(status, "cannot ask for its stream");
+    created_ = info->Created;
+    // What came while no stream held the subject is not in this one.
+    if (from != nullptr && from->stream == name() && from->check != 0) {
       position_ = from->position;
-      if (info->State.LastSeq < position_)
+      if (from->check != check())
         throw ProgramError(fmt::format(
-            "{}: expected the stream that the snapshot was made of, but of its {} messages it has {}", name(),
-            position_, info->State.LastSeq));
+            "{}: expected the stream that the snapshot was made of, but it has been made anew since",
+            name()));
+      check_stream(*info);
       if (info->State.FirstSeq > position_ + 1)
-        fmt::print(stderr,
-                   "kinesphere: warning: {}: {} messages since the snapshot are not in its stream any more\n",
-                   name(), info->State.FirstSeq - position_ - 1);
+        connection_.warn(fmt::format("{} messages since the snapshot are not in its stream any more",
+                                     info->State.FirstSeq - position_ - 1));
     }
     subscribe();
   }
@@ -110,8 +125,12 @@ class NatsStreamSource final : public ReportSource {
     } while (Clock::now() < until && !stop_.asked());
     return Outcome::quiet;
   }
-  std::uint64_t position() const override { return position_; }
-  StreamPlace place(std::size_t) const override { return {name(), position_, 0}; }
+  std::uint64_t position(std::size_t) const override { return position_; }
+  StreamPlace place(std::size_t) const override { return {name(), position_, check()}; }
+  std::optional<std::string> identity() const override {
+    return fmt::format("stream {} of {}", stream_, created_);
+  }
+  bool has_whole_records() const override { return true; }
   bool has_clock() const override { return true; }
   FileTime arrival() const override { return arrival_; }
   std::string name() const override { return connection_.address().name; }
@@ -151,11 +170,50 @@ class NatsStreamSource final : public ReportSource {
   /// Nothing has come for a second.
   void look_after_it() {
     last_look_ = Clock::now();
-    if (!connection_.is_connected()) return;
-    const NatsStreamInfo info = connection_.stream_info(stream_);
-    if (!info) return;
-    if (!subscription_ || info->State.LastSeq > position_) return subscribe();
+    connection_.check_open();
+    natsStatus status = NATS_NOT_YET_CONNECTED;
+    NatsStreamInfo info;
+    if (connection_.is_connected()) info = connection_.stream_info(stream_, status);
+    if (!info) {
+      warn_once(status == NATS_NOT_FOUND ? fmt::format("its stream {} is gone: waiting for it", stream_)
+                                         : "the server does not answer: waiting for it");
+      return;
+    }
+    waits_for_.clear();
+    if (info->Created != created_)
+      throw ProgramError(
+          fmt::format("{}: expected the stream that was read so far, but it has been made anew", name()));
+    check_stream(*info);
+    if (!subscription_ || !has_all()) return subscribe();
     if (keeps_time_ && last_look_ - last_message_ > std::chrono::seconds(1)) tick();
+  }
+
+  void warn_once(const std::string& what) {
+    if (waits_for_ != what) connection_.warn(what);
+    waits_for_ = what;
+  }
+
+  /// Throws when messages that have been read are not in it, and others will have their numbers.
+  void check_stream(const jsStreamInfo& info) const {
+    if (info.State.LastSeq < position_)
+      throw ProgramError(
+          fmt::format("{}: expected the stream that was read so far, but of its {} messages it has {}",
+                      name(), position_, info.State.LastSeq));
+  }
+
+  /// Whether the consumer is there, and has sent nothing that has not been taken, and has no more to send.
+  bool has_all() const {
+    jsConsumerInfo* got = nullptr;
+    const natsStatus status = natsSubscription_GetConsumerInfo(&got, subscription_.get(), nullptr, nullptr);
+    const std::unique_ptr<jsConsumerInfo, NatsDelete<jsConsumerInfo_Destroy>> info(got);
+    return status == NATS_OK && info->NumPending == 0 && info->Delivered.Consumer == delivered_;
+  }
+
+  /// Which stream this is.
+  std::uint32_t check() const {
+    const auto created = static_cast<std::uint64_t>(created_);
+    // 0 says that there is none.
+    return static_cast<std::uint32_t>(created ^ created >> 32) | 1;
   }
 
   void drop() {
@@ -202,6 +260,8 @@ class NatsStreamSource final : public ReportSource {
   std::size_t taken_ = 0;  ///< of them
   MessageText text_;
   FileTime arrival_{};
+  std::int64_t created_ = 0;     ///< when the stream was made
+  std::string waits_for_;        ///< as it was told; empty for the next message alone
   std::uint64_t position_ = 0;   ///< sequence number of the last message
   std::uint64_t delivered_ = 0;  ///< by this consumer
   Clock::time_point last_message_ = Clock::now(), last_look_ = Clock::now();
@@ -210,15 +270,17 @@ class NatsStreamSource final : public ReportSource {
 }  // namespace
 
 std::unique_ptr<ReportSource> make_nats_source(const NatsAddress& address, const StopSignals& stop,
-                                               bool keeps_time, const StreamPlace* from) {
-  if (auto stream = NatsConnection(address).stream_of(address.subject))
-    return std::make_unique<NatsStreamSource>(address, std::move(*stream), stop, keeps_time, from);
-  fmt::print(
-      stderr,
-      "kinesphere: warning: {}: no stream of JetStream holds it: what is sent while this program is not "
-      "connected is lost\n",
-      address.name);
-  return std::make_unique<NatsSubjectSource>(address, stop);
+                                               bool keeps_time, bool is_quiet, const StreamPlace* from) {
+  const NatsConnection connection(address, is_quiet);
+  if (auto stream = connection.stream_of(address.subject))
+    return std::make_unique<NatsStreamSource>(address, std::move(*stream), stop, keeps_time, is_quiet, from);
+  if (from != nullptr && from->stream == address.name && from->check != 0)
+    throw ProgramError(fmt::format(
+        "{}: expected the stream that the snapshot was made of, but no stream of JetStream holds it",
+        address.name));
+  connection.warn(
+      "no stream of JetStream holds it: what is sent while this program is not connected is lost");
+  return std::make_unique<NatsSubjectSource>(address, stop, is_quiet);
 }
 
 }  // namespace kinesphere::program

@@ -17,12 +17,14 @@ namespace kinesphere::program {
 /// stands "tick") when nothing has come for a second: then all that read it know that time has passed. Throws
 /// ProgramError.
 std::unique_ptr<ReportSource> make_nats_source(const NatsAddress& address, const StopSignals& stop,
-                                               bool keeps_time, const StreamPlace* from);
+                                               bool keeps_time, bool is_quiet, const StreamPlace* from);
 
 /// Alerts of share k go to SUBJECT.k, counted from 1, a message each. Where a stream of JetStream holds that
 /// subject each is there once, whoever else tells the same alerts, and however often it is told again: with
-/// each goes, in the header Kinesphere-Told, how much of the stream of reports had been read, and which of
-/// the alerts that came of its last message this is. Alerts come in the order of both. Throws ProgramError.
-std::unique_ptr<AlertOutput> make_nats_alerts(const NatsAddress& address, const StopSignals& stop);
+/// each goes, in the header Kinesphere-Told, at which place of the stream of reports it came, which of the
+/// alerts of that place it is, and `origin`, a word for what was read and how it was judged. Alerts of one
+/// origin come in the order of the other two; those of another come behind them. Throws ProgramError.
+std::unique_ptr<AlertOutput> make_nats_alerts(const NatsAddress& address, const StopSignals& stop,
+                                              bool is_quiet, const std::string& origin);
 
 }  // namespace kinesphere::program
