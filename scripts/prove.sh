@@ -66,7 +66,7 @@ for mutant in proof/mutants/*.patch; do
     continue
   fi
   # The proof: nor can it be.
-  KINESPHERE_WRITE_KERNELS=1 "$copy/build/terms" >/dev/null 2>&1
+  KINESPHERE_WRITE_KERNELS=1 "$copy/build/terms" --gtest_filter=KernelTerms.AreThoseThatHaveBeenProved >/dev/null 2>&1
   if (cd "$copy/proof" && prove >../build/proof.log 2>&1); then
     echo "SURVIVES  $(basename "$mutant")  (everything can still be proved)"
     survivors=$((survivors + 1))
