@@ -20,7 +20,7 @@ namespace kinesphere {
 namespace {
 
 constexpr Envelope envelope{{'K', 'i', 'n', 'e', 'd', 'w', '\r', '\n'},
-                            1,
+                            2,
                             "part of a distributed world",
                             "restore",
                             "parts",

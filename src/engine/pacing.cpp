@@ -10,7 +10,7 @@ namespace kinesphere {
 namespace {
 
 /// What a report costs, in looks at a capsule: with it, all that the caller does for it.
-constexpr double price_of_report = 500.0;
+constexpr double price_of_report = 800.0;
 
 /// How wide the box of a body may be on an axis that repeats, by space/space.hpp (2); a little less, for
 /// rounding.

@@ -85,7 +85,8 @@ class ToldContacts {
   bool take_end(const Event& event, const Contact& contact);
   void begin(const Event& event, const Contact& contact);
   void end(const Event& event, const Contact& contact);
-  bool is_repeated(BodyId id) const;
+  /// So soon after its last contact, in parts of its Zeno interval.
+  bool comes_within(BodyId id, double part) const;
   std::vector<Ball> ways_until(double time) const;
   bool may_meet(const Ball& a, const Ball& b) const;
   bool any_told(const Contact& contact) const;
