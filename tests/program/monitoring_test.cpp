@@ -130,5 +130,50 @@ TEST_F(WatchSoak, TheProgramMissesNothingEither) {
   EXPECT_NE(compared.out.find("approaches"), std::string::npos) << compared.out;
 }
 
+/// As those of several watches that share the pairs: in order for each pair, and not among them.
+TEST_F(WatchSoak, AlertsMayComeInAnyOrderOfPairs) {
+  const std::string soak = "bench soak --reports 20000 --tracks 200 --width 2500 --seed 5";
+  const std::string write_to = "'" KINESPHERE_PROGRAM "' " + soak + " --write 2>/dev/null | ";
+  const std::string watch = "watch --format jsonl --quiet --separation sphere:60 --acceleration 1";
+  const std::string one = run(watch, write_to).out;
+  const std::string several =
+      run(watch + " --share 1/2", write_to).out + run(watch + " --share 2/2", write_to).out;
+  ASSERT_NE(one, several);
+  const ProgramRun in_order = run(soak + " --alerts '" + write("one", one) + "'");
+  EXPECT_EQ(in_order.exit_code, 0) << in_order.out << in_order.err;
+  EXPECT_EQ(in_order.out.find("warnings        0"), std::string::npos) << in_order.out;
+  EXPECT_EQ(run(soak + " --alerts '" + write("several", several) + "'").out, in_order.out);
+  // It does find what is missing.
+  const std::string half = run(watch + " --share 1/2", write_to).out;
+  EXPECT_EQ(run(soak + " --alerts '" + write("half", half) + "'").exit_code, exit_disagreement);
+}
+
+TEST_F(WatchSoak, ALineThatIsNoAlertOfTheSoakIsNamed) {
+  const auto alert = [](const char* time, const char* first, const char* verdict) {
+    return std::string(R"({"event":"silent","time":1,"track":"5"})") + "\n" +
+           R"({"event":"verdict","time":)" + time + R"(,"first":)" + first + R"(,"second":"7","verdict":)" +
+           verdict + R"(,"before":"apart"})" + "\n";
+  };
+  const auto error_of_alerts = [&](const std::string& alerts) {
+    const ProgramRun compared =
+        run("bench soak --reports 1000 --tracks 20 --alerts '" + write("alerts", alerts) + "'");
+    EXPECT_EQ(compared.exit_code, exit_wrong_input) << compared.err;
+    EXPECT_NE(compared.err.find("alerts:2: "), std::string::npos) << compared.err;
+    return compared.err;
+  };
+  const auto has = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
+  EXPECT_TRUE(has(error_of_alerts(alert("1e9", R"("5")", R"("within")")), "expected a time"));
+  EXPECT_TRUE(has(error_of_alerts(alert("-1", R"("5")", R"("within")")), "expected a time"));
+  EXPECT_TRUE(has(error_of_alerts(alert("1", R"("20")", R"("within")")), "expected a track"));
+  EXPECT_TRUE(has(error_of_alerts(alert("1", R"("5x")", R"("within")")), "expected a track"));
+  EXPECT_TRUE(has(error_of_alerts(alert("1", R"("5")", R"("near")")), "expected a verdict"));
+  EXPECT_TRUE(has(error_of_alerts(alert("1", R"(5)", R"("within")")), "expected an alert"));
+  EXPECT_TRUE(has(error_of_alerts(R"({"event":"silent"})"
+                                  "\n{\"event\":"),
+                  "expected an alert"));
+}
+
 }  // namespace
 }  // namespace kinesphere::program

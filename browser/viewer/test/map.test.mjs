@@ -17,7 +17,7 @@ const { complaints } = inBrowser;
 /** A watch whose stream goes on until `end`. */
 class Watch {
   constructor(...options) {
-    this.process = spawn(process.env.KINESPHERE_PROGRAM, ["watch", "--format", "jsonl", "--serve", "0", "--quiet", ...options],
+    this.process = spawn(process.env.KINESPHERE_PROGRAM, ["watch", "--format", "jsonl", "--quiet", ...(options.includes("--serve") ? [] : ["--serve", "0"]), ...options],
                          { stdio: ["pipe", "ignore", "pipe"] });
     this.address = new Promise((told) => createInterface(this.process.stderr).once("line",
       (line) => told(/http:\S+/.exec(line)[0])));
@@ -52,14 +52,14 @@ const namedColour = (page, name) => page.evaluate((name) => {
 }, name);
 const difference = (a, b) => Math.max(...a.map((value, k) => Math.abs(value - b[k])));
 
-/** How much of the line between two tracks has a colour. */
-async function shareOfLine(page, first, second, name) {
+/** How much of the line between two tracks, or of a part in its middle, has a colour. */
+async function shareOfLine(page, first, second, name, part = 0.5) {
   await isDrawn(page);
   const ends = await page.evaluate((ids) => ids.map((id) => {
     const [place] = window.kinesphereMap.scene.tracks.get(id).track.places;
     return window.kinesphereMap.view.toScreen(place.x, place.y);
   }), [first, second]);
-  const places = Array.from({ length: 60 }, (_, k) => [0, 1].map((axis) => ends[0][axis] + (ends[1][axis] - ends[0][axis]) * (0.25 + k / 120)));
+  const places = Array.from({ length: 60 }, (_, k) => [0, 1].map((axis) => ends[0][axis] + (ends[1][axis] - ends[0][axis]) * (0.5 + (k / 60 - 0.5) * part)));
   const colour = await namedColour(page, name);
   return (await coloursAt(page, places)).filter((found) => difference(found, colour) < 40).length / places.length;
 }
@@ -233,6 +233,36 @@ describe("a stream with longitudes and latitudes", () => {
       }
     }
     assert.equal(await watch.end(), 0);
+    assert.deepEqual(complaints.filter(isNoMissingServer), []);
+  });
+});
+
+describe("a watch that is started again", () => {
+  const options = ["--dimensions", "2", "--separation", "sphere:30", "--acceleration", "1", "--position-error", "0.5", "--velocity-error", "0.1"];
+  const first = new Watch(...options);
+  let second;
+  after(() => [first, second].forEach((watch) => watch?.process.kill()));
+
+  test("lines are seen whose ends are not, and another stream is shown from its begin", async () => {
+    first.report(at("a", 100, 0, 0), at("b", 100, 20, 0), at("far", 101, 5000, 0));
+    const address = await first.address;
+    const page = await inBrowser.open(address, calmly);
+    await page.waitForFunction(() => window.kinesphereMap.scene.state.time === 101);
+    await page.keyboard.press("p");
+    await page.evaluate(() => window.kinesphereMap.view.zoom(50));
+    await page.evaluate(() => window.kinesphereMap.redraw());
+    assert.ok(await shareOfLine(page, "a", "b", "within", 1e-3) > 0.9);
+    assert.equal(await first.end(), 0);
+    await page.waitForSelector("#lost:not([hidden])");
+    second = new Watch(...options, "--serve", new URL(address).port);
+    second.report(at("c", 1, 70_000, 70_000), at("d", 2, 70_500, 70_000), at("c", 3, 70_000, 70_000));
+    await page.waitForFunction(() => window.kinesphereMap.scene.tracks.has("d"), null, { timeout: 20_000 });
+    assert.equal(await page.isHidden("#lost"), true);
+    assert.deepEqual(await page.evaluate(() => ({ ...window.kinesphereMap.chosen })), { track: null, pair: null, hovered: null });
+    assert.equal(await page.getAttribute("#fit", "aria-pressed"), "true");
+    const [x, y] = await page.evaluate(() => window.kinesphereMap.view.toScreen(70_250, 70_000));
+    assert.ok(x > 300 && x < 900 && y > 0 && y < 800, `${x}, ${y}`);
+    assert.equal(await second.end(), 0);
     assert.deepEqual(complaints.filter(isNoMissingServer), []);
   });
 });

@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
 
 #include "lab/monitoring/verdict_check.hpp"
 #include "program_error.hpp"
@@ -78,7 +82,66 @@ int write_reports(const SoakSettings& settings) {
 Verdict verdict_named(const std::string& name) {
   for (const Verdict verdict : {Verdict::apart, Verdict::undecided, Verdict::within})
     if (name == name_of(verdict)) return verdict;
-  throw ProgramError(fmt::format("'{}' is no verdict", name));
+  throw ProgramError(fmt::format("expected a verdict, but got '{}'", name));
+}
+
+/// Of a track of the soak, which are numbered from 0.
+TrackId track_named(const std::string& name, std::uint64_t tracks) {
+  TrackId id = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), id);
+  if (error != std::errc{} || end != name.data() + name.size() || id >= tracks)
+    throw ProgramError(fmt::format(
+        "expected a track from 0 to {}, but got '{}': is --tracks that of --write?", tracks - 1, name));
+  return id;
+}
+
+/// Nothing of an alert that is no verdict. `end` is when the last report has come in.
+std::optional<MonitorEvent> verdict_of(const std::string& line, const SoakSettings& settings, double end) {
+  const nlohmann::json alert = nlohmann::json::parse(line);
+  if (alert.at("event") != "verdict") return std::nullopt;
+  const double time = alert.at("time");
+  if (time < 0.0 || time > end)
+    throw ProgramError(
+        fmt::format("expected a time from 0 to {}, when the last report comes in, but got {}: are the other "
+                    "options those of --write?",
+                    number(end), number(time)));
+  return MonitorEvent{.time = time,
+                      .kind = MonitorEventKind::verdict,
+                      .first = track_named(alert.at("first"), settings.faults.tracks),
+                      .second = track_named(alert.at("second"), settings.faults.tracks),
+                      .verdict = verdict_named(alert.at("verdict")),
+                      .before = verdict_named(alert.at("before"))};
+}
+
+struct ReadAlerts {
+  std::uint64_t lines = 0;
+  /// In order of time. In the file only those of one pair need to be: several watches that share the pairs
+  /// write between each other's lines.
+  std::vector<MonitorEvent> verdicts;
+};
+
+/// Throws ProgramError naming a line that is no alert of the soak.
+ReadAlerts read_alerts(const std::string& path, const SoakSettings& settings, double end) {
+  std::ifstream file(path);
+  if (!file) throw ProgramError(path + " cannot be read");
+  ReadAlerts read;
+  std::string line;
+  while (std::getline(file, line)) {
+    ++read.lines;
+    const auto fail = [&](const char* why) {
+      throw ProgramError(fmt::format("{}:{}: {}", path, read.lines, why));
+    };
+    try {
+      if (const auto verdict = verdict_of(line, settings, end)) read.verdicts.push_back(*verdict);
+    } catch (const nlohmann::json::exception&) {
+      fail("expected an alert of kinesphere watch");
+    } catch (const ProgramError& error) {
+      fail(error.what());
+    }
+  }
+  std::stable_sort(read.verdicts.begin(), read.verdicts.end(),
+                   [](const MonitorEvent& one, const MonitorEvent& other) { return one.time < other.time; });
+  return read;
 }
 
 int compare_alerts(const SoakOptions& options) {
@@ -87,25 +150,10 @@ int compare_alerts(const SoakOptions& options) {
   double end = 0.0;
   VerdictCheck check(settings.faults, reports.motion(), settings.distance, settings.tolerance);
   for (std::uint64_t k = 0; k < settings.reports; ++k) end = reports.next().time;
-  std::ifstream file(options.alerts);
-  if (!file) throw ProgramError(options.alerts + " cannot be read");
-  std::uint64_t alerts = 0;
-  std::string line;
-  while (std::getline(file, line)) {
-    ++alerts;
-    const nlohmann::json alert = nlohmann::json::parse(line);
-    if (alert.at("event") != "verdict") continue;
-    const MonitorEvent event{.time = alert.at("time"),
-                             .kind = MonitorEventKind::verdict,
-                             .first = std::stoull(alert.at("first").get<std::string>()),
-                             .second = std::stoull(alert.at("second").get<std::string>()),
-                             .verdict = verdict_named(alert.at("verdict")),
-                             .before = verdict_named(alert.at("before"))};
-    check.compare(event.time, std::span(&event, 1));
-  }
-  check.compare(end, {});
+  const ReadAlerts alerts = read_alerts(options.alerts, settings, end);
+  check.compare(end, alerts.verdicts);
   Summary summary;
-  summary.row("alerts", grouped(alerts));
+  summary.row("alerts", grouped(alerts.lines));
   summary.row("warnings", grouped(check.warnings), "of pairs that were apart before");
   summary.row("approaches", grouped(check.approaches),
               fmt::format("nearer than {}", number(settings.distance)));

@@ -8,9 +8,10 @@
 
 namespace kinesphere::program {
 
-/// CRC-32, as gzip has it.
-inline std::uint32_t checksum(std::string_view bytes) {
-  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+/// CRC-32, as gzip has it, of bytes that follow others whose checksum is `before`.
+inline std::uint32_t checksum(std::string_view bytes, std::uint32_t before = 0) {
+  return static_cast<std::uint32_t>(
+      crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
 }  // namespace kinesphere::program

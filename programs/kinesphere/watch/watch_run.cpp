@@ -251,15 +251,15 @@ bool WatchRun::is_time_for_snapshot() const {
 void WatchRun::keep_snapshot() {
   last_snapshot_ = std::chrono::steady_clock::now();
   if (options_.snapshot.empty() || !known_format_) return;
-  const WatchSnapshot snapshot{.options = given_options(options_),
-                               .format = std::string(name_of(format_)),
-                               .place = source_->place(cutter_.waiting().size()),
-                               .line = cutter_.line(),
-                               .reader = reader_->save(),
-                               .watcher = watcher_.save(),
-                               .alerts = alerts_name(options_),
-                               .alerts_place = alerts_->sync()};
-  write_snapshot(options_.snapshot, snapshot);
+  WatchSnapshot snapshot{.options = given_options(options_),
+                         .format = std::string(name_of(format_)),
+                         .place = source_->place(cutter_.waiting().size()),
+                         .line = cutter_.line(),
+                         .reader = reader_->save(),
+                         .watcher = watcher_.save(),
+                         .alerts = alerts_name(options_),
+                         .alerts_place = alerts_->sync()};
+  write_snapshot(options_.snapshot, std::move(snapshot));
   last_snapshot_ = std::chrono::steady_clock::now();
 }
 

@@ -5,7 +5,10 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <ostream>
+#include <streambuf>
 
 #include "output_file.hpp"
 #include "program_error.hpp"
@@ -16,32 +19,65 @@ namespace {
 
 /// The file begins with this, the length of what follows and its checksum, both as eight digits of base 16 or
 /// more; then comes CBOR. Raise the number when the fields change.
-constexpr std::string_view snapshot_title = "kinesphere watch snapshot 1\n";
+constexpr std::string_view snapshot_title = "kinesphere watch snapshot 2\n";
 
-std::string heading(std::string_view content) {
-  return fmt::format("{}{:016x} {:08x}\n", snapshot_title, content.size(), checksum(content));
+std::string heading(std::uint64_t size, std::uint32_t check) {
+  return fmt::format("{}{:016x} {:08x}\n", snapshot_title, size, check);
+}
+std::string heading(std::string_view content) { return heading(content.size(), checksum(content)); }
+
+/// What is written to a stream with this buffer goes to a function.
+class CallingBuffer final : public std::streambuf {
+ public:
+  using Take = std::function<void(std::string_view)>;
+  explicit CallingBuffer(Take take) : take_(std::move(take)) {}
+
+ protected:
+  std::streamsize xsputn(const char* text, std::streamsize size) override {
+    take_({text, static_cast<std::size_t>(size)});
+    return size;
+  }
+  int_type overflow(int_type character) override {
+    const char written = traits_type::to_char_type(character);
+    take_({&written, 1});
+    return character;
+  }
+
+ private:
+  Take take_;
+};
+
+/// CBOR piece by piece: in one text it would be another copy of the whole state.
+void write_cbor(const nlohmann::json& json, CallingBuffer::Take take) {
+  CallingBuffer buffer(std::move(take));
+  std::ostream stream(&buffer);
+  nlohmann::json::to_cbor(json, stream);
 }
 
 }  // namespace
 
-void write_snapshot(const std::string& path, const WatchSnapshot& snapshot) {
-  const auto& [options, format, place, line, reader, watcher, alerts, alerts_place] = snapshot;
-  std::string content;
-  nlohmann::json::to_cbor({{"options", options},
-                           {"format", format},
-                           {"stream", place.stream},
-                           {"position", place.position},
-                           {"check", place.check},
-                           {"line", {line.number, line.is_passed_over}},
-                           {"reader", reader},
-                           {"watcher", watcher},
-                           {"alerts", alerts},
-                           {"alerts_place", {alerts_place.bytes, alerts_place.check}}},
-                          content);
+void write_snapshot(const std::string& path, WatchSnapshot snapshot) {
+  auto& [options, format, place, line, reader, watcher, alerts, alerts_place] = snapshot;
+  const nlohmann::json json{{"options", options},
+                            {"format", format},
+                            {"stream", place.stream},
+                            {"position", place.position},
+                            {"check", place.check},
+                            {"line", {line.number, line.is_passed_over}},
+                            {"reader", std::move(reader)},
+                            {"watcher", std::move(watcher)},
+                            {"alerts", alerts},
+                            {"alerts_place", {alerts_place.bytes, alerts_place.check}}};
+  std::uint64_t size = 0;
+  std::uint32_t check = 0;
+  write_cbor(json, [&](std::string_view piece) {
+    size += piece.size();
+    check = checksum(piece, check);
+  });
   // What a killed run has begun to write is overwritten.
   OutputFile file(OutputPlace{path, 0});
-  file.write(heading(content));
-  file.write(content);
+  file.write(heading(size, check));
+  write_cbor(json, [&](std::string_view piece) { file.write(piece); });
   file.sync();
   file.commit();
 }
@@ -62,13 +98,13 @@ std::optional<WatchSnapshot> read_snapshot(const std::string& path) {
   if (!text.starts_with(heading(content)))
     throw ProgramError(fmt::format("{}: expected a snapshot of kinesphere watch, but it is damaged", path));
   try {
-    const auto json = nlohmann::json::from_cbor(content);
+    auto json = nlohmann::json::from_cbor(content);
     return WatchSnapshot{.options = json.at("options"),
                          .format = json.at("format"),
                          .place = {json.at("stream"), json.at("position"), json.at("check")},
                          .line = {json.at("line").at(0), json.at("line").at(1)},
                          .reader = json.at("reader"),
-                         .watcher = json.at("watcher"),
+                         .watcher = std::move(json.at("watcher")),
                          .alerts = json.at("alerts"),
                          .alerts_place = {json.at("alerts_place").at(0), json.at("alerts_place").at(1)}};
   } catch (const nlohmann::json::exception&) {

@@ -29,7 +29,7 @@ struct WatchSnapshot {
 };
 
 /// The file is there as a whole or, whatever happens, as it was. Throws ProgramError naming the file.
-void write_snapshot(const std::string& path, const WatchSnapshot& snapshot);
+void write_snapshot(const std::string& path, WatchSnapshot snapshot);
 /// Nothing where there is no such file. Throws ProgramError naming a file that is not a snapshot, or damaged.
 std::optional<WatchSnapshot> read_snapshot(const std::string& path);
 /// Throws ProgramError naming an option that was given otherwise.

@@ -101,27 +101,40 @@ Json saved(const NamedTrack& track) {
   return {text, stamp, position, position_by, height_by, velocity_by, climb_by};
 }
 
+/// Arrays of tracks, each packed into CBOR: as JSON in memory they would take ten times as much.
+Json saved(const TrackNames& names) {
+  constexpr std::size_t tracks_at_once = 500;
+  Json packed = Json::array();
+  Json tracks = Json::array();
+  const auto pack = [&] {
+    packed.push_back(Json::binary(Json::to_cbor(tracks)));
+    tracks.clear();
+  };
+  names.for_each([&](const NamedTrack& track) {
+    tracks.push_back(saved(track));
+    if (tracks.size() == tracks_at_once) pack();
+  });
+  if (!tracks.empty()) pack();
+  return packed;
+}
+
+Json saved(const Monitor& monitor) {
+  const std::vector<std::byte> bytes = monitor.save();
+  const auto* const begin = reinterpret_cast<const std::uint8_t*>(bytes.data());
+  return Json::binary({begin, begin + bytes.size()});
+}
+
 }  // namespace
 
 Json Watcher::save() const {
-  Json state{{"clock", clock_.memory()},
-             {"clock_is_chosen", clock_is_chosen_},
-             {"held", Json::array()},
-             {"time_kind", times_.kind()},
-             {"first", first_},
-             {"geographic", is_geographic_},
-             {"dimensions", dimensions_},
-             {"tracks", Json::array()},
-             {"counts", counts_},
-             {"monitor", nullptr},
-             {"map", nullptr}};
+  Json state{{"clock", clock_.memory()},  {"clock_is_chosen", clock_is_chosen_},
+             {"held", Json::array()},     {"time_kind", times_.kind()},
+             {"first", first_},           {"geographic", is_geographic_},
+             {"dimensions", dimensions_}, {"counts", counts_},
+             {"monitor", nullptr},        {"map", nullptr}};
   for (const HeldReport& held : held_) state["held"].push_back({held.id, saved(held.report)});
-  names_.for_each([&](const NamedTrack& track) { state["tracks"].push_back(saved(track)); });
-  if (monitor_) {
-    const std::vector<std::byte> bytes = monitor_->save();
-    const auto* const begin = reinterpret_cast<const std::uint8_t*>(bytes.data());
-    state["monitor"] = Json::binary({begin, begin + bytes.size()});
-  }
+  if (monitor_) state["monitor"] = saved(*monitor_);
+  state["tracks"] = saved(names_);
   if (frame_) state["map"] = {frame_->latitude(), frame_->longitude()};
   return state;
 }
@@ -136,15 +149,17 @@ void Watcher::restore(const Json& state) {
   if (clock_.has_begun()) begin_times(state.at("first"), state.at("time_kind"));
   is_geographic_ = state.at("geographic");
   dimensions_ = state.at("dimensions");
-  for (const Json& saved : state.at("tracks")) {
-    const std::string text = saved.at(0);
-    NamedTrack& track = names_.add(track_id_of(text), text);
-    track.stamp = saved.at(1);
-    track.position = saved.at(2);
-    track.position_by = keep(saved.at(3));
-    track.height_by = keep(saved.at(4));
-    track.velocity_by = keep(saved.at(5));
-    track.climb_by = keep(saved.at(6));
+  for (const Json& packed : state.at("tracks")) {
+    for (const Json& saved : Json::from_cbor(packed.get_binary())) {
+      const std::string text = saved.at(0);
+      NamedTrack& track = names_.add(track_id_of(text), text);
+      track.stamp = saved.at(1);
+      track.position = saved.at(2);
+      track.position_by = keep(saved.at(3));
+      track.height_by = keep(saved.at(4));
+      track.velocity_by = keep(saved.at(5));
+      track.climb_by = keep(saved.at(6));
+    }
   }
   counts_ = state.at("counts");
   if (const Json& map = state.at("map"); !map.is_null()) begin_map({map.at(0), map.at(1)});

@@ -1,7 +1,7 @@
 // The picture: graticule, bounds, tracks, pairs, names.
 import type { EarthPlane } from "./earth.ts";
 import { graticule } from "./graticule.ts";
-import type { DrawnPair, DrawnTrack, Scene } from "./scene.ts";
+import { type DrawnPair, type DrawnTrack, placesOf, type Scene } from "./scene.ts";
 import type { Place } from "./state.ts";
 import { lengthText, shortName } from "./text.ts";
 import type { View } from "./view.ts";
@@ -39,6 +39,8 @@ export class Chart {
   lookAhead = 0;
   showNames = true;
   private dotSize = 3.5;
+  /** About how many pixels lie between neighbours. */
+  private room = Infinity;
   /** Pixels of the screen in one of the page. */
   private ratio = 1;
   private readonly stamps = new Map<string, HTMLCanvasElement>();
@@ -69,7 +71,8 @@ export class Chart {
     context.fillStyle = colours.ground;
     context.fillRect(0, 0, view.width, view.height);
     const taken = new Taken();
-    this.dotSize = (scene?.tracks.size ?? 0) > 600 ? 2.7 : 3.5;
+    this.room = roomOf(view, scene);
+    this.dotSize = this.room < 12 ? 1.8 : this.room < 30 ? 2.7 : 3.5;
     this.drawGrid(view, plane, taken);
     if (scene === null) return;
     const chosenPair = scene.pairs.find(({ key }) => key === chosen.pair) ?? null;
@@ -79,7 +82,7 @@ export class Chart {
     this.drawSeparations(view, scene, chosen);
     this.drawPairs(view, scene.pairs, chosenPair);
     this.drawLookAhead(view, scene);
-    for (const kind of ["silent", "track", "undecided", "within"] as const) this.drawDots(view, kinds[kind], colours[kind], kind === "silent");
+    for (const kind of ["silent", "track", "undecided", "within"] as const) this.drawDots(view, kinds[kind], kind);
     this.drawNeeds(view, scene);
     this.drawChosen(view, scene, chosen, chosenPair);
     if (this.showNames) this.drawNames(view, scene, chosen, chosenPair, taken);
@@ -103,7 +106,7 @@ export class Chart {
     context.fillStyle = colours["grid-ink"];
     context.textBaseline = "alphabetic";
     const atX = view.insets.left + 6;
-    const atY = view.height - view.insets.bottom + 14;
+    const atY = view.height - view.insets.bottom;
     for (const { points, upright, label } of lines) {
       const at = upright ? crossing(view, points, 1, atY) : crossing(view, points, 0, atX);
       if (at === null) continue;
@@ -150,7 +153,7 @@ export class Chart {
     context.setLineDash([2, 4]);
     for (const { horizontal, name } of scene.state.separations) {
       const pixels = horizontal * view.look.scale;
-      if (pixels < 6) continue;
+      if (pixels < 6 || pixels > 2 * (view.width + view.height)) continue;
       for (const place of drawn.track.places) {
         const [x, y] = view.toScreen(place.x, place.y);
         context.beginPath();
@@ -162,16 +165,14 @@ export class Chart {
     context.setLineDash([]);
   }
 
-  /** Undecided ones over those within: of several separations a pair may be both. */
+  /** Undecided pairs are drawn over those within: with several separations a pair may be both. */
   private drawPairs(view: View, pairs: DrawnPair[], chosenPair: DrawnPair | null): void {
     const { context, colours } = this;
     const path = (drawn: DrawnPair) => {
-      if (drawn.places === null) return;
-      context.moveTo(...view.toScreen(drawn.places[0].x, drawn.places[0].y));
-      context.lineTo(...view.toScreen(drawn.places[1].x, drawn.places[1].y));
+      if (drawn.places !== null) addLine(context, view, drawn.places[0], drawn.places[1]);
     };
     if (chosenPair !== null) {
-      // Two lines along it.
+      // A light band with a dark one inside: two lines, one on each side of the pair's own.
       context.beginPath();
       path(chosenPair);
       for (const [colour, width] of [[colours.chosen, 11], [colours.ground, 8]] as const) {
@@ -181,7 +182,7 @@ export class Chart {
       }
     }
     for (const verdict of ["within", "undecided"] as const) {
-      const those = pairs.filter(({ pair, places }) => pair.verdict === verdict && places?.some(({ x, y }) => !isFar(view, ...view.toScreen(x, y), 0)));
+      const those = pairs.filter(({ pair, places }) => pair.verdict === verdict && places !== null && lineInSight(view, ...places) !== null);
       // Many lines are fainter and thinner, so that what lies below them is seen.
       const strength = Math.max(0.3, Math.min(1, 300 / those.length));
       context.beginPath();
@@ -201,7 +202,8 @@ export class Chart {
     let fastest = 0;
     for (const { track } of scene.tracks.values())
       for (const { velocity } of track.places) fastest = Math.max(fastest, Math.hypot(velocity[0], velocity[1]));
-    const most = 70;
+    // Where tracks are dense, longer lines would hide them.
+    const most = Math.max(10, Math.min(70, this.room));
     this.lookAhead = fastest === 0 ? 0 : lookAheads.find((seconds) => fastest * seconds * view.look.scale <= most) ?? 0;
     if (this.lookAhead === 0) return;
     context.beginPath();
@@ -222,24 +224,27 @@ export class Chart {
   }
 
   /** Places of one track, of which nobody knows which is right, are joined. */
-  private drawDots(view: View, tracks: DrawnTrack[], colour: string, isHollow: boolean): void {
+  private drawDots(view: View, tracks: DrawnTrack[], kind: Kind): void {
     const { context, colours } = this;
+    const colour = colours[kind];
+    const isHollow = kind === "silent";
+    const isOpen = kind === "undecided" || kind === "within";
     context.beginPath();
     for (const { track: { places } } of tracks) {
-      if (places.length < 2) continue;
-      places.forEach(({ x, y }, k) => k === 0 ? context.moveTo(...view.toScreen(x, y)) : context.lineTo(...view.toScreen(x, y)));
+      for (let k = 1; k < places.length; ++k) addLine(context, view, places[k - 1]!, places[k]!);
     }
     context.strokeStyle = colour;
     context.lineWidth = 1;
     context.setLineDash([1, 3]);
     context.stroke();
     context.setLineDash([]);
-    const size = this.dotSize;
+    // Who is part of an open pair is seen in a crowd, too.
+    const size = isOpen ? Math.max(this.dotSize, 3) : this.dotSize;
     const dot = this.stamp(`dot ${colour} ${isHollow} ${size}`, size + 2, (stamp) => {
       stamp.arc(0, 0, size, 0, fullTurn);
       stamp.fillStyle = isHollow ? colours.ground : colour;
       stamp.strokeStyle = isHollow ? colour : colours.ground;
-      stamp.lineWidth = 1.3;
+      stamp.lineWidth = size < 2 ? 0.5 : 1.3;
       stamp.fill();
       stamp.stroke();
     });
@@ -281,7 +286,7 @@ export class Chart {
     }
   }
 
-  /** Of those that matter most first, as long as there is room. */
+  /** Names of the most important tracks first, as long as there is room. */
   private drawNames(view: View, scene: Scene, chosen: Chosen, chosenPair: DrawnPair | null, taken: Taken): void {
     const { context, colours } = this;
     const important = new Set([chosen.track, chosen.hovered, chosenPair?.pair.first, chosenPair?.pair.second]);
@@ -301,7 +306,8 @@ export class Chart {
     context.lineJoin = "round";
     context.textBaseline = "middle";
     const first = scene.state.tracks[0]?.places[0]?.z;
-    const hasHeights = scene.state.dimensions === 3 && scene.state.tracks.some(({ places }) => places.some(({ z }) => z !== first));
+    // In a crowd names alone are more readable.
+    const hasHeights = this.room > 25 && scene.state.dimensions === 3 && scene.state.tracks.some(({ places }) => places.some(({ z }) => z !== first));
     const right = view.width - view.insets.right;
     let left = mostNames;
     for (const { drawn, x, y, rank } of inSight) {
@@ -311,8 +317,8 @@ export class Chart {
       const width = this.widthOf(name) + (height === "" ? 0 : this.widthOf(height));
       const sides = headingOf(drawn, chosenPair) > 0 ? [-12 - width, 12] as const : [12, -12 - width] as const;
       const spot = ([[sides[0], 0], [sides[1], 0], [-width / 2, -19], [-width / 2, 19], [10, -14], [10, 14]] as const)
-        // Of names that matter little none hides a dot.
-        .find(([dx, dy]) => x + dx + width < right && (rank < 2 || dots.isFree(x + dx, y + dy - 7, width, 14)) &&
+        // Names of unimportant tracks must not hide a dot.
+        .find(([dx, dy]) => x + dx > 0 && x + dx + width < right && (rank < 2 || dots.isFree(x + dx, y + dy - 7, width, 14)) &&
           taken.take(x + dx, y + dy - 7, width, 14, rank === 0));
       if (spot === undefined) continue;
       const [atX, atY] = [x + spot[0], y + spot[1]];
@@ -349,23 +355,32 @@ export class Chart {
     if (!isFar(view, atX, atY, size)) this.context.drawImage(stamp, atX - size / 2, atY - size / 2, size, size);
   }
 
+  /** In pixels, in the font that the context has. */
   private widthOf(text: string): number {
-    let width = this.widths.get(text);
+    const key = `${this.context.font} ${text}`;
+    let width = this.widths.get(key);
     if (width === undefined) {
       if (this.widths.size > 10_000) this.widths.clear();
-      this.context.font = font;
       width = this.context.measureText(text).width;
-      this.widths.set(text, width);
+      this.widths.set(key, width);
     }
     return width;
   }
 }
 
-/** Where there is something to be seen beside a track, to the right (> 0) or to the left: the other of a pair, or where it goes. */
+/** On which side of a track, right (> 0) or left, its name would hide the other of the chosen pair, or the line ahead. */
 function headingOf({ track: { id, places } }: DrawnTrack, pair: DrawnPair | null): number {
   if (pair?.places != null && (pair.pair.first === id || pair.pair.second === id))
     return (pair.places[1].x - pair.places[0].x) * (pair.pair.first === id ? 1 : -1);
   return places[0]?.velocity[0] ?? 0;
+}
+
+/** The distance of neighbours, in pixels, if the tracks in sight were spread evenly over the picture. */
+function roomOf(view: View, scene: Scene | null): number {
+  let inSight = 0;
+  for (const { x, y } of placesOf(scene?.tracks.values() ?? [])) if (!isFar(view, ...view.toScreen(x, y), 0)) ++inSight;
+  const [width, height] = view.free;
+  return Math.sqrt(width * height / inSight);
 }
 
 const heightText = (place: Place, isMetres: boolean): string =>
@@ -373,6 +388,33 @@ const heightText = (place: Place, isMetres: boolean): string =>
 
 function isFar(view: View, x: number, y: number, margin: number): boolean {
   return x < -margin || y < -margin || x > view.width + margin || y > view.height + margin;
+}
+
+/** The part of a line between two places that is in the picture, as two places of the screen; null if there is none. */
+function lineInSight(view: View, from: Place, to: Place): [[number, number], [number, number]] | null {
+  const a = view.toScreen(from.x, from.y);
+  const b = view.toScreen(to.x, to.y);
+  const margin = 20;
+  let [first, last] = [0, 1];
+  for (const axis of [0, 1] as const) {
+    const way = b[axis] - a[axis];
+    const limits = [-margin - a[axis], (axis === 0 ? view.width : view.height) + margin - a[axis]] as const;
+    if (way === 0 && (limits[0] > 0 || limits[1] < 0)) return null;
+    if (way === 0) continue;
+    first = Math.max(first, Math.min(limits[0] / way, limits[1] / way));
+    last = Math.min(last, Math.max(limits[0] / way, limits[1] / way));
+  }
+  if (first > last) return null;
+  const at = (part: number): [number, number] => [a[0] + (b[0] - a[0]) * part, a[1] + (b[1] - a[1]) * part];
+  return [at(first), at(last)];
+}
+
+/** Only what is in sight: the dashes of a line that goes far beyond would take a browser long. */
+function addLine(context: CanvasRenderingContext2D, view: View, from: Place, to: Place): void {
+  const line = lineInSight(view, from, to);
+  if (line === null) return;
+  context.moveTo(...line[0]);
+  context.lineTo(...line[1]);
 }
 
 /** Where a line of points crosses a horizontal (axis 1) or upright (axis 0) line of the screen; null if it does not. */

@@ -71,7 +71,7 @@ function anglesIn({ left, right, bottom, top }: Bounds, plane: EarthPlane): Boun
 }
 
 function earthGrid(bounds: Bounds, scale: number, plane: EarthPlane): GridLine[] {
-  // As far as the map reaches, and a little on.
+  // Metres from the origin: about a quarter of the way round the earth, far beyond any radius that is watched.
   const reach = 9e6;
   const seen = anglesIn({
     left: Math.max(bounds.left, -reach), right: Math.min(bounds.right, reach),
@@ -81,8 +81,10 @@ function earthGrid(bounds: Bounds, scale: number, plane: EarthPlane): GridLine[]
   const across = angleStep(spacing / degree);
   const middle = Math.min(Math.abs(seen.bottom + seen.top) / 2, 85);
   const along = angleStep(spacing / degree / Math.cos(middle * Math.PI / 180));
+  // Steps of three degrees at most look round.
+  const parts = Math.max(24, Math.ceil(Math.max(seen.right - seen.left, seen.top - seen.bottom) / 3));
   const line = (at: (part: number) => [number, number]): number[] =>
-    Array.from({ length: 25 }, (_, k) => at(k / 24)).flatMap(([longitude, latitude]) => plane.toPlane(longitude, latitude));
+    Array.from({ length: parts + 1 }, (_, k) => at(k / parts)).flatMap(([longitude, latitude]) => plane.toPlane(longitude, latitude));
   return [
     ...Array.from(multiples(along, seen.left, seen.right), (longitude) => ({
       label: longitudeText((longitude + 540) % 360 - 180, along), upright: true,

@@ -2,7 +2,7 @@
 import type { View } from "./view.ts";
 
 export interface HandActions {
-  /** The view is another one, by somebody's will. */
+  /** The user has moved the view. */
   moved(): void;
   chooseAt(x: number, y: number): void;
   hoverAt(x: number, y: number): void;
@@ -46,6 +46,7 @@ export function followPointers(canvas: HTMLCanvasElement, view: View, actions: H
   };
   canvas.addEventListener("pointerup", release);
   canvas.addEventListener("pointercancel", release);
+  canvas.addEventListener("pointerleave", () => actions.hoverAt(-Infinity, -Infinity));
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();
     const lines = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? event.deltaY / 100 : event.deltaY / 3;

@@ -13,7 +13,7 @@ export class KeyedList<T> {
       entry.remove();
       this.items.delete(key);
     }
-    // What somebody points at, or has the focus in, stays where it is.
+    // Entries do not move while somebody points at the list, or has the focus in it.
     const mayMove = !this.list.matches(":hover, :focus-within");
     let next: Element | null = this.list.firstElementChild;
     for (const [key, value] of wanted) {

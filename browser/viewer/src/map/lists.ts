@@ -3,7 +3,7 @@ import { Numbers, put, whole } from "../numbers.ts";
 import { KeyedList, part } from "./keyed_list.ts";
 import type { DrawnPair, Scene } from "./scene.ts";
 import type { Need, Pair, StreamTime } from "./state.ts";
-import { durationBetween, durationText, lengthText, placeText, rangeText, shownName, timeText, velocityText, whenText } from "./text.ts";
+import { durationBetween, durationText, lengthText, placeText, rangeText, shownName, timeText, unbroken, velocityText, whenText } from "./text.ts";
 
 const element = (id: string): HTMLElement => document.querySelector<HTMLElement>(`#${id}`)!;
 
@@ -50,7 +50,7 @@ export class Lists {
     this.pairs.show(scene.pairs.slice(0, mostShown), ({ key }) => key);
     showCounted("needs", scene.needs.length);
     this.needs.show(scene.needs.slice(0, mostShown), ({ track }) => track);
-    if (scene.state.time !== null && scene.pairs.length === 0) element("pairs-more").textContent = "All tracks are certainly apart.";
+    if (scene.pairs.length === 0) element("pairs-more").textContent = scene.state.time === null ? "No report has come yet." : "All tracks are certainly apart.";
     if (scene.state.time !== null && scene.needs.length === 0) element("needs-more").textContent = "No report is needed yet.";
     this.showChosen(chosenTrack, chosenPair);
   }
@@ -106,9 +106,9 @@ export class Lists {
       first(shownName(pair.first));
       second(shownName(pair.second));
       verdict(pair.verdict);
-      distance(this.distanceText(pair));
-      times(this.timesText(pair));
-      next(this.nextText(pair));
+      distance(unbroken(this.distanceText(pair)));
+      times(unbroken(this.timesText(pair)));
+      next(unbroken(this.nextText(pair)));
     };
   }
 

@@ -124,7 +124,7 @@ function chooseTrack(id: string | null, isToBeSeen: boolean): void {
   showChosen();
   if (id === null || !isToBeSeen) return;
   follow(false);
-  // Everything around stays as large as it is, where it can.
+  // Keeps the scale, unless that shows too little of the surroundings.
   const [width, height] = view.free;
   fly([id], Math.max(leastWidth() * 2, Math.min(width, height) / view.look.scale * 0.8));
 }
@@ -254,14 +254,24 @@ function planeOf({ origin }: WatchState): EarthPlane | null {
   return plane?.longitude === origin.lon && plane.latitude === origin.lat ? plane : new EarthPlane(origin.lon, origin.lat);
 }
 
+/** Of a watch that was started again, perhaps on another stream, what was chosen and looked at may not be there. */
+function meetAgain({ tracks, pairs }: Scene): void {
+  if (chosen.track !== null && !tracks.has(chosen.track)) chosen.track = null;
+  if (chosen.pair !== null && !pairs.some(({ key }) => key === chosen.pair)) chosen.pair = null;
+  const { left, right, bottom, top } = view.bounds;
+  if (![...placesOf(tracks.values())].some(({ x, y }) => x > left && x < right && y > bottom && y < top)) follow(true);
+}
+
 function show(state: WatchState): void {
   const isFirst = scene === null || scene.tracks.size === 0;
+  const wasLost = !element("lost").hidden;
   element("lost").hidden = true;
   document.body.classList.remove("lost");
   scene = sceneOf(state);
   plane = planeOf(state);
-  lists.show(scene, chosen.track, chosen.pair);
   const bounds = boundsOf(placesOf(scene.tracks.values()));
+  if ((isFirst || wasLost) && bounds !== null) meetAgain(scene);
+  lists.show(scene, chosen.track, chosen.pair);
   if (isFollowing && bounds !== null && (isFirst || !view.suits(bounds, leastWidth()))) fit(!isFirst);
   map.states += 1;
   redraw();

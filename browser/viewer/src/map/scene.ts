@@ -40,7 +40,7 @@ function nearestPlaces(a: Track, b: Track): readonly [Place, Place] | null {
   return nearest;
 }
 
-/** Never comes last. */
+/** Null means never, and comes last. */
 function compareTimes(a: StreamTime | null, b: StreamTime | null): number {
   if (a === null || b === null) return Number(a === null) - Number(b === null);
   return secondsOf(a) - secondsOf(b);

@@ -69,6 +69,9 @@ export function rangeText(lower: number, upper: number | null, isMetres: boolean
   return unit !== undefined && to.endsWith(` ${unit}`) ? `${number} to ${to}` : `${from} to ${to}`;
 }
 
+/** With numbers and their units in one line. */
+export const unbroken = (text: string): string => text.replace(/(\d) (k?m|s|min|h)\b/g, "$1\u00a0$2");
+
 /** Degrees, minutes and seconds, as far as `step` (degrees) needs them. */
 export function angleText(degrees: number, step: number, hemispheres: readonly [string, string]): string {
   const decimals = Math.max(0, Math.ceil(-Math.log10(step * 3600) - 1e-9));
@@ -77,7 +80,7 @@ export function angleText(degrees: number, step: number, hemispheres: readonly [
   const minutes = Math.floor((seconds % 3600) / 60 + 1e-9);
   if (step < 1 - 1e-9) text += `${String(minutes).padStart(2, "0")}′`;
   if (step < 1 / 60 - 1e-9) text += `${(seconds - 60 * Math.floor(seconds / 60 + 1e-9)).toFixed(decimals).padStart(decimals > 0 ? decimals + 3 : 2, "0")}″`;
-  return seconds === 0 ? text : text + hemispheres[degrees < 0 ? 1 : 0];
+  return seconds === 0 || seconds === 648_000 ? text : text + hemispheres[degrees < 0 ? 1 : 0];
 }
 
 export const longitudeText = (degrees: number, step: number): string => angleText(degrees, step, ["E", "W"]);

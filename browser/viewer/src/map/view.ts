@@ -65,7 +65,7 @@ export class View {
     this.look = { x: this.look.x + atX - nowX, y: this.look.y + atY - nowY, scale };
   }
 
-  /** That shows these bounds with a margin, and at least a part of the plane so wide. */
+  /** The look that shows these bounds with a margin, and at least `leastWidth` of the plane. */
   lookAt(bounds: Bounds, leastWidth: number): Look {
     const [freeX, freeY] = this.free;
     const width = Math.max(bounds.right - bounds.left, leastWidth, 1e-9);
@@ -73,7 +73,7 @@ export class View {
     const scale = 0.84 * Math.min(freeX / width, freeY / height);
     return { x: (bounds.left + bounds.right) / 2, y: (bounds.bottom + bounds.top) / 2, scale: Math.min(Math.max(scale, leastScale), mostScale) };
   }
-  /** Whether these are between the panels, and not in a small part of the room there. */
+  /** Whether the bounds lie between the panels and fill a good part of the room there. */
   suits(bounds: Bounds, leastWidth: number): boolean {
     const [left, top] = this.toScreen(bounds.left, bounds.top);
     const [right, bottom] = this.toScreen(bounds.right, bounds.bottom);
@@ -93,7 +93,7 @@ export class View {
     const part = Math.min(Math.max((now - start) / 1000 / seconds, 0), 1);
     const eased = part * part * (3 - 2 * part);
     const scale = from.scale * (to.scale / from.scale) ** eased;
-    // The way is seen as even when the place follows the size of what is seen.
+    // The centre moves in proportion to the visible size, so that the flight looks even at every scale.
     const along = Math.abs(to.scale / from.scale - 1) < 1e-3 ? eased : (1 / from.scale - 1 / scale) / (1 / from.scale - 1 / to.scale);
     this.look = part === 1 ? to : { x: from.x + (to.x - from.x) * along, y: from.y + (to.y - from.y) * along, scale };
     if (part === 1) this.flight = null;
