@@ -253,16 +253,18 @@ TEST_P(EveryMotion, RefusesTimesThatAreNone) {
 TEST_P(EveryMotion, ProbeRefusesABodyOfTheWorldThatIsNoneOfItsOwn) {
   for_motions([&](Motion& motion, Random&) {
     World world = World::create({.contact_tolerance = 1e-3, .start_time = begin_}).value();
+    BodyId first = no_body;
     for (std::uint32_t k = 0; k < motion.size(); ++k) {
       BodyDefinition body = motion.definition(k, begin_);
       body.radius = 0.001;
-      world.add(body).value();
+      const BodyId id = world.add(body).value();
+      if (k == 0) first = id;
     }
     const BodyId bullet = world.add({.radius = 0.1, .acceleration_limit = 5, .velocity = {0, 50, 0}}).value();
     const auto error = refusal([&] {
       while (world.advance(begin_ + 1.0, motion.probe()).value()) continue;
       // It may not have been asked for yet, as nobody was near it.
-      (void)world.safe_until(bullet, motion.probe());
+      (void)world.distance_limits(bullet, first, begin_ + 2.0, motion.probe());
     });
     ASSERT_TRUE(error);
     EXPECT_EQ(error->code, ErrorCode::unknown_body);
