@@ -14,6 +14,7 @@
 #include "program_error.hpp"
 #include "standard_output.hpp"
 #include "watch/checksum.hpp"
+#include "watch/file_bytes.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -95,17 +96,15 @@ class AlertFile final : public AlertOutput {
   /// Of the bytes in between, behind the last line that is whole.
   std::uint64_t end_of_lines(std::uint64_t begin, std::uint64_t end) const {
     for (std::uint64_t at = end; at > begin; --at)
-      if (bytes_before(at, 1) == "\n") return at;
+      if (bytes_at(descriptor_, at - 1, 1) == "\n") return at;
     return begin;
   }
 
-  std::string bytes_before(std::uint64_t end, std::uint64_t most) const {
-    std::string bytes(std::min(end, most), '\0');
-    const auto got = ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(end - bytes.size()));
-    bytes.resize(static_cast<std::size_t>(std::max<ssize_t>(0, got)));
-    return bytes;
+  std::uint32_t check_before(std::uint64_t end) const {
+    constexpr std::uint64_t most_checked = 4096;
+    const std::uint64_t count = std::min(end, most_checked);
+    return checksum(bytes_at(descriptor_, end - count, count));
   }
-  std::uint32_t check_before(std::uint64_t end) const { return checksum(bytes_before(end, 4096)); }
 
   void close() {
     if (descriptor_ >= 0) ::close(descriptor_);

@@ -15,6 +15,7 @@
 
 #include "program_error.hpp"
 #include "watch/checksum.hpp"
+#include "watch/file_bytes.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -88,7 +89,7 @@ FileSource::FileSource(const std::string& path, const StopSignals& stop, const S
   // Who opened standard input may have read some of it.
   if (is_file_)
     handed_over_ = static_cast<std::uint64_t>(std::max<off_t>(0, ::lseek(descriptor_, 0, SEEK_CUR)));
-  is_packed_ = is_file_ && bytes_at(handed_over_, 2) == gzip_begin;
+  is_packed_ = is_file_ && bytes_at(descriptor_, handed_over_, 2) == gzip_begin;
   if (is_packed_) handed_over_ = 0;
   if (from != nullptr && from->stream == name()) go_on_from(*from);
 }
@@ -124,17 +125,11 @@ void FileSource::go_on_from(const StreamPlace& place) {
   ::lseek(descriptor_, static_cast<off_t>(place.position), SEEK_SET);
 }
 
-std::string FileSource::bytes_at(std::uint64_t position, std::size_t most) const {
-  std::string bytes(most, '\0');
-  const auto got = ::pread(descriptor_, bytes.data(), most, static_cast<off_t>(position));
-  bytes.resize(static_cast<std::size_t>(std::max<ssize_t>(0, got)));
-  return bytes;
-}
-
 std::uint32_t FileSource::check_before(std::uint64_t position) const {
   if (!is_file_ || position == 0) return 0;
   const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(position, most_checked));
-  const std::string bytes = is_packed_ ? beginning_.substr(0, count) : bytes_at(position - count, count);
+  const std::string bytes =
+      is_packed_ ? beginning_.substr(0, count) : bytes_at(descriptor_, position - count, count);
   if (bytes.size() < count) return 0;
   // 0 says that there is none.
   return std::max<std::uint32_t>(1, checksum(bytes));
@@ -150,7 +145,7 @@ std::optional<std::string> FileSource::identity() const {
   if (!is_file_) return std::nullopt;
   // It may grow, and have other names.
   constexpr std::size_t enough = 512;
-  return fmt::format("file {:08x}", checksum(bytes_at(0, enough)));
+  return fmt::format("file {:08x}", checksum(bytes_at(descriptor_, 0, enough)));
 }
 
 ReportSource::Outcome FileSource::read_some(std::chrono::milliseconds patience) {

@@ -33,7 +33,6 @@ class FileSource final : public ReportSource {
   Outcome unpacked(std::chrono::milliseconds patience, std::string_view& text);
   void go_on_from(const StreamPlace& place);
   void pass_over(std::string_view& text);
-  std::string bytes_at(std::uint64_t position, std::size_t most) const;
   /// Of a file that has been read up to there; 0 of what is none.
   std::uint32_t check_before(std::uint64_t position) const;
   [[noreturn]] void fail(std::string_view reason) const;

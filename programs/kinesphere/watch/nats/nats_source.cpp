@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 #include "program_error.hpp"
 #include "watch/nats/nats_connection.hpp"
@@ -34,11 +35,11 @@ class MessageText {
 /// Messages of a subscription as they come.
 class NatsSubjectSource final : public ReportSource {
  public:
-  NatsSubjectSource(const NatsAddress& address, const StopSignals& stop, bool is_quiet)
-      : connection_(address, is_quiet), stop_(stop) {
+  NatsSubjectSource(NatsConnection connection, const StopSignals& stop)
+      : connection_(std::move(connection)), stop_(stop) {
     natsSubscription* subscription = nullptr;
-    if (const auto status =
-            natsConnection_SubscribeSync(&subscription, connection_.get(), address.subject.c_str());
+    if (const auto status = natsConnection_SubscribeSync(&subscription, connection_.get(),
+                                                         connection_.address().subject.c_str());
         status != NATS_OK)
       connection_.fail(status, "cannot subscribe");
     subscription_.reset(subscription);
@@ -88,9 +89,9 @@ class NatsSubjectSource final : public ReportSource {
 /// when one is missed, or nothing comes though there is more, another one is made behind the last message.
 class NatsStreamSource final : public ReportSource {
  public:
-  NatsStreamSource(const NatsAddress& address, std::string stream, const StopSignals& stop, bool keeps_time,
-                   bool is_quiet, const StreamPlace* from)
-      : connection_(address, is_quiet), stream_(std::move(stream)), stop_(stop), keeps_time_(keeps_time) {
+  NatsStreamSource(NatsConnection connection, std::string stream, const StopSignals& stop, bool keeps_time,
+                   const StreamPlace* from)
+      : connection_(std::move(connection)), stream_(std::move(stream)), stop_(stop), keeps_time_(keeps_time) {
     natsStatus status{};
     const NatsStreamInfo info = connection_.stream_info(stream_, status);
     if (!info) connection_.fail(status, "cannot ask for its stream");
@@ -271,16 +272,17 @@ class NatsStreamSource final : public ReportSource {
 
 std::unique_ptr<ReportSource> make_nats_source(const NatsAddress& address, const StopSignals& stop,
                                                bool keeps_time, bool is_quiet, const StreamPlace* from) {
-  const NatsConnection connection(address, is_quiet);
+  NatsConnection connection(address, is_quiet);
   if (auto stream = connection.stream_of(address.subject))
-    return std::make_unique<NatsStreamSource>(address, std::move(*stream), stop, keeps_time, is_quiet, from);
+    return std::make_unique<NatsStreamSource>(std::move(connection), std::move(*stream), stop, keeps_time,
+                                              from);
   if (from != nullptr && from->stream == address.name && from->check != 0)
     throw ProgramError(fmt::format(
         "{}: expected the stream that the snapshot was made of, but no stream of JetStream holds it",
         address.name));
   connection.warn(
       "no stream of JetStream holds it: what is sent while this program is not connected is lost");
-  return std::make_unique<NatsSubjectSource>(address, stop, is_quiet);
+  return std::make_unique<NatsSubjectSource>(std::move(connection), stop);
 }
 
 }  // namespace kinesphere::program
