@@ -2,6 +2,7 @@
 // killed, the server as well.
 #ifdef KINESPHERE_WITH_NATS
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <functional>
@@ -80,7 +81,13 @@ class WatchNats : public ProgramTest {
       EXPECT_TRUE(broker_->messages("ALERTS", "alerts." + std::to_string(share + 1)) == lines)
           << "share " << share;
   }
-  void expect_no_complaints() {
+  /// Asked to stop, all of these do so, and nobody has complained.
+  template <class Watches>
+  void expect_to_end_well(const Watches& all) {
+    for (const auto& live : all) {
+      live->signal(SIGTERM);
+      EXPECT_EQ(live->wait(), 0);
+    }
     for (int k = 1; k <= watches_; ++k) EXPECT_EQ(read_text(path("err" + std::to_string(k))), "");
   }
 
@@ -98,11 +105,7 @@ TEST_F(WatchNats, OneTwoAndFourTellTheSame) {
   for (const char* share : {"1-2/8", "3-4/8", "5-6/8", "7-8/8", "1-4/8", "5-8/8", "1-8/8"})
     all.push_back(watch(share));
   expect_all_alerts();
-  for (const auto& live : all) {
-    live->signal(SIGTERM);
-    EXPECT_EQ(live->wait(), 0);
-  }
-  expect_no_complaints();
+  expect_to_end_well(all);
 }
 
 TEST_F(WatchNats, WhoIsKilledIsTakenOverFrom) {
@@ -120,11 +123,7 @@ TEST_F(WatchNats, WhoIsKilledIsTakenOverFrom) {
   second = watch("5-8/8", kept);
   publisher.join();
   expect_all_alerts();
-  for (const auto& live : {first.get(), second.get()}) {
-    live->signal(SIGTERM);
-    EXPECT_EQ(live->wait(), 0);
-  }
-  expect_no_complaints();
+  expect_to_end_well(std::array{first.get(), second.get()});
 }
 
 TEST_F(WatchNats, TheServerMayBeStartedAgain) {
@@ -140,11 +139,7 @@ TEST_F(WatchNats, TheServerMayBeStartedAgain) {
   }
   publisher.join();
   expect_all_alerts();
-  for (const auto& live : {first.get(), second.get()}) {
-    live->signal(SIGTERM);
-    EXPECT_EQ(live->wait(), 0);
-  }
-  expect_no_complaints();
+  expect_to_end_well(std::array{first.get(), second.get()});
 }
 
 /// All of it at once: four share the pairs, one watches them all as well, the server and one of them are
@@ -176,11 +171,7 @@ TEST_F(WatchNats, WhileReportsComeInAllMayBeKilled) {
   publisher.join();
   expect_all_alerts();
   all.push_back(std::move(killed));
-  for (const auto& live : all) {
-    live->signal(SIGTERM);
-    EXPECT_EQ(live->wait(), 0);
-  }
-  expect_no_complaints();
+  expect_to_end_well(all);
 }
 
 TEST_F(WatchNats, TimePassesForAllByTheClockOfTheServer) {
