@@ -14,6 +14,10 @@ namespace kinesphere {
 class EventSet {
  public:
   bool empty() const { return !first_; }
+  void clear() {
+    first_.reset();
+    others_.clear();
+  }
   bool contains(const Event& event) const {
     return first_ && (is_first(event) || (!others_.empty() && others_.contains(event)));
   }

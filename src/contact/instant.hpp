@@ -15,6 +15,13 @@ namespace kinesphere {
 
 class Instant {
  public:
+  /// Forgets all.
+  void clear() {
+    pending_.clear();
+    ended_.clear();
+    guards_told_.clear();
+    changed_.clear();
+  }
   /// Time moves on.
   void start() { guards_told_.clear(); }
   /// Queues an event; the same event is not queued twice.

@@ -73,14 +73,14 @@ Parcel DistributedWorld::Domain::pack(std::uint32_t number) const {
 /// The body as it was when the part of the phase began, which islands may have changed since, with its news
 /// that waited to be told then.
 Parcel DistributedWorld::Domain::pack_as_it_began(std::uint32_t number) {
-  const Islands::Group* group = islands_->group_of(number);
+  const Group* group = islands_->group_of(number);
   const Islands::Kept* kept = group != nullptr && group->attempted ? islands_->kept(number) : nullptr;
   Parcel parcel;
   if (kept == nullptr) {
     parcel = pack(number);
   } else {
     std::optional<Departure> before;
-    for (const auto& [body, departure] : group->turned)
+    for (const auto& [body, departure] : islands_->turned_of(*group))
       if (!before && body.index == name_of(number)) before = departure;
     const As as(motion_, entries_[number].in_motion, before);
     const Bodies::Kept now = bodies().keep(number);
@@ -92,7 +92,7 @@ Parcel DistributedWorld::Domain::pack_as_it_began(std::uint32_t number) {
     tables_.book.put_back(number, contacts);
   }
   if (group != nullptr) {
-    for (const Event& event : group->with.pending)
+    for (const Event& event : group->pending)
       if (event.first.index == parcel.name) parcel.pending.push_back(event);
   }
   return parcel;
@@ -139,9 +139,9 @@ void DistributedWorld::Domain::add_due(std::vector<Parcel>& parcels, std::span<c
       parcels[at - 1].due.insert(parcels[at - 1].due.end(), loose.begin(), loose.end());
   everybody_.agenda().for_each(note);
   if (islands_ != nullptr) {
-    for (const Islands::Group& group : islands_->groups()) {
+    for (const Group& group : islands_->groups()) {
       if (group.joined()) continue;
-      for (const HotPair& pair : group.with.due) note(pair);
+      for (const HotPair& pair : islands_->due_of(group)) note(pair);
     }
   }
   for (const std::uint32_t number : numbers) places_[number] = 0;

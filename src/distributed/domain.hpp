@@ -152,18 +152,18 @@ class DistributedWorld::Domain final : private Answerer, private Mover {
 
   // part.cpp: a part of a phase.
   Result<double> run_part(double until, double latest);
-  bool is_ready(const Islands::Group& group) const;
-  bool is_ours(const Islands::Group& group) const;
-  std::vector<int> owners_of(const Islands::Group& group) const;
+  bool is_ready(const Group& group) const;
+  bool is_ours(const Group& group) const;
+  std::vector<int> owners_of(const Group& group) const;
   Result<bool> share();
   void hold(std::uint32_t number, int by, Round& round);
   Bytes bytes_for(std::size_t to, const Round& round);
   void take_in(const std::vector<Bytes>& incoming);
   void use_lists();
   void note_news(Round& round);
-  void note_asks(const Islands::Group& group, Round& round);
-  void note_list(const Islands::Group& group, std::optional<std::uint32_t> met, Round& round);
-  void note_kicks(const Islands::Group& group, Round& round);
+  void note_asks(const Group& group, Round& round);
+  void note_list(const Group& group, std::optional<std::uint32_t> met, Round& round);
+  void note_kicks(const Group& group, Round& round);
   Result<void> finish_part();
   Result<void> push();
 

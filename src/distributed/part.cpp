@@ -62,7 +62,7 @@ Result<double> DistributedWorld::Domain::run_part(double until, double latest) {
     bool more = true;
     while (more) {
       use_lists();
-      if (!here_ && !islands.attempt_all([this](const Islands::Group& group) { return is_ready(group); }))
+      if (!here_ && !islands.attempt_all([this](const Group& group) { return is_ready(group); }))
         here_ = islands.failure();
       const auto shared = share();
       if (!shared) {
@@ -76,23 +76,25 @@ Result<double> DistributedWorld::Domain::run_part(double until, double latest) {
   return stop;
 }
 
-bool DistributedWorld::Domain::is_ours(const Islands::Group& group) const {
-  return std::any_of(group.members.begin(), group.members.end(),
+bool DistributedWorld::Domain::is_ours(const Group& group) const {
+  const auto members = islands_->members_of(group);
+  return std::any_of(members.begin(), members.end(),
                      [this](std::uint32_t number) { return is_own(number); });
 }
 
 /// All pairs of its bodies are known here.
-bool DistributedWorld::Domain::is_ready(const Islands::Group& group) const {
+bool DistributedWorld::Domain::is_ready(const Group& group) const {
+  const auto members = islands_->members_of(group);
   return is_ours(group) &&
-         std::all_of(group.members.begin(), group.members.end(), [this](std::uint32_t number) {
+         std::all_of(members.begin(), members.end(), [this](std::uint32_t number) {
            return is_own(number) || !tables_.windows.contains(number) || covers(box_of(number));
          });
 }
 
 /// In ascending order.
-std::vector<int> DistributedWorld::Domain::owners_of(const Islands::Group& group) const {
+std::vector<int> DistributedWorld::Domain::owners_of(const Group& group) const {
   std::vector<int> owners;
-  for (const std::uint32_t number : group.members) {
+  for (const std::uint32_t number : islands_->members_of(group)) {
     const int owner = entries_[number].owner;
     if (std::find(owners.begin(), owners.end(), owner) == owners.end()) owners.push_back(owner);
   }
@@ -241,7 +243,7 @@ void DistributedWorld::Domain::note_news(Round& round) {
     round.wanted[static_cast<std::size_t>(owner)].push_back(name);
   for (const auto& [by, name] : std::exchange(owed_, {}))
     if (const auto number = find(name)) hold(*number, by, round);
-  for (Islands::Group& group : islands_->groups()) {
+  for (Group& group : islands_->groups()) {
     if (group.joined() || !group.is_news || !is_ours(group)) continue;
     group.is_news = false;
     note_asks(group, round);
@@ -249,13 +251,13 @@ void DistributedWorld::Domain::note_news(Round& round) {
     note_kicks(group, round);
   }
   for (const auto& [own, number] : islands_->take_meetings()) {
-    const Islands::Group& group = islands_->groups()[own];
+    const Group& group = islands_->groups()[own];
     if (!group.joined()) note_list(group, number, round);
   }
 }
 
 /// Asks for what lies in the way of the island's bodies.
-void DistributedWorld::Domain::note_asks(const Islands::Group& group, Round& round) {
+void DistributedWorld::Domain::note_asks(const Group& group, Round& round) {
   const auto ask = [&](const Box& box) {
     if (covers(box)) return false;
     known_[static_cast<std::size_t>(rank())].add(box);
@@ -263,15 +265,15 @@ void DistributedWorld::Domain::note_asks(const Islands::Group& group, Round& rou
     return true;
   };
   bool any = false;
-  for (const std::uint32_t number : group.members)
+  for (const std::uint32_t number : islands_->members_of(group))
     if (!is_own(number) && tables_.windows.contains(number)) any = ask(box_of(number)) || any;
   if (group.attempted)
-    for (const BodyKick& kick : group.kicks) any = ask(box_of(kick)) || any;
+    for (const BodyKick& kick : islands_->kicks_of(group)) any = ask(box_of(kick)) || any;
   if (any) asking_.push_back(group.own);
 }
 
 /// Tells the owners of its bodies, and of those it counts on, and of one that it meets, of an island.
-void DistributedWorld::Domain::note_list(const Islands::Group& group, std::optional<std::uint32_t> met,
+void DistributedWorld::Domain::note_list(const Group& group, std::optional<std::uint32_t> met,
                                          Round& round) {
   std::vector<int> to;
   const auto note = [&](std::uint32_t number) {
@@ -281,8 +283,8 @@ void DistributedWorld::Domain::note_list(const Islands::Group& group, std::optio
   if (met) {
     note(*met);
   } else {
-    for (const std::uint32_t number : group.members) note(number);
-    for (const std::uint32_t number : group.counted_on) note(number);
+    for (const std::uint32_t number : islands_->members_of(group)) note(number);
+    for (const std::uint32_t number : islands_->counted_on_of(group)) note(number);
   }
   if (to.empty()) return;
   JoinList list;
@@ -291,17 +293,17 @@ void DistributedWorld::Domain::note_list(const Islands::Group& group, std::optio
     list.together.push_back(
         {name_of(number), entries_[number].owner, is_registered, is_registered ? box_of(number) : Box{}});
   };
-  for (const std::uint32_t number : group.members) add(number);
+  for (const std::uint32_t number : islands_->members_of(group)) add(number);
   if (met) add(*met);
-  for (const std::uint32_t number : group.counted_on) list.counted_on.push_back(name_of(number));
+  for (const std::uint32_t number : islands_->counted_on_of(group)) list.counted_on.push_back(name_of(number));
   for (const int owner : to) round.lists[static_cast<std::size_t>(owner)].push_back(list);
 }
 
 /// Tells of kicked bodies all ranks to whose space they come.
-void DistributedWorld::Domain::note_kicks(const Islands::Group& group, Round& round) {
+void DistributedWorld::Domain::note_kicks(const Group& group, Round& round) {
   if (!group.attempted) return;
   std::optional<std::vector<int>> owners;
-  for (const BodyKick& kick : group.kicks) {
+  for (const BodyKick& kick : islands_->kicks_of(group)) {
     if (!is_own(kick.number)) continue;
     const Box box = box_of(kick);
     for (std::size_t to = 0; to < ranks(); ++to) {
@@ -318,17 +320,18 @@ void DistributedWorld::Domain::note_kicks(const Islands::Group& group, Round& ro
 /// What came of the islands becomes what came of everybody, and those who have copies learn of it.
 Result<void> DistributedWorld::Domain::finish_part() {
   Islands& islands = *islands_of_run_;
-  const auto is_counted = [this](const Islands::Group& group) {
+  const auto is_counted = [&](const Group& group) {
+    const auto members = islands.members_of(group);
     const auto first = std::min_element(
-        group.members.begin(), group.members.end(),
+        members.begin(), members.end(),
         [this](std::uint32_t a, std::uint32_t b) { return bodies().table().comes_before(a, b); });
     return is_own(*first);
   };
-  for (const Islands::Group& group : islands.groups()) {
+  for (const Group& group : islands.groups()) {
     if (group.joined() || !group.attempted) continue;
     const float cost =
-        static_cast<float>(1 + group.with.due.size()) / static_cast<float>(group.members.size());
-    for (const std::uint32_t number : group.members) entries_[number].cost += cost;
+        static_cast<float>(1 + group.due.size()) / static_cast<float>(group.members.size());
+    for (const std::uint32_t number : islands.members_of(group)) entries_[number].cost += cost;
   }
   for (const Told* told : islands.finish(is_counted)) {
     Event event = told->event;
@@ -348,10 +351,10 @@ Result<void> DistributedWorld::Domain::finish_part() {
 Result<void> DistributedWorld::Domain::push() {
   if (ranks() == 1) return {};
   std::vector<ByteWriter> writers(ranks());
-  for (const Islands::Group& group : islands_of_run_->groups()) {
+  for (const Group& group : islands_of_run_->groups()) {
     if (group.joined() || !group.attempted) continue;
     std::vector<std::uint32_t> kicked;
-    for (const BodyKick& kick : group.kicks)
+    for (const BodyKick& kick : islands_of_run_->kicks_of(group))
       if (is_own(kick.number)) kicked.push_back(kick.number);
     std::sort(kicked.begin(), kicked.end());
     kicked.erase(std::unique(kicked.begin(), kicked.end()), kicked.end());
@@ -363,7 +366,7 @@ Result<void> DistributedWorld::Domain::push() {
           entries_[number].holders.push_back(static_cast<int>(to));
     }
     std::optional<std::vector<int>> owners;
-    for (const std::uint32_t number : group.members) {
+    for (const std::uint32_t number : islands_of_run_->members_of(group)) {
       if (!is_own(number) || entries_[number].holders.empty()) continue;
       const bool is_kicked = std::binary_search(kicked.begin(), kicked.end(), number);
       // Its copies are dropped in any case.
@@ -376,7 +379,7 @@ Result<void> DistributedWorld::Domain::push() {
           parcel = pack(number);
           parcel->enters = is_kicked;
           parcel->is_void = islands_of_run_->kept(number)->body.body.stamp != bodies()[number].stamp;
-          for (const HotPair& pair : group.left)
+          for (const HotPair& pair : islands_of_run_->left_of(group))
             if (pair.first == number || (pair.has_second() && pair.second == number))
               parcel->due.push_back(due_of(pair, number));
         }

@@ -7,23 +7,30 @@
 
 namespace kinesphere {
 
-void Island::begin(Sea& sea, std::uint32_t own, double now, const Beginning& with) {
+void Island::begin(Sea& sea, std::uint32_t own, double now, std::span<const HotPair> due,
+                   std::span<const std::uint32_t> unsettled, std::span<const Event> pending) {
   time_ = now;
   phase_end_ = sea.phase_end;
   agenda_.clear();
-  for (const HotPair& pair : with.due) agenda_.add(pair);
-  instant_ = {};
-  for (const Event& event : with.pending) instant_.announce(event);
-  dirty_ = with.unsettled;
+  for (const HotPair& pair : due) agenda_.add(pair);
+  instant_.clear();
+  for (const Event& event : pending) instant_.announce(event);
+  dirty_.assign(unsettled.begin(), unsettled.end());
   gathering_ = true;
   counters_ = {};
   kicks_ = {};
-  if (!beside_) beside_.emplace();
-  beside_->begin(sea, own);
+  beside().begin(sea, own);
+}
+
+Outcome Island::end(std::uint32_t worker) {
+  agenda_.for_each([this](const HotPair& pair) {
+    if (!facts().is_void(pair)) beside_->left.add(pair);
+  });
+  return beside_->end(worker, {counters_, take_kicks()});
 }
 
 /// As World::Engine::advance(), but that no windows start.
-Result<void> Island::go_on(Answerer* answerer, std::vector<Told>& told) {
+Result<void> Island::go_on(Answerer* answerer) {
   if (!beside_->sea->comes(time_)) return settle();
   std::uint32_t round = 0;
   for (;;) {
@@ -31,7 +38,7 @@ Result<void> Island::go_on(Answerer* answerer, std::vector<Told>& told) {
       if (auto gathered = gather(); !gathered) return gathered;
     }
     while (const std::optional<Event> event = deliver()) {
-      told.push_back({round, *event});
+      beside_->told.add({round, *event});
       if (answerer != nullptr) {
         if (auto answered = answer(*event, *answerer); !answered) return answered;
       }
@@ -52,7 +59,7 @@ Result<void> Island::answer(const Event& event, Answerer& answerer) {
   const auto answer = answerer.answer(event);
   if (!answer) return answer.error();
   const auto note = [&](BodyId body, const std::optional<Vec3>& velocity) {
-    if (velocity) beside_->turned.emplace_back(body, answerer.departure(body));
+    if (velocity) beside_->turned.add({body, answerer.departure(body)});
   };
   note(event.first, answer->first_velocity);
   note(event.second, answer->second_velocity);
@@ -66,7 +73,7 @@ Result<void> Island::answer(const Event& event, Answerer& answerer) {
 /// Whom the body touches or senses, the island has to have too.
 void Island::claim_linked(std::uint32_t number) {
   const auto claim = [this](std::uint32_t other) {
-    if (!beside_->is_own(other) && !bodies()[other].is_fixed()) beside_->claims.push_back(other);
+    if (!beside_->is_own(other) && !bodies()[other].is_fixed()) beside_->claims.add(other);
   };
   for (const std::uint32_t other : book().partners_of(number)) claim(other);
   for (const Crossing& crossing : book().crossings_of(number)) claim(crossing.partner);
@@ -85,7 +92,7 @@ bool Island::may_count_on(std::uint32_t number, std::uint32_t other) {
   const double until = still ? facts.apart_until(number, other) : time_;
   if (until == infinity) return false;
   const bool in_time = !still || beside_->sea->comes(until);
-  (in_time ? beside_->claims : beside_->counted_on).push_back(other);
+  (in_time ? beside_->claims : beside_->counted_on).add(other);
   return !in_time;
 }
 

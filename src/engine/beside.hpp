@@ -7,15 +7,21 @@
 // later is counted on to stay nobody's.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "kinesphere/bound.hpp"
+#include "kinesphere/counters.hpp"
 #include "kinesphere/event.hpp"
+#include "kinesphere/result.hpp"
 #include "kinesphere/run.hpp"
 #include "window/agenda.hpp"
+#include "window/tempo.hpp"
 #include "window/windows.hpp"
 
 namespace kinesphere {
@@ -27,8 +33,8 @@ struct Sea {
 
   struct Place {
     std::uint32_t island = nobody;
-    std::uint32_t kick = none;  ///< the last one, among those of its island
-    std::uint32_t kept = none;  ///< where the island keeps it as it was when the part began
+    std::uint32_t kick = none;  ///< the last one, in the list of the thread that has run its island
+    std::uint32_t kept = none;  ///< where it is kept as it was when the part began
   };
   std::vector<Place> places;  ///< by body; an island changes those of its own
   double phase_end = 0.0;
@@ -49,62 +55,136 @@ struct BodyKick {
   Vec3 middle;  ///< where space repeats
 };
 
-/// What one island knows, and what it has done that others have to see.
+/// An event, and in which round of its instant it came.
+struct Told {
+  std::uint32_t round;
+  Event event;
+};
+
+/// A body that was turned, and from where it had set out before.
+using Turn = std::pair<BodyId, Departure>;
+
+/// What an island has done that is only counted.
+struct Work {
+  Counters counters{};
+  Kicks settled{};
+};
+
+/// Where something stands in a list.
+struct Stretch {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+
+  std::uint32_t size() const { return end - begin; }
+  template <class T>
+  std::span<const T> of(const std::vector<T>& list) const {
+    return std::span(list).subspan(begin, size());
+  }
+};
+
+/// The lists of several islands, one behind the other: the last one is that of the island that runs now.
+template <class T>
+class Listing {
+ public:
+  void clear() {
+    all_.clear();
+    begin_ = 0;
+  }
+  /// The next list begins.
+  void begin() { begin_ = static_cast<std::uint32_t>(all_.size()); }
+  void add(const T& one) { all_.push_back(one); }
+
+  bool empty() const { return begin_ == all_.size(); }
+  std::size_t size() const { return all_.size() - begin_; }
+  Stretch stretch() const { return {begin_, static_cast<std::uint32_t>(all_.size())}; }
+  const std::vector<T>& all() const { return all_; }
+  std::vector<T>& all() { return all_; }
+
+ private:
+  std::vector<T> all_;
+  std::uint32_t begin_ = 0;
+};
+
+/// What came of an island: where it stands in the lists of the thread that ran it.
+struct Outcome {
+  std::uint32_t worker = 0;
+  std::uint32_t work = 0;
+  Stretch told{};
+  Stretch kicks{};
+  Stretch left{};
+  Stretch claims{};
+  Stretch counted_on{};
+  Stretch turned{};
+};
+
+/// What one island knows, and what it has done that others have to see; with the lists of those that the same
+/// thread has run before it in this part.
 struct Beside {
   Sea* sea = nullptr;
   std::uint32_t own = Sea::nobody;
-  std::vector<BodyKick> kicks;        ///< in the order of their times
-  std::vector<std::uint32_t> claims;  ///< whom else it needs
+  Listing<Told> told;
+  Listing<BodyKick> kicks;         ///< in the order of their times
+  Listing<HotPair> left;           ///< that are due later
+  Listing<std::uint32_t> claims;   ///< whom else it needs
   /// Nobody's, with whom it has pairs that are due later: nobody may move them.
-  std::vector<std::uint32_t> counted_on;
-  std::vector<std::pair<BodyId, Departure>> turned;  ///< from where they had set out before
+  Listing<std::uint32_t> counted_on;
+  Listing<Turn> turned;
+  std::vector<Work> works;
+  /// Of the first of these islands that has failed.
+  std::optional<Error> failure;
 
-  void begin(Sea& all, std::uint32_t place) {
-    sea = &all;
-    own = place;
+  /// A part begins.
+  void clear() {
+    told.clear();
     kicks.clear();
+    left.clear();
     claims.clear();
     counted_on.clear();
     turned.clear();
+    works.clear();
+    failure.reset();
+  }
+  void begin(Sea& all, std::uint32_t place) {
+    sea = &all;
+    own = place;
+    told.begin();
+    kicks.begin();
+    left.begin();
+    claims.begin();
+    counted_on.begin();
+    turned.begin();
+  }
+  Outcome end(std::uint32_t worker, const Work& work) {
+    works.push_back(work);
+    return {worker,
+            static_cast<std::uint32_t>(works.size() - 1),
+            told.stretch(),
+            kicks.stretch(),
+            left.stretch(),
+            claims.stretch(),
+            counted_on.stretch(),
+            turned.stretch()};
   }
   /// All has to be answered one by one then.
   bool is_full() const { return kicks.size() > sea->most_kicks; }
   bool is_own(std::uint32_t number) const { return sea->places[number].island == own; }
   void add(const BodyKick& kick) {
-    sea->places[kick.number].kick = static_cast<std::uint32_t>(kicks.size());
-    kicks.push_back(kick);
+    sea->places[kick.number].kick = kicks.stretch().end;
+    kicks.add(kick);
   }
-  /// Of one of its own.
-  bool is_last(std::uint32_t place) const { return sea->places[kicks[place].number].kick == place; }
+  /// Calls visit(number) for each body that has been kicked.
+  template <class Visit>
+  void for_each_kicked(Visit visit) const {
+    const auto [first, last] = kicks.stretch();
+    for (std::uint32_t k = first; k < last; ++k) {
+      const std::uint32_t number = kicks.all()[k].number;
+      if (sea->places[number].kick == k) visit(number);
+    }
+  }
   const BodyKick* last_kick(std::uint32_t number) const {
     const Sea::Place& place = sea->places[number];
-    return place.island == own && place.kick != Sea::none ? &kicks[place.kick] : nullptr;
+    return place.island == own && place.kick != Sea::none ? &kicks.all()[place.kick] : nullptr;
   }
-};
-
-/// What an island begins with: pairs that are due, bodies that have to be settled before anything else, and
-/// events that are known already.
-struct Beginning {
-  std::vector<HotPair> due{};
-  std::vector<std::uint32_t> unsettled{};
-  std::vector<Event> pending{};
-
-  void clear() {
-    due.clear();
-    unsettled.clear();
-    pending.clear();
-  }
-  void add(const Beginning& more) {
-    due.insert(due.end(), more.due.begin(), more.due.end());
-    unsettled.insert(unsettled.end(), more.unsettled.begin(), more.unsettled.end());
-    pending.insert(pending.end(), more.pending.begin(), more.pending.end());
-  }
-};
-
-/// An event, and in which round of its instant it came.
-struct Told {
-  std::uint32_t round;
-  Event event;
 };
 
 }  // namespace kinesphere

@@ -98,7 +98,7 @@ class alignas(128) Island {
   /// What the island has to begin with is left to others.
   void leave_unsettled() {
     dirty_.clear();
-    instant_ = {};
+    instant_.clear();
     gathering_ = false;
   }
 
@@ -143,11 +143,18 @@ class alignas(128) Island {
 
   // Beside other islands (beside.cpp).
   /// From now on the island is one of those of a phase.
-  void begin(Sea& sea, std::uint32_t own, double now, const Beginning& with);
+  /// It begins with pairs that are due, bodies that have to be settled before anything else, and events that
+  /// are known already.
+  void begin(Sea& sea, std::uint32_t own, double now, std::span<const HotPair> due,
+             std::span<const std::uint32_t> unsettled, std::span<const Event> pending);
   /// Goes on as far as islands go, or to where it claims a body that is not its own. Where they go nowhere,
   /// it settles what is unsettled.
-  Result<void> go_on(Answerer* answerer, std::vector<Told>& told);
-  Beside& beside() { return *beside_; }
+  Result<void> go_on(Answerer* answerer);
+  /// What came of it.
+  Outcome end(std::uint32_t worker);
+  /// Its own, and of those before it.
+  Beside& beside() { return beside_ ? *beside_ : beside_.emplace(); }
+  const Beside& beside() const { return *beside_; }
 
   // The phase.
   /// All windows that hold a body now end at this time or later; those that end before it, of bodies that

@@ -23,10 +23,20 @@
 #include <utility>
 #include <vector>
 
+#include "engine/groups.hpp"
 #include "engine/island.hpp"
+#include "engine/meetings.hpp"
 #include "parallel/crew.hpp"
 
 namespace kinesphere {
+
+/// What islands begin with: pairs that are due, bodies that have to be settled before anything else, and
+/// events that are known already.
+struct Beginning {
+  std::vector<HotPair> due{};
+  std::vector<std::uint32_t> unsettled{};
+  std::vector<Event> pending{};
+};
 
 class Islands {
  public:
@@ -43,34 +53,8 @@ class Islands {
   // islands are to be joined. The part begins with what everybody() has not settled, too, and what is to be
   // told.
 
-  /// Some bodies, and what came of them in the last attempt.
-  struct Group {
-    std::vector<std::uint32_t> members;
-    Beginning with;
-    std::uint32_t own = 0;        ///< its place
-    std::uint32_t joined_to = 0;  ///< the same, unless it has been joined to another one
-    bool again = true;            ///< it has to run, or run again
-    bool attempted = false;       ///< and not taken back
-    bool has_run = false;
-    bool kicks_are_compared = false;
-    bool failed = false;
-    std::optional<Error> failure{};
-    bool is_news = true;  ///< of it, for whoever sets this to false
-    Counters counters{};
-    Kicks settled{};
-    std::vector<HotPair> left{};
-    std::vector<Told> told{};
-    std::vector<BodyKick> kicks{};
-    std::vector<std::uint32_t> claims{};
-    std::vector<std::uint32_t> counted_on{};
-    std::vector<std::pair<BodyId, Departure>> turned{};
-
-    bool joined() const { return joined_to != own; }
-  };
   /// A body as it was when the part began.
   struct Kept {
-    std::uint32_t number = 0;
-    bool is_kept = false;
     Bodies::Kept body{};
     ContactBook::Kept contacts{};
   };
@@ -85,22 +69,37 @@ class Islands {
   template <class IsReady>
   bool attempt_all(IsReady is_ready) {
     return go_through([&] {
-      for (std::uint32_t own = 0; own < count_; ++own)
-        if (groups_[own].again && is_ready(std::as_const(groups_[own]))) again_.push_back(own);
+      for (const Group& group : groups_.all())
+        if (group.again && is_ready(group)) again_.push_back(group.own);
     });
   }
   /// Of the attempt that has failed.
   const std::optional<Error>& failure() const { return failure_; }
   /// Groups are joined only to others with smaller places.
-  std::span<Group> groups() { return std::span(groups_).first(count_); }
+  std::span<Group> groups() { return groups_.all(); }
   /// Nobody's bodies have none.
-  Group* group_of(std::uint32_t number);
+  Group* group_of(std::uint32_t number) { return groups_.group_of(number); }
+  std::span<const std::uint32_t> members_of(const Group& group) const { return groups_.members_of(group); }
+  std::span<const HotPair> due_of(const Group& group) const { return groups_.due_of(group); }
+  // What came of a group in the last attempt; nothing, if it has been taken back.
+  std::span<const BodyKick> kicks_of(const Group& group) const {
+    return of(group, &Beside::kicks, &Outcome::kicks);
+  }
+  std::span<const HotPair> left_of(const Group& group) const {
+    return of(group, &Beside::left, &Outcome::left);
+  }
+  std::span<const std::uint32_t> counted_on_of(const Group& group) const {
+    return of(group, &Beside::counted_on, &Outcome::counted_on);
+  }
+  std::span<const Turn> turned_of(const Group& group) const {
+    return of(group, &Beside::turned, &Outcome::turned);
+  }
   /// These bodies have to be in one island.
   void join_bodies(std::span<const std::uint32_t> numbers);
   /// Bodies have become known meanwhile, and may bring these along.
   void add(const Beginning& more);
   /// A body that another process kicks: islands here that it may meet are in meetings().
-  void add_foreign_kick(const BodyKick& kick);
+  void add_foreign_kick(const BodyKick& kick) { foreign_kicks_.push_back(kick); }
   /// Groups, and kicked bodies of others that they may meet.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> take_meetings() {
     return std::exchange(meetings_, {});
@@ -119,7 +118,7 @@ class Islands {
   template <class IsCounted>
   std::vector<const Told*> finish(IsCounted is_counted) {
     std::vector<const Told*> told;
-    for (const Group& group : groups())
+    for (const Group& group : groups_.all())
       if (!group.joined() && group.attempted) finish(group, is_counted(group), told);
     finish(told);
     return told;
@@ -135,31 +134,26 @@ class Islands {
   }
 
  private:
-  struct OwnKick {
-    std::uint32_t own;  ///< the group whose it is; Sea::nobody if it is another process's
-    const BodyKick* kick;
-  };
-
-  void form(std::span<const HotPair> due);
-  Group& new_group();
-  void add_member(Group& group, std::uint32_t number);
+  template <class T>
+  std::span<const T> of(const Group& group, Listing<T> Beside::*list, Stretch Outcome::*stretch) const {
+    if (!group.attempted) return {};
+    return (group.outcome.*stretch).of((crew_[group.outcome.worker].beside().*list).all());
+  }
   bool are_worth_it() const;
   template <class FindAgain>
   bool go_through(FindAgain find_again);
   bool attempt_found();
   void choose_part();
-  void attempt(std::uint32_t own, Island& island);
+  void attempt(std::uint32_t own, std::uint32_t worker);
+  void keep(const Group& group);
   void take_back(Group& group);
+  void add_member(Group& group, std::uint32_t number);
+  void join(Group& one, Group& other);
   bool join_claims();
+  bool join_counted_on();
   bool join_kicks();
   void finish(const Group& group, bool is_counted, std::vector<const Told*>& told);
   void finish(std::vector<const Told*>& told);
-  std::vector<OwnKick> kicks() const;
-  std::size_t new_kicks() const;
-  RoomyBound bound_of(const BodyKick& kick) const;
-  bool may_meet(const BodyKick& a, const BodyKick& b) const;
-  std::uint32_t root_of(std::uint32_t own) const;
-  void join(std::uint32_t one, std::uint32_t other);
   void register_kicks();
 
   Tables& tables_;
@@ -173,10 +167,13 @@ class Islands {
   std::size_t most_due_ = 0;     ///< in a part
   std::size_t first_runs_ = 0;   ///< pairs that were due in groups when these first ran in this part
   std::size_t repeats_ = 0;      ///< the same when they ran again
-  std::vector<Group> groups_;    ///< more than there are in this part, perhaps
-  std::size_t count_ = 0;        ///< of those that there are
+  Groups groups_;
+  std::vector<Kept> kept_;  ///< by Sea::Place::kept; it is only valid
+  std::vector<std::uint8_t> is_kept_;  ///< where this is not 0
   std::vector<std::uint32_t> again_;
-  std::vector<Kept> kept_;
+  // Groups whose kicks have been held against all others, and those that have run since.
+  std::vector<std::uint32_t> compared_;
+  std::vector<std::uint32_t> uncompared_;
   std::vector<HotPair> due_;
   std::vector<HotPair> left_;
   std::optional<Error> failure_;

@@ -107,10 +107,9 @@ std::span<const std::uint32_t> Island::near(std::uint32_t number) {
   claim_linked(number);
   std::vector<std::uint32_t>& numbers = found_.scratch.numbers;
   std::erase_if(numbers, [&](std::uint32_t other) { return !may_count_on(number, other); });
-  for (std::uint32_t place = 0; place < beside_->kicks.size(); ++place) {
-    const std::uint32_t other = beside_->kicks[place].number;
-    if (other != number && beside_->is_last(place)) numbers.push_back(other);
-  }
+  beside_->for_each_kicked([&](std::uint32_t other) {
+    if (other != number) numbers.push_back(other);
+  });
   return numbers;
 }
 

@@ -80,10 +80,12 @@ std::optional<float> Layer::overhang_at(std::uint32_t place, const Capsule& caps
   return out <= grid_.edge[1] ? std::optional(out) : std::nullopt;
 }
 
-void Layer::replace(std::uint32_t place, const Capsule& capsule, float from, float overhang) {
+void Layer::replace(std::uint32_t place, const Capsule& capsule, float from, float overhang,
+                    Growth& growth) {
   assert(numbers_[place] != nobody);
-  reach_ = std::max(reach_, overhang);
-  widest_ = std::max(widest_, width_of(corners_of(capsule, from, 1.0f)));
+  growth.reach = std::max(growth.reach, overhang);
+  growth.widest = std::max(growth.widest, width_of(corners_of(capsule, from, 1.0f)));
+  ++growth.replaced;
   store(place, capsule);
 }
 

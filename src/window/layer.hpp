@@ -2,6 +2,7 @@
 // whole rows of them at once.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -69,8 +70,19 @@ class Layer {
   /// How far another one for the same body, which holds from time `from` until 1, would stick out of its
   /// cell. Nothing if that is so far that searches would cost more.
   std::optional<float> overhang_at(std::uint32_t place, const Capsule& capsule, float from) const;
-  /// It takes the place.
-  void replace(std::uint32_t place, const Capsule& capsule, float from, float overhang);
+  /// How much more room capsules that have taken places need, and how many they are.
+  struct Growth {
+    float reach = 0.0f;
+    float widest = 0.0f;
+    std::uint64_t replaced = 0;
+  };
+  /// It takes the place. Several threads may do that at the same time, in different places; nothing may be
+  /// searched before grow().
+  void replace(std::uint32_t place, const Capsule& capsule, float from, float overhang, Growth& growth);
+  void grow(const Growth& growth) {
+    reach_ = std::max(reach_, growth.reach);
+    widest_ = std::max(widest_, growth.widest);
+  }
   /// Leaves a hole.
   void remove(std::uint32_t place);
 

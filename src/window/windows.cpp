@@ -147,15 +147,25 @@ Windows::Entry Windows::prepare(std::uint32_t number, const RoomyBound& bound, d
   return entry;
 }
 
+/// Several threads may do that at the same time, for different bodies.
+void Windows::replace(const Entry& entry, double now, Layer::Growth& growth) {
+  Member& member = layers_[entry.layer];
+  member.layer.replace(entry.place, entry.capsule, member.time(now), entry.overhang, growth);
+}
+
+void Windows::grow(Member& member, const Layer::Growth& growth) {
+  member.changes += growth.replaced;
+  member.layer.grow(growth);
+}
+
 /// As the body is of the same size for the same window, whenever in it the body enters, and as a layer has
 /// the same frame, whoever enters first, searches find the same in whatever order bodies enter.
-void Windows::enter(std::uint32_t number, const RoomyBound& bound, double now, const Window& window,
-                    const Entry& entry) {
-  if (entry.layer != none && registrations_[number].layer == entry.layer &&
-      registrations_[number].place == entry.place) {
-    Member& member = layers_[entry.layer];
-    ++member.changes;
-    return member.layer.replace(entry.place, entry.capsule, member.time(now), entry.overhang);
+void Windows::enter(std::uint32_t number, const RoomyBound& bound, double now, const Window& window) {
+  const Entry entry = prepare(number, bound, now, window);
+  if (entry.layer != none) {
+    Layer::Growth growth;
+    replace(entry, now, growth);
+    return grow(layers_[entry.layer], growth);
   }
   if (number >= registrations_.size()) registrations_.resize(number + std::size_t{1});
   const std::uint32_t layer = layer_for(window, entry.level);

@@ -6,6 +6,7 @@
 // share a layer. Bodies that stand still have a window that never ends.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -85,22 +86,43 @@ class Windows {
   static constexpr int shortest = std::numeric_limits<int>::min();
   static constexpr Window endless() { return {never_ends, infinity}; }
   /// Registers a body in a window from `now` on, perhaps anew.
-  void enter(std::uint32_t number, const RoomyBound& bound, double now, const Window& window) {
-    enter(number, bound, now, window, prepare(number, bound, now, window));
-  }
-  /// What of it several threads may do at the same time; and the rest, before anything but other bodies
-  /// enters.
-  struct Entry {
-    int level = 0;
-    // Unless it is another one, the body may have the place that it has.
-    std::uint32_t layer = none;
-    std::uint32_t place = 0;
-    Capsule capsule{};
-    float overhang = 0.0f;
+  void enter(std::uint32_t number, const RoomyBound& bound, double now, const Window& window);
+  /// A body that enters a window at a time.
+  struct Arrival {
+    std::uint32_t number;
+    double time;
+    Window window;
   };
-  Entry prepare(std::uint32_t number, const RoomyBound& bound, double now, const Window& window) const;
-  void enter(std::uint32_t number, const RoomyBound& bound, double now, const Window& window,
-             const Entry& entry);
+  /// The same for many bodies, each of them once. bound_of(k) gives that of the k-th at its time; it is asked
+  /// by several threads.
+  template <class BoundOf>
+  void enter_all(std::span<const Arrival> arrivals, BoundOf bound_of, Shift& shift) {
+    constexpr std::size_t bodies_at_once = 256;
+    std::vector<std::vector<Layer::Growth>> growth(shift.count(), std::vector<Layer::Growth>(layers_.size()));
+    std::vector<std::vector<std::size_t>> others(shift.count());
+    shift.for_each(
+        arrivals.size(), bodies_at_once, [&](std::size_t begin, std::size_t end, std::size_t worker) {
+          for (std::size_t k = begin; k < end; ++k) {
+            const auto& [number, time, window] = arrivals[k];
+            const Entry entry = prepare(number, bound_of(k), time, window);
+            if (entry.layer == none) {
+              others[worker].push_back(k);
+            } else {
+              replace(entry, time, growth[worker][entry.layer]);
+            }
+          }
+        });
+    for (const std::vector<Layer::Growth>& of_layers : growth)
+      for (std::size_t layer = 0; layer < of_layers.size(); ++layer) grow(layers_[layer], of_layers[layer]);
+    // In the same order whoever has done what.
+    std::vector<std::size_t> rest;
+    for (const std::vector<std::size_t>& some : others) rest.insert(rest.end(), some.begin(), some.end());
+    std::sort(rest.begin(), rest.end());
+    for (const std::size_t k : rest) {
+      const auto& [number, time, window] = arrivals[k];
+      enter(number, bound_of(k), time, window);
+    }
+  }
   void leave(std::uint32_t number);
   /// The bodies other than `number` whose registered capsule may touch that which it would have from now
   /// until `end`, before their windows end. Good until the next search with this scratch.
@@ -284,6 +306,18 @@ class Windows {
     std::size_t bodies;
   };
 
+  /// How a body may enter: of what level its capsule is and, unless the layer is none, that it may have the
+  /// place that it has.
+  struct Entry {
+    int level = 0;
+    std::uint32_t layer = none;
+    std::uint32_t place = 0;
+    Capsule capsule{};
+    float overhang = 0.0f;
+  };
+  Entry prepare(std::uint32_t number, const RoomyBound& bound, double now, const Window& window) const;
+  void replace(const Entry& entry, double now, Layer::Growth& growth);
+  static void grow(Member& member, const Layer::Growth& growth);
   void merge_levels(const Sizes& sizes);
   int level_to_start(int level) const;
   int level_to_enter(int level) const;
