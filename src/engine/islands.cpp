@@ -66,6 +66,8 @@ void Islands::open(double stop) {
   for (Island& island : crew_) island.beside().clear();
   groups_.form(due_, tables_.bodies, sea_.places);
   is_kept_.clear();
+  // With room for those that are claimed: a larger list would have to be filled with copies.
+  if (kept_.size() < groups_.kept()) kept_ = std::vector<Kept>(2 * groups_.kept());
   Beginning unsettled;
   for (const std::uint32_t number : everybody_.dirty())
     if (tables_.bodies[number].dirty) unsettled.unsettled.push_back(number);
@@ -378,7 +380,7 @@ void Islands::register_kicks() {
         return room_for(tables_.bodies, kick.number, MovedBound(kick.bound, kick.time));
       },
       shift_);
-  tables_.windows.tidy();
+  tables_.windows.tidy(shift_);
 }
 
 }  // namespace kinesphere

@@ -31,17 +31,24 @@ class Threads final : public Crew {
   int count() const override { return static_cast<int>(threads_.size()) + 1; }
 
   void share(SharedItems& items) override {
+    bool any_asleep = false;
     {
       const std::lock_guard lock(mutex_);
       assert(items_ == nullptr);
       items_ = &items;
       ++round_;
+      any_asleep = asleep_ > 0;
     }
-    wake_.notify_all();
+    if (any_asleep) wake_.notify_all();
     items.work(0);
     // Whoever has not woken up by now has nothing left to do, and is not waited for.
     std::unique_lock lock(mutex_);
     items_ = nullptr;
+    if (working_ > 0) {
+      lock.unlock();
+      look_out([this] { return working_ == 0; });
+      lock.lock();
+    }
     done_.wait(lock, [this] { return working_ == 0; });
   }
 
@@ -50,7 +57,13 @@ class Threads final : public Crew {
     std::uint64_t last_round = 0;
     std::unique_lock lock(mutex_);
     for (;;) {
+      const auto is_called = [&] { return leaving_ || round_ != last_round; };
+      lock.unlock();
+      look_out(is_called);
+      lock.lock();
+      ++asleep_;
       wake_.wait(lock, [&] { return leaving_ || (items_ != nullptr && round_ != last_round); });
+      --asleep_;
       if (leaving_) return;
       last_round = round_;
       SharedItems& items = *items_;
@@ -60,6 +73,13 @@ class Threads final : public Crew {
       lock.lock();
       if (--working_ == 0) done_.notify_one();
     }
+  }
+
+  /// For a short while: what comes soon comes faster than to those who sleep.
+  template <class Comes>
+  static void look_out(Comes comes) {
+    constexpr int looks = 100;
+    for (int look = 0; look < looks && !comes(); ++look) std::this_thread::yield();
   }
 
   void dismiss() {
@@ -75,9 +95,10 @@ class Threads final : public Crew {
   std::condition_variable wake_;
   std::condition_variable done_;
   SharedItems* items_ = nullptr;  ///< while there are some to begin with
-  std::uint64_t round_ = 0;       ///< which items these are
-  int working_ = 0;
-  bool leaving_ = false;
+  std::atomic<std::uint64_t> round_ = 0;       ///< which items these are
+  std::atomic<int> working_ = 0;
+  int asleep_ = 0;
+  std::atomic<bool> leaving_ = false;
   std::vector<std::thread> threads_;
 };
 

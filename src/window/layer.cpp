@@ -1,6 +1,7 @@
 #include "window/layer.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -287,17 +288,23 @@ void Layer::choose_grid(const Spread& spread, std::size_t size) {
 }
 
 /// Of cells that have been counted: starts_[cell] has how many are in it.
-std::uint32_t Layer::filled_cubes() const {
-  std::uint32_t filled = 0;
+std::uint32_t Layer::filled_cubes(Shift& shift) const {
   const auto along = static_cast<std::size_t>(grid_.count[0]);
-  for (std::size_t row = 0; row + 1 < starts_.size(); row += along)
-    for (std::size_t first = 0; first < along; first += Grid::slices) {
-      const auto begin = starts_.begin() + static_cast<std::ptrdiff_t>(row + first);
-      const auto end =
-          begin + static_cast<std::ptrdiff_t>(std::min<std::size_t>(Grid::slices, along - first));
-      filled += std::any_of(begin, end, [](std::uint32_t count) { return count > 0; }) ? 1 : 0;
+  const std::size_t rows = cell_count() / along;
+  std::atomic<std::uint32_t> all = 0;
+  shift.for_each(rows, many / along + 1, [&](std::size_t from, std::size_t to, std::size_t) {
+    std::uint32_t filled = 0;
+    for (std::size_t row = from * along; row < to * along; row += along) {
+      for (std::size_t first = 0; first < along; first += Grid::slices) {
+        const auto begin = starts_.begin() + static_cast<std::ptrdiff_t>(row + first);
+        const auto end =
+            begin + static_cast<std::ptrdiff_t>(std::min<std::size_t>(Grid::slices, along - first));
+        filled += std::any_of(begin, end, [](std::uint32_t count) { return count > 0; }) ? 1 : 0;
+      }
     }
-  return filled;
+    all += filled;
+  });
+  return all;
 }
 
 double Layer::density(bool flat) const {
@@ -321,8 +328,39 @@ void Layer::count_by_cells(const Unsorted& all, std::vector<std::uint32_t>& cell
     reaches[worker] = std::max(reaches[worker], reach);
   });
   reach_ = *std::max_element(reaches.begin(), reaches.end());
-  starts_.assign(cell_count() + 1, 0);
-  for (const std::uint32_t cell : cells) ++starts_[cell];
+  starts_.resize(cell_count() + 1);
+  starts_.back() = 0;
+  for_each_range(cells.size(), shift, [&](std::uint32_t from, std::uint32_t to) {
+    std::fill(starts_.begin() + from, starts_.begin() + to, 0);
+    for (const std::uint32_t cell : cells)
+      if (cell - from < to - from) ++starts_[cell];
+  });
+}
+
+/// Calls visit(from, to) for ranges of cells that together are all, one for each thread if there are many
+/// capsules: each of them goes through all of these.
+template <class Visit>
+void Layer::for_each_range(std::size_t capsules, Shift& shift, Visit visit) const {
+  const std::size_t cells = cell_count();
+  const std::size_t ranges = capsules < many ? 1 : shift.count();
+  shift.for_each(ranges, 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t k = begin; k < end; ++k)
+      visit(static_cast<std::uint32_t>(cells * k / ranges), static_cast<std::uint32_t>(cells * (k + 1) / ranges));
+  });
+}
+
+/// Gives each its place among those of its cell, in the order in which they stand, in the cells that have
+/// been counted.
+void Layer::choose_places(const std::vector<std::uint32_t>& cells, std::vector<std::uint32_t>& places,
+                          Shift& shift) {
+  // Cells tell of the ends of their parts first, and of their begins when the last one has been taken from
+  // there.
+  std::uint32_t sum = 0;
+  for (std::uint32_t& start : starts_) start = sum += start;
+  for_each_range(cells.size(), shift, [&](std::uint32_t from, std::uint32_t to) {
+    for (std::size_t k = cells.size(); k-- > 0;)
+      if (cells[k] - from < to - from) places[k] = --starts_[cells[k]];
+  });
 }
 
 Layer::Unsorted Layer::without_holes() const {
@@ -349,18 +387,15 @@ float Layer::arrange(const Unsorted& all, Shift& shift) {
   for (;;) {
     choose_grid(spread, count);
     count_by_cells(all, cells, shift);
-    filled_ = filled_cubes();
+    filled_ = filled_cubes(shift);
     const bool few_in_cells = cell_count() > 1 && count < too_few_in_a_cell * filled_;
     if (!(few_in_cells && coarseness_ < coarsest && is_of_use(2.0f * coarseness_))) break;
     coarseness_ *= 2.0f;
   }
   if (count > std::size_t{too_many_in_a_cell} * filled_ && coarseness_ > 1.0f) coarseness_ *= 0.5f;
 
-  // Each to its place among those of its cell, in the order in which they stand: cells tell of the ends of
-  // their parts first, and of their begins when the last one has been taken from there.
-  for (std::size_t cell = 1; cell < starts_.size(); ++cell) starts_[cell] += starts_[cell - 1];
   std::vector<std::uint32_t> places(count);
-  for (std::uint32_t k = count; k-- > 0;) places[k] = --starts_[cells[k]];
+  choose_places(cells, places, shift);
   most_behind_ = least_behind + static_cast<std::uint32_t>(4.0 * std::sqrt(static_cast<double>(count)));
   // With room for those that come behind, or one of them would make vectors twice as large.
   for (std::vector<float>& column : columns_) {

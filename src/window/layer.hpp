@@ -112,7 +112,11 @@ class Layer {
   template <class Moved>
   void sort(Moved moved) {
     Shift alone;
-    arrange(without_holes(), alone);
+    sort(alone, moved);
+  }
+  template <class Moved>
+  void sort(Shift& shift, Moved moved) {
+    arrange(without_holes(), shift);
     for (std::uint32_t place = 0; place < numbers_.size(); ++place) moved(numbers_[place], place);
   }
 
@@ -203,7 +207,11 @@ class Layer {
     return std::size_t(grid_.count[0]) * std::size_t(grid_.count[1]) * std::size_t(grid_.count[2]);
   }
   void count_by_cells(const Unsorted& all, std::vector<std::uint32_t>& cells, Shift& shift);
-  std::uint32_t filled_cubes() const;
+  std::uint32_t filled_cubes(Shift& shift) const;
+  template <class Visit>
+  void for_each_range(std::size_t capsules, Shift& shift, Visit visit) const;
+  void choose_places(const std::vector<std::uint32_t>& cells, std::vector<std::uint32_t>& places,
+                     Shift& shift);
   Unsorted without_holes() const;
   float arrange(const Unsorted& all, Shift& shift);
   float overhang(const Cell& cell, const Corners& corners) const;

@@ -241,9 +241,9 @@ void Windows::take_out(std::uint32_t number) {
   here.layer = none;
 }
 
-void Windows::sort(std::uint32_t layer) {
+void Windows::sort(std::uint32_t layer, Shift& shift) {
   layers_[layer].layer.sort(
-      [this](std::uint32_t number, std::uint32_t place) { registrations_[number].place = place; });
+      shift, [this](std::uint32_t number, std::uint32_t place) { registrations_[number].place = place; });
 }
 
 /// In one layer, from now on until `end` or until the window of the layer ends.
@@ -337,42 +337,42 @@ double Windows::least_width() const {
   return least;
 }
 
-std::vector<std::uint32_t> Windows::ended(double now, bool all) const {
+/// Calls visit(number) for the bodies whose windows have ended: if these are many, in the order of their
+/// numbers. Else going through all would take longer than sorting them.
+template <class Visit>
+void Windows::for_each_ended(double now, bool all, Visit visit) const {
   const auto has_ended = [=](double end) { return all ? end < infinity : end <= now; };
   std::size_t most = 0;
   for (const Member& member : layers_)
     if (has_ended(member.end)) most += member.layer.size();
-  std::vector<std::uint32_t> numbers;
-  numbers.reserve(most);
-  // Sorting many takes longer than going through all.
   constexpr std::size_t few_of_all = 16;
   if (few_of_all * most >= registrations_.size()) {
     for (std::uint32_t number = 0; number < registrations_.size(); ++number)
-      if (contains(number) && has_ended(registrations_[number].end)) numbers.push_back(number);
-    return numbers;
+      if (contains(number) && has_ended(registrations_[number].end)) visit(number);
+    return;
   }
   for (const Member& member : layers_) {
     if (!has_ended(member.end)) continue;
     for (std::uint32_t place = 0; place < member.layer.places(); ++place) {
       const std::uint32_t number = member.layer.number_at(place);
-      if (number != Layer::nobody) numbers.push_back(number);
+      if (number != Layer::nobody) visit(number);
     }
   }
-  std::sort(numbers.begin(), numbers.end());
+}
+
+std::vector<std::uint32_t> Windows::ended(double now, bool all) const {
+  std::vector<std::uint32_t> numbers;
+  for_each_ended(now, all, [&](std::uint32_t number) { numbers.push_back(number); });
+  if (!std::is_sorted(numbers.begin(), numbers.end())) std::sort(numbers.begin(), numbers.end());
   return numbers;
 }
 
 void Windows::end_windows(double now, bool all) {
   merged_ = next_merged_;
   next_end_ = infinity;
+  for_each_ended(now, all, [this](std::uint32_t number) { registrations_[number].layer = none; });
   for (Member& member : layers_) {
     const bool has_ended = all ? member.end < infinity : member.end <= now;
-    if (has_ended) {
-      for (std::uint32_t place = 0; place < member.layer.places(); ++place) {
-        const std::uint32_t number = member.layer.number_at(place);
-        if (number != Layer::nobody) registrations_[number].layer = none;
-      }
-    }
     member.fresh = false;
     if (has_ended || member.layer.size() == 0) {
       member.layer.clear({});
@@ -429,9 +429,9 @@ std::vector<Windows::Opening> Windows::choose_layers(std::span<const Starter> st
   return openings;
 }
 
-void Windows::tidy() {
+void Windows::tidy(Shift& shift) {
   for (std::uint32_t k = 0; k < layers_.size(); ++k)
-    if (layers_[k].layer.is_untidy()) sort(k);
+    if (layers_[k].layer.is_untidy()) sort(k, shift);
 }
 
 /// Of the layers that bodies start in, which are empty, the capsules are given.
@@ -446,7 +446,7 @@ void Windows::finish_start(const std::vector<Layer::Unsorted>& unsorted, Shift& 
         });
       });
     } else if (member.changes > least_changes + member.layer.size() / 2) {
-      sort_to_start(k, [&] { sort(k); });
+      sort_to_start(k, [&] { sort(k, shift); });
     }
     if (member.layer.size() > 0) ++layers;
   }

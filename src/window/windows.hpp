@@ -176,7 +176,11 @@ class Windows {
     merge_levels(sizes);
   }
   /// Makes searches fast again, if many have entered or left one by one.
-  void tidy();
+  void tidy() {
+    Shift alone;
+    tidy(alone);
+  }
+  void tidy(Shift& shift);
   /// How many have started since windows ended.
   std::size_t started() const;
   /// Pairs of one that has started, from the k-th of those to before the last, and one that near() finds for
@@ -318,6 +322,8 @@ class Windows {
   Entry prepare(std::uint32_t number, const RoomyBound& bound, double now, const Window& window) const;
   void replace(const Entry& entry, double now, Layer::Growth& growth);
   static void grow(Member& member, const Layer::Growth& growth);
+  template <class Visit>
+  void for_each_ended(double now, bool all, Visit visit) const;
   void merge_levels(const Sizes& sizes);
   int level_to_start(int level) const;
   int level_to_enter(int level) const;
@@ -330,7 +336,7 @@ class Windows {
   void sort_to_start(std::uint32_t layer, Sort sort_layer);
   void take_out(std::uint32_t number);
   void add(std::uint32_t number, std::uint32_t layer, const RoomyBound& bound, double now);
-  void sort(std::uint32_t layer);
+  void sort(std::uint32_t layer, Shift& shift);
   Started started_at(std::size_t k, std::size_t most) const;
   void search_behind(const Started& some, Scratch& scratch) const;
   void search_other_layers(const Started& some, double now, Scratch& scratch) const;
