@@ -77,16 +77,14 @@ Result<double> DistributedWorld::Domain::run_part(double until, double latest) {
 }
 
 bool DistributedWorld::Domain::is_ours(const Group& group) const {
-  const auto members = islands_->members_of(group);
-  return std::any_of(members.begin(), members.end(),
-                     [this](std::uint32_t number) { return is_own(number); });
+  const auto members = islands_of_run_->members_of(group);
+  return std::any_of(members.begin(), members.end(), [this](std::uint32_t number) { return is_own(number); });
 }
 
 /// All pairs of its bodies are known here.
 bool DistributedWorld::Domain::is_ready(const Group& group) const {
-  const auto members = islands_->members_of(group);
-  return is_ours(group) &&
-         std::all_of(members.begin(), members.end(), [this](std::uint32_t number) {
+  const auto members = islands_of_run_->members_of(group);
+  return is_ours(group) && std::all_of(members.begin(), members.end(), [this](std::uint32_t number) {
            return is_own(number) || !tables_.windows.contains(number) || covers(box_of(number));
          });
 }
@@ -94,7 +92,7 @@ bool DistributedWorld::Domain::is_ready(const Group& group) const {
 /// In ascending order.
 std::vector<int> DistributedWorld::Domain::owners_of(const Group& group) const {
   std::vector<int> owners;
-  for (const std::uint32_t number : islands_->members_of(group)) {
+  for (const std::uint32_t number : islands_of_run_->members_of(group)) {
     const int owner = entries_[number].owner;
     if (std::find(owners.begin(), owners.end(), owner) == owners.end()) owners.push_back(owner);
   }
@@ -265,16 +263,15 @@ void DistributedWorld::Domain::note_asks(const Group& group, Round& round) {
     return true;
   };
   bool any = false;
-  for (const std::uint32_t number : islands_->members_of(group))
+  for (const std::uint32_t number : islands_of_run_->members_of(group))
     if (!is_own(number) && tables_.windows.contains(number)) any = ask(box_of(number)) || any;
   if (group.attempted)
-    for (const BodyKick& kick : islands_->kicks_of(group)) any = ask(box_of(kick)) || any;
+    for (const BodyKick& kick : islands_of_run_->kicks_of(group)) any = ask(box_of(kick)) || any;
   if (any) asking_.push_back(group.own);
 }
 
 /// Tells the owners of its bodies, and of those it counts on, and of one that it meets, of an island.
-void DistributedWorld::Domain::note_list(const Group& group, std::optional<std::uint32_t> met,
-                                         Round& round) {
+void DistributedWorld::Domain::note_list(const Group& group, std::optional<std::uint32_t> met, Round& round) {
   std::vector<int> to;
   const auto note = [&](std::uint32_t number) {
     const int owner = entries_[number].owner;
@@ -283,8 +280,8 @@ void DistributedWorld::Domain::note_list(const Group& group, std::optional<std::
   if (met) {
     note(*met);
   } else {
-    for (const std::uint32_t number : islands_->members_of(group)) note(number);
-    for (const std::uint32_t number : islands_->counted_on_of(group)) note(number);
+    for (const std::uint32_t number : islands_of_run_->members_of(group)) note(number);
+    for (const std::uint32_t number : islands_of_run_->counted_on_of(group)) note(number);
   }
   if (to.empty()) return;
   JoinList list;
@@ -293,9 +290,10 @@ void DistributedWorld::Domain::note_list(const Group& group, std::optional<std::
     list.together.push_back(
         {name_of(number), entries_[number].owner, is_registered, is_registered ? box_of(number) : Box{}});
   };
-  for (const std::uint32_t number : islands_->members_of(group)) add(number);
+  for (const std::uint32_t number : islands_of_run_->members_of(group)) add(number);
   if (met) add(*met);
-  for (const std::uint32_t number : islands_->counted_on_of(group)) list.counted_on.push_back(name_of(number));
+  for (const std::uint32_t number : islands_of_run_->counted_on_of(group))
+    list.counted_on.push_back(name_of(number));
   for (const int owner : to) round.lists[static_cast<std::size_t>(owner)].push_back(list);
 }
 
@@ -303,7 +301,7 @@ void DistributedWorld::Domain::note_list(const Group& group, std::optional<std::
 void DistributedWorld::Domain::note_kicks(const Group& group, Round& round) {
   if (!group.attempted) return;
   std::optional<std::vector<int>> owners;
-  for (const BodyKick& kick : islands_->kicks_of(group)) {
+  for (const BodyKick& kick : islands_of_run_->kicks_of(group)) {
     if (!is_own(kick.number)) continue;
     const Box box = box_of(kick);
     for (std::size_t to = 0; to < ranks(); ++to) {
@@ -329,8 +327,7 @@ Result<void> DistributedWorld::Domain::finish_part() {
   };
   for (const Group& group : islands.groups()) {
     if (group.joined() || !group.attempted) continue;
-    const float cost =
-        static_cast<float>(1 + group.due.size()) / static_cast<float>(group.members.size());
+    const float cost = static_cast<float>(1 + group.due.size()) / static_cast<float>(group.members.size());
     for (const std::uint32_t number : islands.members_of(group)) entries_[number].cost += cost;
   }
   for (const Told* told : islands.finish(is_counted)) {

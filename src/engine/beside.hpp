@@ -123,9 +123,9 @@ struct Beside {
   Sea* sea = nullptr;
   std::uint32_t own = Sea::nobody;
   Listing<Told> told;
-  Listing<BodyKick> kicks;         ///< in the order of their times
-  Listing<HotPair> left;           ///< that are due later
-  Listing<std::uint32_t> claims;   ///< whom else it needs
+  Listing<BodyKick> kicks;        ///< in the order of their times
+  Listing<HotPair> left;          ///< that are due later
+  Listing<std::uint32_t> claims;  ///< whom else it needs
   /// Nobody's, with whom it has pairs that are due later: nobody may move them.
   Listing<std::uint32_t> counted_on;
   Listing<Turn> turned;

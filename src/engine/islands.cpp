@@ -42,7 +42,7 @@ double Islands::take_due(double until, double latest) {
   begin_ = everybody_.time();
   sea_.phase_end = everybody_.phase_end();
   sea_.until = until;
-  if (most_due_ == 0) most_due_ = std::max(least_due_, tables_.bodies.table().live_count() / 16);
+  if (most_due_ == 0) most_due_ = std::max(least_due_, tables_.bodies.table().live_count() / 32);
   due_.clear();
   return everybody_.agenda().take_until(
       until, std::min(sea_.phase_end, latest), most_due_, due_,

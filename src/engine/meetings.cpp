@@ -56,8 +56,7 @@ std::vector<Windows::Pair> meetings(const Tables& tables, std::span<const GroupK
                    Windows::Scratch scratch;
                    for (auto k = static_cast<std::uint32_t>(fresh + from); k < fresh + to; ++k) {
                      const double end = kicks[k].kick->window.end;
-                     for (const std::uint32_t other :
-                          windows.near(k, bound_at_begin(k), begin, end, scratch))
+                     for (const std::uint32_t other : windows.near(k, bound_at_begin(k), begin, end, scratch))
                        compare(k, other, worker);
                    }
                  });

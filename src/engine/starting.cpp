@@ -130,14 +130,20 @@ std::uint64_t Starting::find_pairs(const std::vector<std::uint8_t>* others) {
 /// Pairs that touch or sense each other, and walls, of those that have started.
 void Starting::find_links_and_walls(std::span<const Windows::Starter> starters) {
   const Facts facts = everybody_.facts();
-  for (const Windows::Starter& starter : starters) bodies()[starter.number].settled = true;
+  const auto mark = [&](bool settled) {
+    shift_.for_each(starters.size(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+      for (const Windows::Starter& starter : starters.subspan(from, to - from))
+        bodies()[starter.number].settled = settled;
+    });
+  };
+  mark(true);
   shift_.for_each(starters.size(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
     for (std::size_t k = from; k < to; ++k) {
       facts.find_known_pairs(starters[k].number, found_[worker]);
       facts.find_walls(starters[k].number, found_[worker]);
     }
   });
-  for (const Windows::Starter& starter : starters) bodies()[starter.number].settled = false;
+  mark(false);
 }
 
 }  // namespace kinesphere

@@ -94,8 +94,8 @@ class Threads final : public Crew {
   std::mutex mutex_;  ///< of all that follows but the threads
   std::condition_variable wake_;
   std::condition_variable done_;
-  SharedItems* items_ = nullptr;  ///< while there are some to begin with
-  std::atomic<std::uint64_t> round_ = 0;       ///< which items these are
+  SharedItems* items_ = nullptr;          ///< while there are some to begin with
+  std::atomic<std::uint64_t> round_ = 0;  ///< which items these are
   std::atomic<int> working_ = 0;
   int asleep_ = 0;
   std::atomic<bool> leaving_ = false;

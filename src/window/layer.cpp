@@ -81,8 +81,7 @@ std::optional<float> Layer::overhang_at(std::uint32_t place, const Capsule& caps
   return out <= grid_.edge[1] ? std::optional(out) : std::nullopt;
 }
 
-void Layer::replace(std::uint32_t place, const Capsule& capsule, float from, float overhang,
-                    Growth& growth) {
+void Layer::replace(std::uint32_t place, const Capsule& capsule, float from, float overhang, Growth& growth) {
   assert(numbers_[place] != nobody);
   growth.reach = std::max(growth.reach, overhang);
   growth.widest = std::max(growth.widest, width_of(corners_of(capsule, from, 1.0f)));
@@ -345,7 +344,8 @@ void Layer::for_each_range(std::size_t capsules, Shift& shift, Visit visit) cons
   const std::size_t ranges = capsules < many ? 1 : shift.count();
   shift.for_each(ranges, 1, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t k = begin; k < end; ++k)
-      visit(static_cast<std::uint32_t>(cells * k / ranges), static_cast<std::uint32_t>(cells * (k + 1) / ranges));
+      visit(static_cast<std::uint32_t>(cells * k / ranges),
+            static_cast<std::uint32_t>(cells * (k + 1) / ranges));
   });
 }
 

@@ -100,18 +100,18 @@ class Windows {
     constexpr std::size_t bodies_at_once = 256;
     std::vector<std::vector<Layer::Growth>> growth(shift.count(), std::vector<Layer::Growth>(layers_.size()));
     std::vector<std::vector<std::size_t>> others(shift.count());
-    shift.for_each(
-        arrivals.size(), bodies_at_once, [&](std::size_t begin, std::size_t end, std::size_t worker) {
-          for (std::size_t k = begin; k < end; ++k) {
-            const auto& [number, time, window] = arrivals[k];
-            const Entry entry = prepare(number, bound_of(k), time, window);
-            if (entry.layer == none) {
-              others[worker].push_back(k);
-            } else {
-              replace(entry, time, growth[worker][entry.layer]);
-            }
-          }
-        });
+    shift.for_each(arrivals.size(), bodies_at_once,
+                   [&](std::size_t begin, std::size_t end, std::size_t worker) {
+                     for (std::size_t k = begin; k < end; ++k) {
+                       const auto& [number, time, window] = arrivals[k];
+                       const Entry entry = prepare(number, bound_of(k), time, window);
+                       if (entry.layer == none) {
+                         others[worker].push_back(k);
+                       } else {
+                         replace(entry, time, growth[worker][entry.layer]);
+                       }
+                     }
+                   });
     for (const std::vector<Layer::Growth>& of_layers : growth)
       for (std::size_t layer = 0; layer < of_layers.size(); ++layer) grow(layers_[layer], of_layers[layer]);
     // In the same order whoever has done what.

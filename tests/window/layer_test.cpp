@@ -144,7 +144,9 @@ class Mirrored {
     const Capsule after = capsule(bound);
     const float from = layer.frame().time(now);
     if (const auto overhang = layer.overhang_at(entry.place, after, from)) {
-      layer.replace(entry.place, after, from, *overhang);
+      Layer::Growth growth;
+      layer.replace(entry.place, after, from, *overhang, growth);
+      layer.grow(growth);
       EXPECT_EQ(layer.capsule_at(entry.place), after);
       entry.bound = bound;
     } else {
