@@ -41,25 +41,24 @@ std::vector<Windows::Pair> meetings(const Tables& tables, std::span<const GroupK
   });
   Windows windows(bodies.space());
   windows.start(starters, begin, bound_at_begin, shift);
+  std::vector<Windows::Scratch> scratch(shift.count());
   std::vector<std::vector<Windows::Pair>> meeting(shift.count());
   const auto compare = [&](std::uint32_t a, std::uint32_t b, std::size_t worker) {
     if (kicks[a].own != kicks[b].own && may_meet(bodies, *kicks[a].kick, *kicks[b].kick))
       meeting[worker].push_back({a, b});
   };
   shift.for_each(fresh, kicks_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
-    Windows::Scratch scratch;
-    for (const auto& [a, b] : windows.near_started(from, to, begin, bound_at_begin, scratch))
+    for (const auto& [a, b] : windows.near_started(from, to, begin, bound_at_begin, scratch[worker]))
       compare(a, b, worker);
   });
-  shift.for_each(kicks.size() - fresh, kicks_at_once,
-                 [&](std::size_t from, std::size_t to, std::size_t worker) {
-                   Windows::Scratch scratch;
-                   for (auto k = static_cast<std::uint32_t>(fresh + from); k < fresh + to; ++k) {
-                     const double end = kicks[k].kick->window.end;
-                     for (const std::uint32_t other : windows.near(k, bound_at_begin(k), begin, end, scratch))
-                       compare(k, other, worker);
-                   }
-                 });
+  shift.for_each(
+      kicks.size() - fresh, kicks_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
+        for (auto k = static_cast<std::uint32_t>(fresh + from); k < fresh + to; ++k) {
+          const double end = kicks[k].kick->window.end;
+          for (const std::uint32_t other : windows.near(k, bound_at_begin(k), begin, end, scratch[worker]))
+            compare(k, other, worker);
+        }
+      });
   std::vector<Windows::Pair> all;
   for (const std::vector<Windows::Pair>& some : meeting) all.insert(all.end(), some.begin(), some.end());
   return all;

@@ -13,7 +13,7 @@
 namespace kinesphere {
 namespace {
 
-/// Threads that sleep until there are items, and again when there are none.
+/// Threads that sleep until there are items, and again when none have come for a moment.
 class Threads final : public Crew {
  public:
   explicit Threads(int count) {
@@ -41,26 +41,23 @@ class Threads final : public Crew {
     }
     if (any_asleep) wake_.notify_all();
     items.work(0);
-    // Whoever has not woken up by now has nothing left to do, and is not waited for.
-    std::unique_lock lock(mutex_);
-    items_ = nullptr;
-    if (working_ > 0) {
-      lock.unlock();
-      look_out([this] { return working_ == 0; });
-      lock.lock();
+    {
+      // Whoever has not come by now has nothing left to do, and is not waited for.
+      const std::lock_guard lock(mutex_);
+      items_ = nullptr;
     }
-    done_.wait(lock, [this] { return working_ == 0; });
+    const auto all_have_stopped = [this] { return working_ == 0; };
+    look_out(all_have_stopped);
+    std::unique_lock lock(mutex_);
+    done_.wait(lock, all_have_stopped);
   }
 
  private:
   void live(std::size_t worker) {
     std::uint64_t last_round = 0;
-    std::unique_lock lock(mutex_);
     for (;;) {
-      const auto is_called = [&] { return leaving_ || round_ != last_round; };
-      lock.unlock();
-      look_out(is_called);
-      lock.lock();
+      look_out([&] { return leaving_ || round_ != last_round; });
+      std::unique_lock lock(mutex_);
       ++asleep_;
       wake_.wait(lock, [&] { return leaving_ || (items_ != nullptr && round_ != last_round); });
       --asleep_;
@@ -75,7 +72,7 @@ class Threads final : public Crew {
     }
   }
 
-  /// For a short while: what comes soon comes faster than to those who sleep.
+  /// Returns when that comes, or after a moment: whoever looks out learns of it sooner than who sleeps.
   template <class Comes>
   static void look_out(Comes comes) {
     constexpr int looks = 100;
@@ -91,7 +88,7 @@ class Threads final : public Crew {
     for (std::thread& thread : threads_) thread.join();
   }
 
-  std::mutex mutex_;  ///< of all that follows but the threads
+  std::mutex mutex_;  ///< of all that follows but the threads; what is atomic is read without it, too
   std::condition_variable wake_;
   std::condition_variable done_;
   SharedItems* items_ = nullptr;          ///< while there are some to begin with
