@@ -168,8 +168,8 @@ class Islands {
   std::size_t first_runs_ = 0;   ///< pairs that were due in groups when these first ran in this part
   std::size_t repeats_ = 0;      ///< the same when they ran again
   Groups groups_;
-  std::vector<Kept> kept_;             ///< by Sea::Place::kept; it is only valid
-  std::vector<std::uint8_t> is_kept_;  ///< where this is not 0
+  std::vector<Kept> kept_;  ///< by Sea::Place::kept, where is_kept_ is not 0
+  std::vector<std::uint8_t> is_kept_;
   std::vector<std::uint32_t> again_;
   // Groups whose kicks have been held against all others, and those that have run since.
   std::vector<std::uint32_t> compared_;
