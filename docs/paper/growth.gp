@@ -12,4 +12,4 @@ set key top left reverse Left
 set logscale xy
 set format xy '10^{%L}'
 plot 'growth.csv' using 'n':'paper_ns' with linespoints lw 1.5 pt 5 ps 0.8 lc 1 title 'the paper''s algorithm, per event', \
-     'growth.csv' using 'n':'world_ns' with linespoints lw 1.5 pt 7 ps 0.8 lc 2 title 'default engine, per wake'
+     'growth.csv' using 'n':'world_ns' with linespoints lw 1.5 pt 7 ps 0.8 lc 2 title 'default engine, per step'
