@@ -47,7 +47,8 @@ class Mover {
   virtual void states(std::span<const BodyId> ids, double time, std::span<State> states) = 0;
   virtual Departure departure(BodyId body) const = 0;
   /// From now on the body is one that set out from there. World::run calls it with the velocity of an answer,
-  /// and with an earlier departure to take that back.
+  /// and with an earlier departure to take that back: then it may throw only when that is done, as the world
+  /// would believe the body to be elsewhere.
   virtual void depart(BodyId body, const Departure& departure) = 0;
 };
 

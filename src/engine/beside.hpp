@@ -83,6 +83,7 @@ struct Stretch {
 };
 
 /// The lists of several islands, one behind the other: the last one is that of the island that runs now.
+/// Those of islands that have been taken back are still there.
 template <class T>
 class Listing {
  public:
@@ -91,8 +92,15 @@ class Listing {
     begin_ = 0;
   }
   /// The next list begins.
-  void begin() { begin_ = static_cast<std::uint32_t>(all_.size()); }
+  void start() { begin_ = static_cast<std::uint32_t>(all_.size()); }
   void add(const T& one) { all_.push_back(one); }
+  /// The same list here: where it stands.
+  Stretch add(const Listing& other, const Stretch& stretch) {
+    start();
+    const std::span<const T> list = stretch.of(other.all_);
+    all_.insert(all_.end(), list.begin(), list.end());
+    return this->stretch();
+  }
 
   bool empty() const { return begin_ == all_.size(); }
   std::size_t size() const { return all_.size() - begin_; }
@@ -147,12 +155,12 @@ struct Beside {
   void begin(Sea& all, std::uint32_t place) {
     sea = &all;
     own = place;
-    told.begin();
-    kicks.begin();
-    left.begin();
-    claims.begin();
-    counted_on.begin();
-    turned.begin();
+    told.start();
+    kicks.start();
+    left.start();
+    claims.start();
+    counted_on.start();
+    turned.start();
   }
   Outcome end(std::uint32_t worker, const Work& work) {
     works.push_back(work);

@@ -41,6 +41,11 @@ Result<bool> World::Engine::run_phase(double until, const Probe& probe, Shift& s
   if (everybody_.is_gathering() || !everybody_.instant().is_quiet()) return false;
   if (everybody_.phase_end() <= time()) {
     if (auto started = start_windows(shift, false); !started) return started.error();
+    if (!everybody_.instant().is_quiet()) {
+      // All events of an instant are known before the first is told, as in advance().
+      everybody_.come_to(time());
+      return false;
+    }
   }
   if (auto settled = settle(shift); !settled) return settled.error();
   return everybody_.is_settled() && islands.run(until, events);

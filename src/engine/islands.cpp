@@ -35,6 +35,7 @@ bool Islands::run(double until, std::deque<Event>& events) {
     take_back();
   }
   close();
+  if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
   return done;
 }
 
@@ -60,6 +61,7 @@ void Islands::open(double stop) {
   failure_.reset();
   foreign_kicks_.clear();
   compared_foreign_kicks_ = 0;
+  kicks_kept_ = 0;
   compared_.clear();
   uncompared_.clear();
   meetings_.clear();
@@ -138,8 +140,46 @@ const Islands::Kept* Islands::kept(std::uint32_t number) const {
   return place < is_kept_.size() && is_kept_[place] != 0 ? &kept_[place] : nullptr;
 }
 
-/// False when one of them has failed.
+/// Lists forget what groups have done that were taken back since, when that is most of what they have.
+void Islands::forget_taken_back() {
+  constexpr std::size_t few = 1 << 14;
+  std::size_t all = 0;
+  for (const Island& island : crew_) all += island.beside().kicks.all().size();
+  if (all < 2 * kicks_kept_ + few) return;
+  kicks_kept_ = 0;
+  for (const Group& group : groups_.all()) kicks_kept_ += kicks_of(group).size();
+  if (all < 2 * kicks_kept_ + few) return;
+  for (std::uint32_t worker = 0; worker < crew_.size(); ++worker) {
+    Beside& beside = crew_[worker].beside();
+    Beside kept;
+    for (Group& group : groups_.all()) {
+      Outcome& outcome = group.outcome;
+      if (!group.attempted || outcome.worker != worker) continue;
+      const std::uint32_t first_kick = outcome.kicks.begin;
+      outcome.told = kept.told.add(beside.told, outcome.told);
+      outcome.kicks = kept.kicks.add(beside.kicks, outcome.kicks);
+      outcome.left = kept.left.add(beside.left, outcome.left);
+      outcome.counted_on = kept.counted_on.add(beside.counted_on, outcome.counted_on);
+      outcome.turned = kept.turned.add(beside.turned, outcome.turned);
+      outcome.claims = {};
+      kept.works.push_back(beside.works[outcome.work]);
+      outcome.work = static_cast<std::uint32_t>(kept.works.size() - 1);
+      for (const std::uint32_t number : members_of(group)) {
+        std::uint32_t& kick = sea_.places[number].kick;
+        if (kick != Sea::none) kick = outcome.kicks.begin + (kick - first_kick);
+      }
+    }
+    beside = std::move(kept);
+  }
+}
+
+/// False when one of them has failed, or so many run again and again that others had better do it.
 bool Islands::attempt_found() {
+  if (thrown_) return false;
+  constexpr std::size_t too_often = 8;
+  if (sea_.most_kicks < std::numeric_limits<std::size_t>::max() && repeats_ > too_often * first_runs_)
+    return false;
+  forget_taken_back();
   assert(sea_.places.size() == tables_.bodies.numbers());
   is_kept_.resize(groups_.kept(), 0);
   if (kept_.size() < groups_.kept()) kept_.resize(groups_.kept());
@@ -168,7 +208,7 @@ bool Islands::attempt_found() {
   uncompared_.insert(uncompared_.end(), again_.begin(), again_.end());
   for (const std::uint32_t own : again_) {
     if (!groups_[own].failed) continue;
-    // It is the first one of its worker, too.
+    // None where it had to stop; and where that was not so, it is the first of its worker that failed.
     failure_ = crew_[groups_[own].outcome.worker].beside().failure;
     return false;
   }
@@ -225,9 +265,19 @@ void Islands::take_back(Group& group) {
   }
   // A body that turned several times set out from where it did before the first.
   const std::span<const Turn> turned = turned_of(group);
-  std::for_each(turned.rbegin(), turned.rend(),
-                [this](const Turn& turn) { answerer_->depart(turn.first, turn.second); });
+  std::for_each(turned.rbegin(), turned.rend(), [this](const Turn& turn) { set_out_again(turn); });
   group.attempted = false;
+}
+
+/// All others have to go back, too, before anybody learns that this one did not.
+void Islands::set_out_again(const Turn& turn) {
+  try {
+    answerer_->depart(turn.first, turn.second);
+  } catch (...) {
+    if (thrown_) return;
+    thrown_ = std::current_exception();
+    failure_ = Error{ErrorCode::callback_threw, "mover", no_body, "run: mover threw as it went back"};
+  }
 }
 
 void Islands::add_member(Group& group, std::uint32_t number) {

@@ -17,6 +17,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <exception>
 #include <limits>
 #include <optional>
 #include <span>
@@ -143,10 +144,12 @@ class Islands {
   template <class FindAgain>
   bool go_through(FindAgain find_again);
   bool attempt_found();
+  void forget_taken_back();
   void choose_part();
   void attempt(std::uint32_t own, std::uint32_t worker);
   void keep(const Group& group);
   void take_back(Group& group);
+  void set_out_again(const Turn& turn);
   void add_member(Group& group, std::uint32_t number);
   void join(Group& one, Group& other);
   bool join_claims();
@@ -176,7 +179,9 @@ class Islands {
   std::vector<std::uint32_t> uncompared_;
   std::vector<HotPair> due_;
   std::vector<HotPair> left_;
+  std::size_t kicks_kept_ = 0;  ///< in the lists, when these were looked through
   std::optional<Error> failure_;
+  std::exception_ptr thrown_;  ///< by a mover that was to go back
   std::vector<BodyKick> foreign_kicks_;
   std::size_t compared_foreign_kicks_ = 0;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> meetings_;

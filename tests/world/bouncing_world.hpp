@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -22,6 +24,7 @@ struct BouncingWorld {
   bool passes = false;           ///< nobody answers
   std::vector<double> masses{};  ///< by index; others are fixed
   EventHash hash{};
+  std::uint64_t order = 0;  ///< another hash, of events in the order in which they were told
   std::size_t told = 0;
   double last = -std::numeric_limits<double>::infinity();  ///< the time of the last event
 
@@ -50,6 +53,9 @@ struct BouncingWorld {
   }
   void tell(const Event& event) {
     hash.add(event);
+    EventHash one;
+    one.add(event);
+    order = 31 * order + one.value();
     ++told;
     EXPECT_GE(event.time, last);
     last = event.time;
@@ -82,6 +88,7 @@ template <class OfMotion>
 void expect_same_course(const BouncingWorld<OfMotion>& found, const BouncingWorld<OfMotion>& expected) {
   EXPECT_EQ(found.told, expected.told);
   EXPECT_EQ(found.hash.value(), expected.hash.value());
+  EXPECT_EQ(found.order, expected.order);
   EXPECT_EQ(found.world.counters().probes, expected.world.counters().probes);
   EXPECT_EQ(found.world.counters().pair_checks, expected.world.counters().pair_checks);
 }

@@ -26,6 +26,7 @@ struct Kind {
   bool sensors = false;
   bool fixed = false;
   bool passes = false;  ///< nobody answers
+  bool lies = false;    ///< one in three accelerates more than it promises
   double end = 3.0;
 };
 
@@ -37,6 +38,7 @@ struct Hall : BouncingWorld<RandomForces> {
       BodyDefinition body = next();
       body.radius = number % 7 == 0 ? 0.7 : number % 3 == 0 ? 0.5 : 0.2;
       if (kind.sensors && number % 5 == 0) body.sensor_class = 1;
+      if (kind.lies && number % 3 == 0) body.acceleration_limit *= 0.25;
       add(body, body.radius * body.radius * body.radius);
     }
     if (kind.sensors) world.set_sensor(1, {.distances = {0.3, 0.6}}).value();
@@ -229,16 +231,17 @@ TEST(IslandsThatWereInterrupted, LeaveBodiesWhereQueriesFindThem) {
   EXPECT_EQ(not_found, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Islands,
-                         ::testing::Values(Kind{.name = "bouncing"},
-                                           Kind{.name = "impacts", .contacts = ContactMode::impacts},
-                                           Kind{.name = "dense", .side = 9, .spacing = 1.45, .end = 1.0},
-                                           Kind{.name = "bullets", .faster = 60.0},
-                                           Kind{.name = "periodic", .periodic = true},
-                                           Kind{.name = "sensors", .sensors = true},
-                                           Kind{.name = "fixed", .sensors = true, .fixed = true},
-                                           Kind{.name = "passing", .sensors = true, .passes = true}),
-                         [](const auto& kind) { return kind.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Of, Islands,
+    ::testing::Values(Kind{.name = "bouncing"}, Kind{.name = "impacts", .contacts = ContactMode::impacts},
+                      Kind{.name = "dense", .side = 9, .spacing = 1.45, .end = 1.0},
+                      Kind{.name = "bullets", .faster = 60.0}, Kind{.name = "periodic", .periodic = true},
+                      Kind{.name = "sensors", .sensors = true},
+                      Kind{.name = "fixed", .sensors = true, .fixed = true},
+                      Kind{.name = "passing", .sensors = true, .passes = true},
+                      Kind{.name = "lying", .passes = true, .lies = true, .end = 8.0},
+                      Kind{.name = "lying_impacts", .contacts = ContactMode::impacts, .lies = true}),
+    [](const auto& kind) { return kind.param.name; });
 
 }  // namespace
 }  // namespace kinesphere
