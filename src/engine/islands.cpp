@@ -142,7 +142,7 @@ const Islands::Kept* Islands::kept(std::uint32_t number) const {
 
 /// Lists forget what groups have done that were taken back since, when that is most of what they have.
 void Islands::forget_taken_back() {
-  constexpr std::size_t few = 1 << 14;
+  constexpr std::size_t few = 1 << 12;
   std::size_t all = 0;
   for (const Island& island : crew_) all += island.beside().kicks.all().size();
   if (all < 2 * kicks_kept_ + few) return;
