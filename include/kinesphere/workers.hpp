@@ -30,7 +30,7 @@ struct TaskSystem {
 };
 
 /// Works for one run at a time, of any world; another one that is begun meanwhile fails with workers_busy.
-/// Idle threads look out for more to do for a moment (some tens of microseconds), then they sleep.
+/// Idle threads look out for more to do for a moment (they yield a hundred times), then they sleep.
 class Workers {
  public:
   static constexpr int most_threads = 256;

@@ -49,7 +49,7 @@ void Groups::clear() {
   count_ = kept_ = 0;
 }
 
-/// The body that a group has to have because of the pair; the second one may be another.
+/// The first body of the pair that moves: its group is that of the pair.
 std::uint32_t Groups::mover_of(const HotPair& pair) const {
   return bodies_->shapes.any() && (*bodies_)[pair.first].is_fixed() ? pair.second : pair.first;
 }

@@ -22,7 +22,7 @@ struct Group {
   bool has_run = false;
   bool kicks_are_compared = false;
   bool failed = false;
-  bool is_news = true;  ///< of it, for whoever sets this to false
+  bool is_news = true;  ///< until whoever tells other processes of groups sets it to false
   Stretch members{};    ///< of the lists of Groups
   Stretch due{};
   Outcome outcome{};
@@ -41,7 +41,7 @@ class Groups {
   /// It ends.
   void clear();
 
-  /// Those that have been joined to others, too: these have smaller places.
+  /// Those that have been joined to others, too. A group is joined only to one with a smaller place.
   std::span<Group> all() { return std::span(groups_).first(count_); }
   std::span<const Group> all() const { return std::span(groups_).first(count_); }
   Group& operator[](std::uint32_t own) { return groups_[own]; }

@@ -68,7 +68,7 @@ void Islands::open(double stop) {
   for (Island& island : crew_) island.beside().clear();
   groups_.form(due_, tables_.bodies, sea_.places);
   is_kept_.clear();
-  // With room for those that are claimed: a larger list would have to be filled with copies.
+  // With room for those that are claimed, so that the list rarely has to grow while something is in it.
   if (kept_.size() < groups_.kept()) kept_ = std::vector<Kept>(2 * groups_.kept());
   Beginning unsettled;
   for (const std::uint32_t number : everybody_.dirty())

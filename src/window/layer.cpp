@@ -336,12 +336,13 @@ void Layer::count_by_cells(const Unsorted& all, std::vector<std::uint32_t>& cell
   });
 }
 
-/// Calls visit(from, to) for ranges of cells that together are all, one for each thread if there are many
-/// capsules: each of them goes through all of these.
+/// Calls visit(from, to) for ranges of cells that together are all, one for each of some threads if there are
+/// many capsules: each of them goes through all of these.
 template <class Visit>
 void Layer::for_each_range(std::size_t capsules, Shift& shift, Visit visit) const {
   const std::size_t cells = cell_count();
-  const std::size_t ranges = capsules < many ? 1 : shift.count();
+  constexpr std::size_t most_ranges = 8;
+  const std::size_t ranges = capsules < many ? 1 : std::min(shift.count(), most_ranges);
   shift.for_each(ranges, 1, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t k = begin; k < end; ++k)
       visit(static_cast<std::uint32_t>(cells * k / ranges),
