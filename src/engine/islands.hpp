@@ -46,8 +46,9 @@ class Islands {
 
   /// From now to `until` or, if that comes first, to the end of a part of the phase, where all has happened
   /// but what is due then. Appends the events. False, and nothing has happened, if there are no islands worth
-  /// it, or if something has failed in one of them: that comes again when events are answered one by one.
-  /// Needs a world in which nothing is left to be settled.
+  /// it, if they run again too often, or if something has failed in one of them: that comes again when events
+  /// are answered one by one. Needs a world in which nothing is left to be settled. Throws what a mover threw
+  /// that was to set a body back, when all others have been set back.
   bool run(double until, std::deque<Event>& events);
 
   // The same in steps, for a process that has a part of the bodies and learns from others in between which
