@@ -177,8 +177,7 @@ void Islands::forget_taken_back() {
 bool Islands::attempt_found() {
   if (thrown_) return false;
   constexpr std::size_t too_often = 8;
-  if (sea_.most_kicks < std::numeric_limits<std::size_t>::max() && repeats_ > too_often * first_runs_)
-    return false;
+  if (may_leave_some() && repeats_ > too_often * first_runs_) return false;
   forget_taken_back();
   assert(sea_.places.size() == tables_.bodies.numbers());
   is_kept_.resize(groups_.kept(), 0);
@@ -248,7 +247,8 @@ void Islands::take_back() {
   for (Group& group : groups()) {
     take_back(group);
     if (group.joined()) continue;
-    for (const HotPair& pair : due_of(group)) left_.push_back(pair);
+    const std::span<const HotPair> due = due_of(group);
+    left_.insert(left_.end(), due.begin(), due.end());
   }
   everybody_.agenda().add_all(left_);
 }

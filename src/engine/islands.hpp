@@ -100,7 +100,7 @@ class Islands {
   void join_bodies(std::span<const std::uint32_t> numbers);
   /// Bodies have become known meanwhile, and may bring these along.
   void add(const Beginning& more);
-  /// A body that another process kicks: islands here that it may meet are in meetings().
+  /// A body that another process kicks: take_meetings() tells which islands here may meet it.
   void add_foreign_kick(const BodyKick& kick) { foreign_kicks_.push_back(kick); }
   /// Groups, and kicked bodies of others that they may meet.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> take_meetings() {
@@ -131,11 +131,15 @@ class Islands {
   void close();
   /// All is done by islands, however long they take and however few pairs are due.
   void leave_nothing() {
-    sea_.most_kicks = std::numeric_limits<std::size_t>::max();
+    sea_.most_kicks = no_limit;
     least_due_ = 8;
   }
 
  private:
+  static constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
+
+  /// Not after leave_nothing().
+  bool may_leave_some() const { return sea_.most_kicks < no_limit; }
   template <class T>
   std::span<const T> of(const Group& group, Listing<T> Beside::*list, Stretch Outcome::*stretch) const {
     if (!group.attempted) return {};

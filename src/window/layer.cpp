@@ -327,6 +327,8 @@ void Layer::count_by_cells(const Unsorted& all, std::vector<std::uint32_t>& cell
     reaches[worker] = std::max(reaches[worker], reach);
   });
   reach_ = *std::max_element(reaches.begin(), reaches.end());
+  // Growing alone would make room for twice as many.
+  starts_.reserve(cell_count() + 1);
   starts_.resize(cell_count() + 1);
   starts_.back() = 0;
   for_each_range(cells.size(), shift, [&](std::uint32_t from, std::uint32_t to) {
