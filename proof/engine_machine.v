@@ -273,10 +273,15 @@ Definition begin_part (s : state) : state :=
   mkState _ (now s) (phase s) (bodies s) (book s) (news s) (agenda s) (fun _ => False) (told s) (lived s) (stood s).
 
 (* Two kicked bodies of different islands stay apart from the later kick to the end of the first window: their
-   capsules, each as if it had been there from the beginning of the part, or a certificate say so. *)
-Definition stay_apart (begin : R) (k l : Kick) : Prop :=
+   capsules, each as if it had been there from the beginning of the part, or a certificate say so. Or they do up to the
+   end of the part at least, and are due when the certificate ends, unless one of the two is kicked again. *)
+Definition last_of (s : state) (k : Kick) : Prop :=
+  with_stamp k = stamp (bodies s (kicked k)) /\ lasts k = window (bodies s (kicked k)).
+Definition stay_apart (begin stop : R) (k l : Kick) (are_last : Prop) (g : entry -> Prop) : Prop :=
   left_out (capsule_of (as_known k) begin (lasts k)) (capsule_of (as_known l) begin (lasts l)) begin (lasts k) (lasts l) \/
-  exists u, certifies apart (as_known k) (as_known l) (Rmax (since k) (since l)) u /\ spans u (lasts k) (lasts l).
+  exists u, certifies apart (as_known k) (as_known l) (Rmax (since k) (since l)) u /\
+    (spans u (lasts k) (lasts l) \/
+     exists v, u = Some v /\ stop <= v /\ (are_last -> g (Pair v (kicked k, with_stamp k) (kicked l, with_stamp l)))).
 
 (* The island that has a pair. *)
 Definition island_of (island : body -> option nat) (a b : body) : option nat :=
@@ -287,7 +292,8 @@ Definition island_of (island : body -> option nat) (a b : body) : option nat :=
   | None, None => None
   end.
 
-Record accepted (s : state) (island : body -> option nat) (stop : R) (f : nat -> state) : Prop := {
+(* With g due when the part is over. *)
+Record accepted (s : state) (island : body -> option nat) (stop : R) (f : nat -> state) (g : entry -> Prop) : Prop := {
   in_phase : now s <= stop /\ reaches stop (phase s);
   nothing_waits : (forall a, there (bodies s a) = true -> dirty (bodies s a) = false) /\
                   (forall a b, (a < b)%nat -> ~ news s a b);
@@ -302,8 +308,8 @@ Record accepted (s : state) (island : body -> option nat) (stop : R) (f : nat ->
   are_settled : forall i,
     (forall a, own_of island i a = true -> there (bodies (f i) a) = true -> dirty (bodies (f i) a) = false) /\
     (forall a b, (a < b)%nat -> covers (own_of island i) a b = true -> ~ news (f i) a b);
-  kicked_stay_apart : on kicks_are_compared -> forall i j k l, i <> j ->
-    kicks (f i) k -> kicks (f j) l -> stay_apart (now s) k l
+  kicked_stay_apart : on kicks_are_compared -> forall i j k l, i <> j -> (kicked k < kicked l)%nat ->
+    kicks (f i) k -> kicks (f j) l -> stay_apart (now s) stop k l (last_of (f i) k /\ last_of (f j) l) g
 }.
 
 Definition merged (s : state) (island : body -> option nat) (stop : R) (f : nat -> state) (g : entry -> Prop) : state :=
@@ -344,7 +350,7 @@ Inductive world_step : state -> state -> Prop :=
       world_step s (set_bodies (put s a (mkBody _ false (S (stamp (bodies s a))) false None
                                          (held (bodies s a)) (window (bodies s a)))) (set_pairs r n (agenda s) s))
   | part s island stop f (g : entry -> Prop) :
-      accepted s island stop f ->
+      accepted s island stop f g ->
       (forall h, agenda s h -> stop <= due h -> g h) ->
       (on both_agendas_are_kept ->
        forall i h, agenda (f i) h -> stop <= due h \/ concerns (own_of island i) h -> g h) ->

@@ -11,7 +11,7 @@ Hypothesis obeyed : forall r, on r.
 
 Variables (s : state) (island : body -> option nat) (stop : R) (f : nat -> state) (g : entry -> Prop).
 Hypothesis K : keeps everybody s.
-Hypothesis A : accepted on s island stop f.
+Hypothesis A : accepted on s island stop f g.
 Hypothesis kept : forall h, agenda s h -> stop <= due h -> g h.
 Hypothesis left : forall i h, agenda (f i) h -> stop <= due h \/ concerns (own_of island i) h -> g h.
 
@@ -25,24 +25,24 @@ Proof. unfold own_of. intros ->. apply Nat.eqb_neq. Qed.
 Lemma nobodys i a : island a = None -> own_of island i a = false.
 Proof. unfold own_of. intros ->. reflexivity. Qed.
 Lemma moves a i : island a = Some i -> fixed a = false.
-Proof. intros E. destruct (fixed a) eqn:F; [|reflexivity]. apply (fixed_are_nobodys _ _ _ _ _ A) in F. congruence. Qed.
+Proof. intros E. destruct (fixed a) eqn:F; [|reflexivity]. apply (fixed_are_nobodys _ _ _ _ _ _ A) in F. congruence. Qed.
 
 Lemma island_keeps i : keeps (own_of island i) (f i).
-Proof. eapply steps_keep; [exact obeyed|apply (have_run _ _ _ _ _ A)|]. apply begin_keeps. exact K. Qed.
+Proof. eapply steps_keep; [exact obeyed|apply (have_run _ _ _ _ _ _ A)|]. apply begin_keeps. exact K. Qed.
 Lemma island_beside i : beside (own_of island i) (begin_part s) (f i).
 Proof.
-  destruct (nothing_waits _ _ _ _ _ A) as [C N].
-  eapply steps_beside; [exact obeyed|apply (have_run _ _ _ _ _ A)| |exact N|].
+  destruct (nothing_waits _ _ _ _ _ _ A) as [C N].
+  eapply steps_beside; [exact obeyed|apply (have_run _ _ _ _ _ _ A)| |exact N|].
   - apply begin_keeps. exact K.
   - apply begin_beside; assumption.
 Qed.
 Lemma come i : now (f i) = stop.
-Proof. apply (have_come _ _ _ _ _ A). Qed.
+Proof. apply (have_come _ _ _ _ _ _ A). Qed.
 Lemma begins : now s <= stop.
-Proof. apply (in_phase _ _ _ _ _ A). Qed.
+Proof. apply (in_phase _ _ _ _ _ _ A). Qed.
 
 Lemma clean_before a : there (bodies s a) = true -> clean s a.
-Proof. intros T. split; [exact T|]. apply (nothing_waits _ _ _ _ _ A). exact T. Qed.
+Proof. intros T. split; [exact T|]. apply (nothing_waits _ _ _ _ _ _ A). exact T. Qed.
 Lemma clean_m a : clean m a -> clean s a.
 Proof.
   intros [T _]. apply clean_before. simpl in T. destruct (island a) eqn:E; [|exact T].
@@ -52,30 +52,41 @@ Qed.
 Lemma nobodys_window a u : island a = None -> clean s a -> u < stop -> before u (window (bodies s a)).
 Proof.
   intros I C U. destruct (windows_will_end _ _ K a eq_refl C) as [N|(v & G & R)].
-  - apply N. destruct (in_phase _ _ _ _ _ A) as [_ P]. destruct (phase s); simpl in *; [lra|exact Logic.I].
+  - apply N. destruct (in_phase _ _ _ _ _ _ A) as [_ P]. destruct (phase s); simpl in *; [lra|exact Logic.I].
   - assert (stop <= v).
     { destruct (Rle_or_lt stop v) as [|Lt]; [assumption|exfalso].
-      apply (due_in_one_island _ _ _ _ _ A _ G eq_refl Lt); [apply obeyed|exact I]. }
+      apply (due_in_one_island _ _ _ _ _ _ A _ G eq_refl Lt); [apply obeyed|exact I]. }
     destruct (window (bodies s a)); simpl in *; [lra|exact Logic.I].
 Qed.
 
-(* Kicked bodies of different islands. *)
-Lemma kicked_are_right i j a b k l t :
+(* Kicked bodies of different islands: the pair is right as long as both windows last or, if not, until it is due. *)
+Lemma kicked_are_right i j a b k l :
   (a < b)%nat -> island a = Some i -> island b = Some j -> i <> j -> clean s b ->
   kicks (f i) k -> kicked k = a -> kicks (f j) l -> kicked l = b ->
-  since k <= t -> since l <= t -> before t (lasts k) -> before t (lasts l) ->
-  ~ wrong (book s a b) (a, with_stamp k) (b, with_stamp l) t.
+  exists u, (forall t, since k <= t -> since l <= t -> before t (lasts k) -> before t (lasts l) -> before t u ->
+                       ~ wrong (book s a b) (a, with_stamp k) (b, with_stamp l) t) /\
+    (u = None \/ exists v, u = Some v /\ stop <= v /\
+      (forall t, since k <= t -> since l <= t -> t < v -> ~ wrong (book s a b) (a, with_stamp k) (b, with_stamp l) t) /\
+      (last_of (f i) k -> last_of (f j) l -> g (Pair v (a, with_stamp k) (b, with_stamp l)))).
 Proof.
-  intros Lt Ia Ib D Cb Hk <- Hl <- Sk Sl Wk Wl V.
+  intros Lt Ia Ib D Cb Hk <- Hl <-.
   destruct (kicks_are_right _ _ _ (island_beside i) k Hk) as (_ & Nk & Kk & _ & Fk).
   destruct (kicks_are_right _ _ _ (island_beside j) l Hl) as (_ & Nl & Kl & _). simpl in Nk, Nl.
   destruct (Fk (kicked l)) as [Ap _];
-    [eapply not_own; eauto|eapply moves; eauto|exact Cb|]. specialize (Ap Lt). simpl in Ap. rewrite Ap in V.
-  destruct (kicked_stay_apart _ _ _ _ _ A (obeyed _) i j k l D Hk Hl) as [O|(u & Ce & Sp)].
-  - destruct (apart_without_a_common_place _ _ _ V) as (p & Fp & Fq).
+    [eapply not_own; eauto|eapply moves; eauto|exact Cb|]. specialize (Ap Lt). simpl in Ap. rewrite Ap.
+  destruct (kicked_stay_apart _ _ _ _ _ _ A (obeyed _) i j k l D Lt Hk Hl) as [O|(u & Ce & [Sp|(v & -> & Sv & G)])].
+  - exists None. split; [|left; reflexivity]. intros t Sk Sl Wk Wl _ V.
+    destruct (apart_without_a_common_place _ _ _ V) as (p & Fp & Fq).
     eapply searches_are_complete; [exact O| |exact Wk|exact Wl| |]; [lra| |];
       eapply capsules_hold; eauto; lra.
-  - revert V. eapply certificates_are_early; eauto. apply Rmax_lub; assumption.
+  - exists None. split; [|left; reflexivity]. intros t Sk Sl Wk Wl _.
+    eapply certificates_are_early; eauto. apply Rmax_lub; assumption.
+  - assert (Q : forall t, since k <= t -> since l <= t -> t < v ->
+             ~ wrong apart (kicked k, with_stamp k) (kicked l, with_stamp l) t).
+    { intros t Sk Sl U. eapply (certificates_are_early _ _ _ _ (Some v)); [exact Ce|exact Kk|exact Kl|exact Sk|exact Sl| |exact U].
+      apply Rmax_lub; assumption. }
+    exists (Some v). split; [intros t Sk Sl _ _ U; apply Q; assumption|]. right. exists v.
+    split; [reflexivity|]. split; [exact Sv|]. split; [exact Q|]. intros; apply G; split; assumption.
 Qed.
 
 (* A fact that an island has is one of the world, if both bodies are in it what they are. *)
@@ -118,9 +129,9 @@ Proof. intros O. unfold clean. rewrite (stays i a O). trivial. Qed.
 Lemma no_news i a b : (a < b)%nat -> ~ news (f i) a b.
 Proof.
   intros Lt. destruct (covers (own_of island i) a b) eqn:Cv.
-  - apply (are_settled _ _ _ _ _ A i); assumption.
+  - apply (are_settled _ _ _ _ _ _ A i); assumption.
   - intros N. apply (other_pairs_stay _ _ _ (island_beside i) a b Lt Cv) in N.
-    apply (nothing_waits _ _ _ _ _ A) in N; assumption.
+    apply (nothing_waits _ _ _ _ _ _ A) in N; assumption.
 Qed.
 
 Lemma book_of_others i a b : (a < b)%nat -> covers (own_of island i) a b = false -> book (f i) a b = book s a b.
@@ -159,11 +170,17 @@ Proof.
            ++ simpl. rewrite Ib. reflexivity.
            ++ simpl in *. rewrite Ia, (stays j a Oa). exact W2.
            ++ simpl. rewrite Ib. reflexivity.
-        -- right; left. intros t N Wa Wb. unfold right_at, motion_of. rewrite Bo. simpl in *.
-           rewrite Ia in *. rewrite Ib in *. rewrite <- k2, <- l2. rewrite <- k3 in Wa. rewrite <- l3 in Wb.
-           destruct (kicks_are_right _ _ _ (island_beside i) k Hk) as (_ & Nk & _).
+        -- destruct (kicks_are_right _ _ _ (island_beside i) k Hk) as (_ & Nk & _).
            destruct (kicks_are_right _ _ _ (island_beside j) l Hl) as (_ & Nl & _).
-           rewrite come in Nk, Nl. eapply kicked_are_right; eauto; lra.
+           rewrite come in Nk, Nl.
+           assert (Ma : motion_of m a = (a, with_stamp k)) by (unfold motion_of; simpl; rewrite Ia, k2; reflexivity).
+           assert (Mb : motion_of m b = (b, with_stamp l)) by (unfold motion_of; simpl; rewrite Ib, l2; reflexivity).
+           destruct (kicked_are_right i j a b k l Lt Ia Ib D Cb0 Hk k1 Hl l1) as (u & Q & [->|(v & -> & Sv & Q' & G)]).
+           ++ right; left. intros t N Wa Wb. unfold right_at. rewrite Bo, Ma, Mb. simpl in N, Wa, Wb.
+              rewrite Ia, <- k3 in Wa. rewrite Ib, <- l3 in Wb. apply Q; try assumption; try lra. exact Logic.I.
+           ++ right; right. exists v. unfold right_at. rewrite Bo, Ma, Mb. split.
+              ** simpl. apply G; unfold last_of; [rewrite k1|rewrite l1]; auto.
+              ** intros t N. simpl in N. apply Q'; lra.
   - assert (Ob : own_of island i b = false) by (apply nobodys; exact Ib).
     apply (fact_of_island i); trivial; try (apply no_news; assumption).
     + left. apply is_own; exact Ia.
@@ -191,11 +208,11 @@ Proof.
     assert (Bo : book m a b = book s a b) by (simpl; unfold island_of; rewrite Ia, Ib; reflexivity).
     unfold fact, right_at, motion_of. rewrite Ea, Eb, Bo.
     destruct (facts_hold _ _ K a b Lt (or_introl eq_refl) Ca0 Cb0) as [H|[H|(v & G & H)]].
-    + apply (nothing_waits _ _ _ _ _ A) in H; [contradiction|exact Lt].
+    + apply (nothing_waits _ _ _ _ _ _ A) in H; [contradiction|exact Lt].
     + right; left. intros t N. apply H. simpl in N. pose proof begins as Bg. lra.
     + right; right. exists v. split.
       * apply kept; [exact G|]. simpl. destruct (Rle_or_lt stop v) as [|Lt']; [assumption|exfalso].
-        apply (due_in_one_island _ _ _ _ _ A _ G (conj eq_refl eq_refl) Lt'); [apply obeyed|].
+        apply (due_in_one_island _ _ _ _ _ _ A _ G (conj eq_refl eq_refl) Lt'); [apply obeyed|].
         simpl. unfold island_of. rewrite Ia, Ib. reflexivity.
       * intros t N. apply H. simpl in N. pose proof begins as Bg. lra.
 Qed.
@@ -284,8 +301,12 @@ Proof.
            ++ apply covers_not'; [exact Oa|eapply moves; eauto].
            ++ split; assumption.
            ++ unfold seen. rewrite Oa. auto.
-        -- rewrite <- k2, <- l2. eapply kicked_are_right; eauto.
-           apply clean_before. rewrite <- l1. apply (kicks_are_right _ _ _ (island_beside j) l Hl).
+        -- rewrite <- k2, <- l2.
+           assert (Cb : clean s b).
+           { apply clean_before. rewrite <- l1. apply (kicks_are_right _ _ _ (island_beside j) l Hl). }
+           destruct (kicked_are_right i j a b k l Lt Ia Ib D Cb Hk k1 Hl l1) as (u & Q & [->|(v & -> & Sv & Q' & _)]).
+           ++ apply Q; try assumption. exact Logic.I.
+           ++ apply Q'; trivial. lra.
     + destruct (fixed b) eqn:Fb; [discriminate|]. apply (right_beside i); trivial.
       * left. apply is_own; exact Ia.
       * apply covers_not; [apply nobodys; exact Ib|exact Fb].
@@ -302,10 +323,10 @@ Proof.
       unfold seen in Sa, Sb. rewrite (nobodys 0 a Ia) in Sa. rewrite (nobodys 0 b Ib) in Sb.
       destruct Sa as (-> & Ca & Wa). destruct Sb as (-> & Cb & Wb).
       destruct (facts_hold _ _ K a b Lt (or_introl eq_refl) Ca Cb) as [H|[H|(v & G & H)]].
-      * apply (nothing_waits _ _ _ _ _ A) in H; [contradiction|exact Lt].
+      * apply (nothing_waits _ _ _ _ _ _ A) in H; [contradiction|exact Lt].
       * apply H; assumption.
       * apply H. split; [exact N|]. destruct (Rle_or_lt stop v) as [|Lt']; [lra|exfalso].
-        apply (due_in_one_island _ _ _ _ _ A _ G (conj eq_refl eq_refl) Lt'); [apply obeyed|].
+        apply (due_in_one_island _ _ _ _ _ _ A _ G (conj eq_refl eq_refl) Lt'); [apply obeyed|].
         simpl. unfold island_of. rewrite Ia, Ib. reflexivity.
 Qed.
 
@@ -326,7 +347,7 @@ Proof.
     + destruct (windows_will_end _ _ K a eq_refl Ca) as [H|(v & G & R)]; [left; exact H|right].
       exists v. split; [|exact R]. apply kept; [exact G|]. simpl.
       destruct (Rle_or_lt stop v) as [|Lt]; [assumption|exfalso].
-      apply (due_in_one_island _ _ _ _ _ A _ G eq_refl Lt); [apply obeyed|exact Ia].
+      apply (due_in_one_island _ _ _ _ _ _ A _ G eq_refl Lt); [apply obeyed|exact Ia].
   - intros a b Lt _. apply merged_facts. exact Lt.
   - intros a b t e h r Lt _ _. apply merged_past. exact Lt.
   - split.
@@ -420,12 +441,12 @@ Proof.
   - split; [|exact S]. intros x y. eapply known_later; [apply B|auto|simpl; lra|apply Oe].
   - split; [|exact S]. intros x y. eapply known_later; [apply B|auto|simpl; lra|apply Oe].
   - assert (T : forall i, tells (f i)).
-    { intros i. eapply steps_tell; [apply (have_run _ _ _ _ _ A)|]. split; assumption. }
-    assert (N : now s <= stop) by apply (in_phase _ _ _ _ _ A).
+    { intros i. eapply steps_tell; [apply (have_run _ _ _ _ _ _ A)|]. split; assumption. }
+    assert (N : now s <= stop) by apply (in_phase _ _ _ _ _ _ A).
     assert (E : forall r, only_ends r r) by apply nothing_ends.
     split; simpl.
     + intros x y. destruct (island_of island x y) as [i|].
-      * eapply known_later; [apply (proj1 (T i))|simpl; eauto|rewrite (have_come _ _ _ _ _ A i); lra|apply E].
+      * eapply known_later; [apply (proj1 (T i))|simpl; eauto|rewrite (have_come _ _ _ _ _ _ A i); lra|apply E].
       * eapply known_later; [apply B|simpl; auto|exact N|apply E].
     + intros x y t r. destruct (island_of island x y) as [i|].
       * intros H. eapply known_later; [apply (proj2 (T i)); exact H|simpl; eauto|lra|apply E].

@@ -303,14 +303,15 @@ Proof.
 Qed.
 
 (* The bodies 0 and 1 in these islands, in worlds of two bodies without a hot pair that is due in the part. *)
-Lemma accepted_part island stop f ph :
+Lemma accepted_part island stop f g ph :
   (forall a, (1 < a)%nat -> island a = None) -> 0 <= stop -> reaches stop ph ->
   (forall i, steps on (own_of island i) (begin_part (two is_there ph None (fun _ => False))) (f i)) ->
   (forall i, now (f i) = stop) ->
   (forall i a, own_of island i a = true -> there (bodies (f i) a) = true -> dirty (bodies (f i) a) = false) ->
   (forall i a b, ~ news (f i) a b) ->
-  (on kicks_are_compared -> forall i j k l, i <> j -> kicks (f i) k -> kicks (f j) l -> stay_apart 0 k l) ->
-  accepted on (two is_there ph None (fun _ => False)) island stop f.
+  (on kicks_are_compared -> forall i j k l, i <> j -> (kicked k < kicked l)%nat -> kicks (f i) k -> kicks (f j) l ->
+    stay_apart 0 stop k l (last_of (f i) k /\ last_of (f j) l) g) ->
+  accepted on (two is_there ph None (fun _ => False)) island stop f g.
 Proof.
   intros I N P R C S Ne K. split; auto.
   - split; [|simpl; tauto]. intros a. simpl. bodies_of a; auto.
@@ -364,7 +365,7 @@ Proof.
       * intros [|i]; reflexivity.
       * intros [|i] a O; simpl; unfold started, put; unfold own_of, alone_0 in O; bodies_of a; auto.
       * intros [|i]; simpl; tauto.
-      * intros _ [|i] [|j] k l D; simpl; try tauto; congruence.
+      * intros _ [|i] [|j] k l D _; simpl; try tauto; congruence.
     + intros h [].
     + intros _ [|i] h [].
   - apply (missed kicked_to_1 _ 1 2%nat 1%nat false); simpl.
@@ -438,7 +439,7 @@ Proof.
       * intros i. apply nobody_acts; simpl; try lra; try tauto; try (intros; discriminate).
         intros h -> _ [H|H]; discriminate.
       * intros i. split; [discriminate|simpl; tauto].
-      * intros _ i j k l _ [].
+      * intros _ i j k l _ _ [].
     + intros h -> H. simpl in H. lra.
     + intros _ i h -> [H|[H|H]]; simpl in H; try lra; discriminate.
   - apply (missed from_1 _ 1 1%nat 1%nat false); simpl.
@@ -483,7 +484,7 @@ Proof.
       * intros [|i]; reflexivity.
       * intros [|i] a O; simpl; unfold started, put; unfold own_of, one_island in O; bodies_of a; auto.
       * intros [|i]; simpl; tauto.
-      * intros _ [|i] [|j] k l D; simpl; try tauto; congruence.
+      * intros _ [|i] [|j] k l D _; simpl; try tauto; congruence.
     + intros h [].
     + intros; off.
   - apply advance; simpl; try lra; try tauto.

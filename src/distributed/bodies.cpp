@@ -74,7 +74,7 @@ Parcel DistributedWorld::Domain::pack(std::uint32_t number) const {
 /// that waited to be told then.
 Parcel DistributedWorld::Domain::pack_as_it_began(std::uint32_t number) {
   const Group* group = islands_->group_of(number);
-  const Islands::Kept* kept = group != nullptr && group->attempted ? islands_->kept(number) : nullptr;
+  const Kept* kept = group != nullptr && group->attempted ? islands_->kept(number) : nullptr;
   Parcel parcel;
   if (kept == nullptr) {
     parcel = pack(number);
@@ -105,7 +105,7 @@ Parcel::Due DistributedWorld::Domain::due_of(const HotPair& pair, std::uint32_t 
 
 /// The stamp of the body when the part of the phase began, if there is one; else its present one.
 std::uint32_t DistributedWorld::Domain::stamp_as_it_began(std::uint32_t number) const {
-  const Islands::Kept* kept = islands_ != nullptr ? islands_->kept(number) : nullptr;
+  const Kept* kept = islands_ != nullptr ? islands_->kept(number) : nullptr;
   return kept != nullptr ? kept->body.body.stamp : bodies()[number].stamp;
 }
 

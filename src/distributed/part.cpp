@@ -281,7 +281,7 @@ void DistributedWorld::Domain::note_list(const Group& group, std::optional<std::
     note(*met);
   } else {
     for (const std::uint32_t number : islands_of_run_->members_of(group)) note(number);
-    for (const std::uint32_t number : islands_of_run_->counted_on_of(group)) note(number);
+    for (const CountedOn& counted_on : islands_of_run_->counted_on_of(group)) note(counted_on.number);
   }
   if (to.empty()) return;
   JoinList list;
@@ -292,8 +292,8 @@ void DistributedWorld::Domain::note_list(const Group& group, std::optional<std::
   };
   for (const std::uint32_t number : islands_of_run_->members_of(group)) add(number);
   if (met) add(*met);
-  for (const std::uint32_t number : islands_of_run_->counted_on_of(group))
-    list.counted_on.push_back(name_of(number));
+  for (const CountedOn& counted_on : islands_of_run_->counted_on_of(group))
+    list.counted_on.push_back(name_of(counted_on.number));
   for (const int owner : to) round.lists[static_cast<std::size_t>(owner)].push_back(list);
 }
 

@@ -79,21 +79,20 @@ void Island::claim_linked(std::uint32_t number) {
   for (const Crossing& crossing : book().crossings_of(number)) claim(crossing.partner);
 }
 
-/// For one that the new capsule of `number`, which is its own, touches: whether the two have to be looked at.
-/// One that is not its own is claimed, if they have to in this phase.
-bool Island::may_count_on(std::uint32_t number, std::uint32_t other) {
-  assert(beside_->is_own(number));
-  if (beside_->is_own(other)) return beside_->last_kick(other) == nullptr;
-  if (bodies()[other].is_fixed()) return true;
-  if (!bodies().may_meet(number, other)) return false;
-  // One that is nobody's stays as it is.
+/// With one that is not its own: that one is claimed, if the two have to be looked at in this part.
+void Island::find_hot_pair_beside(std::uint32_t number, std::uint32_t other) {
+  assert(beside_->is_own(number) && !beside_->is_own(other));
   const Facts facts = this->facts();
-  const bool still = beside_->sea->places[other].island == Sea::nobody && !facts.are_linked(number, other);
-  const double until = still ? facts.apart_until(number, other) : time_;
-  if (until == infinity) return false;
-  const bool in_time = !still || beside_->sea->comes(until);
-  (in_time ? beside_->claims : beside_->counted_on).add(other);
-  return !in_time;
+  // What two in endless windows have to be looked at for is not known of another island's.
+  if (beside_->as_it_began(other) != nullptr && facts.windows_end(number, other) == infinity)
+    return beside_->claims.add(other);
+  const double until = facts.find_hot_pair(number, other, found_);
+  if (until == infinity || bodies()[other].is_fixed()) return;
+  if (beside_->sea->comes(until)) {
+    beside_->claims.add(other);
+  } else {
+    beside_->counted_on.add({other, time_});
+  }
 }
 
 }  // namespace kinesphere

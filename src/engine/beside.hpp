@@ -2,11 +2,13 @@
 //
 // Inside a part of a phase (islands.hpp) an island meets nobody else, unless one of its bodies is kicked:
 // that body's new capsule may touch others. While islands run, the capsules in the windows stay as they are,
-// for all; those of kicked bodies are kept here. A body of nobody's that a kicked one may meet in time is
-// claimed: then the island stops, and runs again with it from where the part began. One that it may meet
-// later is counted on to stay nobody's.
+// for all; those of kicked bodies are kept here. A body of nobody's or of another island that a kicked one may
+// meet in time is claimed: then the island stops, and runs again with it from where the part began. One that
+// it may meet later is counted on to be as it was when the part began, up to the time of the kick.
 #pragma once
 
+#include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -15,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/sea.hpp"
 #include "kinesphere/bound.hpp"
 #include "kinesphere/counters.hpp"
 #include "kinesphere/event.hpp"
@@ -26,39 +29,27 @@
 
 namespace kinesphere {
 
-/// Whose each body is, and how far islands go.
-struct Sea {
-  static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
-  static constexpr std::uint32_t none = nobody;
-
-  struct Place {
-    std::uint32_t island = nobody;
-    std::uint32_t kick = none;  ///< the last one, in the list of the thread that has run its island
-    std::uint32_t kept = none;  ///< where it is kept as it was when the part began
-  };
-  std::vector<Place> places;  ///< by body; an island changes those of its own
-  double phase_end = 0.0;
-  double stop = 0.0;   ///< islands go up to here,
-  double until = 0.0;  ///< and no further than this
-  /// Of an island. More would take too long to go through where islands can be left to others.
-  std::size_t most_kicks = 512;
-
-  bool comes(double time) const { return time < stop && time <= until; }
-};
-
 /// A capsule that a body has from `time` on, in its new window.
 struct BodyKick {
   std::uint32_t number;
+  std::uint32_t stamp;
   double time;
   Window window;
   Bound bound;
   Vec3 middle;  ///< where space repeats
+  Since since{};
 };
 
 /// An event, and in which round of its instant it came.
 struct Told {
   std::uint32_t round;
   Event event;
+};
+
+/// A body of another island, or of nobody's, and until when it has to be as it was when the part began.
+struct CountedOn {
+  std::uint32_t number;
+  double time;
 };
 
 /// A body that was turned, and from where it had set out before.
@@ -134,8 +125,7 @@ struct Beside {
   Listing<BodyKick> kicks;        ///< in the order of their times
   Listing<HotPair> left;          ///< that are due later
   Listing<std::uint32_t> claims;  ///< whom else it needs
-  /// Nobody's, with whom it has pairs that are due later: nobody may move them.
-  Listing<std::uint32_t> counted_on;
+  Listing<CountedOn> counted_on;  ///< with whom it has pairs that are due later
   Listing<Turn> turned;
   std::vector<Work> works;
   /// Of the first of these islands that has failed.
@@ -177,8 +167,21 @@ struct Beside {
   bool is_full() const { return kicks.size() > sea->most_kicks; }
   bool is_own(std::uint32_t number) const { return sea->places[number].island == own; }
   void add(const BodyKick& kick) {
+    note_change(kick.number, kick.time);
+    if (kick.stamp != last_stamp(kick.number)) since(kick.number).kick = kick.time;
     sea->places[kick.number].kick = kicks.stretch().end;
     kicks.add(kick);
+  }
+  /// One of its own is reported, or gets another capsule.
+  void note_change(std::uint32_t number, double time) {
+    double& first = since(number).change;
+    first = std::min(first, time);
+  }
+  /// A body of another island, which may be changing it now, as it was when the part began; null for all
+  /// others.
+  const Kept* as_it_began(std::uint32_t number) const {
+    const std::uint32_t island = sea->places[number].island;
+    return island == own || island == Sea::nobody ? nullptr : sea->kept_of(number);
   }
   /// Calls visit(number) for each body that has been kicked.
   template <class Visit>
@@ -192,6 +195,18 @@ struct Beside {
   const BodyKick* last_kick(std::uint32_t number) const {
     const Sea::Place& place = sea->places[number];
     return place.island == own && place.kick != Sea::none ? &kicks.all()[place.kick] : nullptr;
+  }
+
+ private:
+  std::uint32_t last_stamp(std::uint32_t number) const {
+    const Sea::Place& place = sea->places[number];
+    return place.kick != Sea::none ? kicks.all()[place.kick].stamp : sea->kept[place.kept].body.body.stamp;
+  }
+  /// Of one of its own: since its last kick or, if there was none, since the part began.
+  Since& since(std::uint32_t number) {
+    assert(is_own(number));
+    const Sea::Place& place = sea->places[number];
+    return place.kick != Sea::none ? kicks.all()[place.kick].since : sea->kept[place.kept].since;
   }
 };
 

@@ -13,33 +13,52 @@ std::optional<Window> Facts::window_of(std::uint32_t number) const {
   return tables_.windows.window_of(number);
 }
 
+Known Facts::known(std::uint32_t number) const {
+  const bool repeats = bodies().space().repeats();
+  if (const Kept* const kept = beside_ ? beside_->as_it_began(number) : nullptr)
+    return {number, &kept->body.body.bound, end_of(number), repeats ? &kept->body.home.middle : nullptr};
+  return {number, &bodies()[number].bound, end_of(number),
+          repeats ? &bodies().homes[number].middle : nullptr};
+}
+
+std::uint32_t Facts::stamp_of(std::uint32_t number) const {
+  const Kept* const kept = beside_ ? beside_->as_it_began(number) : nullptr;
+  return kept != nullptr ? kept->body.body.stamp : bodies()[number].stamp;
+}
+
 HotPair Facts::hot_pair(double time, std::uint32_t a, std::uint32_t b) const {
-  if (b >= HotPair::renewal) return {time, a, b, bodies()[a].stamp, 0};
+  if (b >= HotPair::renewal) return {time, a, b, stamp_of(a), 0};
   const auto [first, second] = bodies().table().comes_before(b, a) ? std::pair(b, a) : std::pair(a, b);
-  return {time, first, second, bodies()[first].stamp, bodies()[second].stamp};
+  return {time, first, second, stamp_of(first), stamp_of(second)};
+}
+
+double apart_until(const Bodies& bodies, Known a, Known b, double now) {
+  if (bodies.table().comes_before(b.number, a.number)) std::swap(a, b);
+  const double end = std::min(a.end, b.end);
+  const double sensed = reach_of_pair(bodies, a.number, b.number);
+  MovedBound moved(*b.bound, now);
+  if (bodies.space().repeats()) moved.centre += bodies.space().shift_between_homes(*b.middle, *a.middle);
+  const Encounter pair(MovedBound(*a.bound, now), moved);
+  const double near = sensed + bodies.definition().contact_tolerance;
+  if (pair.stay_apart(end - now, near)) return infinity;
+  if (pair.is_near(near)) return now;
+  const double until =
+      rounding::sum_down(now, pair.meeting(end - now, sensed + rounding_room(bodies.definition())));
+  return until < end ? std::max(until, now) : infinity;
 }
 
 double Facts::apart_until(std::uint32_t a, std::uint32_t b) const {
   // The same, to the last bit, whoever has found whom.
   if (bodies().table().comes_before(b, a)) std::swap(a, b);
-  const Body& one = bodies()[a];
-  const Body& other = bodies()[b];
   if (!bodies().may_meet(a, b)) return infinity;
-  const double end = windows_end(a, b);
-  if (one.is_fixed() || other.is_fixed() || end == infinity) {
+  const Known one = known(a);
+  const Known other = known(b);
+  const double end = std::min(one.end, other.end);
+  if (bodies()[a].is_fixed() || bodies()[b].is_fixed() || end == infinity) {
     const double until = unchanged_until_by_thresholds(a, b);
     return until < end ? until : infinity;
   }
-  const double sensed = reach_of_pair(bodies(), a, b);
-  MovedBound moved(other.bound, time_);
-  if (bodies().space().repeats()) moved.centre += shift_to_meet(bodies(), a, b);
-  const Encounter pair(MovedBound(one.bound, time_), moved);
-  const double near = sensed + bodies().definition().contact_tolerance;
-  if (pair.stay_apart(end - time_, near)) return infinity;
-  if (pair.is_near(near)) return time_;
-  const double until =
-      rounding::sum_down(time_, pair.meeting(end - time_, sensed + rounding_room(bodies().definition())));
-  return until < end ? std::max(until, time_) : infinity;
+  return kinesphere::apart_until(bodies(), one, other, time_);
 }
 
 double Facts::unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const {
@@ -61,15 +80,15 @@ double Facts::walls_unchanged_until(std::uint32_t number) const {
                                 end_of(number));
 }
 
-void Facts::find_hot_pair(std::uint32_t a, std::uint32_t b, FoundPairs& found) const {
+double Facts::find_hot_pair(std::uint32_t a, std::uint32_t b, FoundPairs& found) const {
   ++found.candidates;
   const double until = apart_until(a, b);
-  if (until == infinity) return;
+  if (until == infinity) return until;
   ++found.near;
-  // Of those that touch or sense each other, find_known_pairs() takes care.
-  if (are_linked(a, b)) return;
+  if (are_linked(a, b)) return infinity;
   found.hot.push_back(hot_pair(until, a, b));
   ++found.pairs;
+  return until;
 }
 
 /// They may be anywhere.

@@ -29,7 +29,21 @@ struct alignas(128) FoundPairs {
   }
 };
 
-/// Reads the tables and, of an island beside others, the capsules that its bodies have got in this part.
+/// A body that can move: its bound, until when its capsule holds it and, where space repeats, the middle of
+/// its way.
+struct Known {
+  std::uint32_t number;
+  const Bound* bound;
+  double end;
+  const Vec3* middle;
+};
+
+/// As Facts::apart_until(), of two that may meet and of which one has a window that ends. The same, to the
+/// last bit, in whichever order they are given.
+double apart_until(const Bodies& bodies, Known a, Known b, double now);
+
+/// Reads the tables and, of an island beside others, the capsules that its bodies have got in this part, and
+/// the bodies of other islands as they were when it began.
 class Facts {
  public:
   Facts(const Tables& tables, double time, const Beside* beside)
@@ -69,8 +83,9 @@ class Facts {
   double walls_unchanged_until(std::uint32_t number) const;
 
   // The hot pairs of a body that has got a capsule.
-  /// With one whom a search has found to be near, if they may meet before a window ends.
-  void find_hot_pair(std::uint32_t a, std::uint32_t b, FoundPairs& found) const;
+  /// With one whom a search has found to be near, if they may meet before a window ends: when they may, or
+  /// +infinity. Of two that touch or sense each other, find_known_pairs() takes care.
+  double find_hot_pair(std::uint32_t a, std::uint32_t b, FoundPairs& found) const;
   /// With those that it touches or senses.
   void find_known_pairs(std::uint32_t number, FoundPairs& found) const;
   /// With the walls, which it may reach or leave before its window ends.
@@ -79,6 +94,8 @@ class Facts {
  private:
   const Bodies& bodies() const { return tables_.bodies; }
   const ContactBook& book() const { return tables_.book; }
+  Known known(std::uint32_t number) const;
+  std::uint32_t stamp_of(std::uint32_t number) const;
 
   const Tables& tables_;
   double time_;

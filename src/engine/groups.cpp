@@ -118,6 +118,7 @@ Group& Groups::add() {
   group.own = group.joined_to = static_cast<std::uint32_t>(count_++);
   group.again = group.is_news = true;
   group.attempted = group.has_run = group.kicks_are_compared = group.failed = false;
+  group.attempts = group.superseded = 0;
   group.members = group.due = {};
   group.outcome = {};
   group.unsettled.clear();

@@ -23,7 +23,10 @@ struct Group {
   bool kicks_are_compared = false;
   bool failed = false;
   bool is_news = true;  ///< until whoever tells other processes of groups sets it to false
-  Stretch members{};    ///< of the lists of Groups
+  std::uint32_t attempts = 0;
+  /// Of the bodies that it has counted on, those that had another capsule before.
+  std::uint32_t superseded = 0;
+  Stretch members{};  ///< of the lists of Groups
   Stretch due{};
   Outcome outcome{};
   std::vector<std::uint32_t> unsettled{};

@@ -65,6 +65,8 @@ Result<void> Island::probe(std::span<const std::uint32_t> numbers) {
 Result<void> Island::probe(std::span<const std::uint32_t> numbers, Shift& shift) {
   // Counted first: a probe that throws leaves the same world as one that does not answer.
   counters_.probes += numbers.size();
+  if (beside_)
+    for (const std::uint32_t number : numbers) beside_->note_change(number, time_);
   const auto broken = reports_.take(bodies(), time_, numbers, shift);
   if (!broken) return broken.error();
   for (const auto& [k, velocity, promise] : *broken) {

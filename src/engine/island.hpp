@@ -188,7 +188,7 @@ class alignas(128) Island {
 
   // beside.cpp
   void claim_linked(std::uint32_t number);
-  bool may_count_on(std::uint32_t number, std::uint32_t other);
+  void find_hot_pair_beside(std::uint32_t number, std::uint32_t other);
   Result<void> answer(const Event& event, Answerer& answerer);
 
   // looking.cpp

@@ -5,6 +5,8 @@
 #include <exception>
 #include <utility>
 
+#include "number/infinity.hpp"
+
 namespace kinesphere {
 namespace {
 
@@ -65,11 +67,12 @@ void Islands::open(double stop) {
   compared_.clear();
   uncompared_.clear();
   meetings_.clear();
+  late_.clear();
   for (Island& island : crew_) island.beside().clear();
   groups_.form(due_, tables_.bodies, sea_.places);
-  is_kept_.clear();
+  sea_.is_kept.clear();
   // With room for those that are claimed, so that the list rarely has to grow while something is in it.
-  if (kept_.size() < groups_.kept()) kept_ = std::vector<Kept>(2 * groups_.kept());
+  if (sea_.kept.size() < groups_.kept()) sea_.kept = std::vector<Kept>(2 * groups_.kept());
   Beginning unsettled;
   for (const std::uint32_t number : everybody_.dirty())
     if (tables_.bodies[number].dirty) unsettled.unsettled.push_back(number);
@@ -135,11 +138,6 @@ void Islands::add(const Beginning& more) {
     group_with({tables_.bodies.table().number_of(event.first)}).pending.push_back(event);
 }
 
-const Islands::Kept* Islands::kept(std::uint32_t number) const {
-  const std::uint32_t place = number < sea_.places.size() ? sea_.places[number].kept : Sea::none;
-  return place < is_kept_.size() && is_kept_[place] != 0 ? &kept_[place] : nullptr;
-}
-
 /// Lists forget what groups have done that were taken back since, when that is most of what they have.
 void Islands::forget_taken_back() {
   constexpr std::size_t few = 1 << 12;
@@ -180,8 +178,8 @@ bool Islands::attempt_found() {
   if (may_leave_some() && repeats_ > too_often * first_runs_) return false;
   forget_taken_back();
   assert(sea_.places.size() == tables_.bodies.numbers());
-  is_kept_.resize(groups_.kept(), 0);
-  if (kept_.size() < groups_.kept()) kept_.resize(groups_.kept());
+  sea_.is_kept.resize(groups_.kept(), 0);
+  if (sea_.kept.size() < groups_.kept()) sea_.kept.resize(groups_.kept());
   // The large ones first, so that nobody waits for them in the end.
   constexpr std::size_t large = 16;
   std::stable_partition(again_.begin(), again_.end(),
@@ -191,6 +189,9 @@ bool Islands::attempt_found() {
     (std::exchange(group.has_run, true) ? repeats_ : first_runs_) += group.due.size();
   }
   try {
+    shift_.for_each(again_.size(), islands_at_once, [this](std::size_t begin, std::size_t end, std::size_t) {
+      for (std::size_t k = begin; k < end; ++k) keep(groups_[again_[k]]);
+    });
     shift_.for_each(again_.size(), islands_at_once,
                     [this](std::size_t begin, std::size_t end, std::size_t worker) {
                       for (std::size_t k = begin; k < end; ++k)
@@ -217,9 +218,9 @@ bool Islands::attempt_found() {
 void Islands::attempt(std::uint32_t own, std::uint32_t worker) {
   Group& group = groups_[own];
   Island& island = crew_[worker];
-  keep(group);
   group.again = false;
   group.attempted = group.is_news = true;
+  ++group.attempts;
   group.kicks_are_compared = false;
   group.failed = true;
   island.begin(sea_, own, begin_, groups_.due_of(group), group.unsettled, group.pending);
@@ -234,12 +235,12 @@ void Islands::attempt(std::uint32_t own, std::uint32_t worker) {
   group.outcome = island.end(worker);
 }
 
-/// As the bodies are when the part begins.
+/// As the bodies are when the part begins. Others may look at that while the group runs.
 void Islands::keep(const Group& group) {
   for (const std::uint32_t number : groups_.members_of(group)) {
     const std::uint32_t place = sea_.places[number].kept;
-    if (std::exchange(is_kept_[place], std::uint8_t{1}) == 0)
-      kept_[place] = {tables_.bodies.keep(number), tables_.book.keep(number)};
+    if (std::exchange(sea_.is_kept[place], std::uint8_t{1}) == 0)
+      sea_.kept[place] = {tables_.bodies.keep(number), tables_.book.keep(number)};
   }
 }
 
@@ -257,11 +258,13 @@ void Islands::take_back() {
 void Islands::take_back(Group& group) {
   if (!group.attempted) return;
   for (const std::uint32_t number : members_of(group)) {
-    const Kept* const before = kept(number);
-    if (before == nullptr) continue;
-    tables_.bodies.put_back(number, before->body);
-    tables_.book.put_back(number, before->contacts);
-    sea_.places[number].kick = Sea::none;
+    if (kept(number) == nullptr) continue;
+    Sea::Place& place = sea_.places[number];
+    Kept& before = sea_.kept[place.kept];
+    tables_.bodies.put_back(number, before.body);
+    tables_.book.put_back(number, before.contacts);
+    before.since = {};
+    place.kick = Sea::none;
   }
   // A body that turned several times set out from where it did before the first.
   const std::span<const Turn> turned = turned_of(group);
@@ -294,8 +297,8 @@ void Islands::join(Group& one, Group& other) {
   if (&one != &other) groups_.join(one, other);
 }
 
-/// Gives groups the bodies that they claim, and joins those that count on bodies of others. True when some
-/// have to run again.
+/// Gives groups the bodies that they claim, and joins those that count on bodies that others have changed too
+/// early. True when some have to run again.
 bool Islands::join_claims() {
   bool any = false;
   for (const std::uint32_t own : again_) {
@@ -319,11 +322,19 @@ bool Islands::join_counted_on() {
   std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> found(shift_.count());
   shift_.for_each(groups_.size(), groups_at_once,
                   [&](std::size_t begin, std::size_t end, std::size_t worker) {
-                    for (const Group& group : groups_.all().subspan(begin, end - begin)) {
+                    for (Group& group : groups_.all().subspan(begin, end - begin)) {
                       if (group.joined()) continue;
-                      for (const std::uint32_t number : counted_on_of(group))
-                        if (sea_.places[number].island != Sea::nobody)
+                      group.superseded = 0;
+                      for (const auto& [number, time] : counted_on_of(group)) {
+                        const Kept* const before = kept(number);
+                        if (before == nullptr) continue;
+                        // Its new capsule is held against those of others by itself.
+                        if (before->since.kick < time && may_leave_some()) {
+                          ++group.superseded;
+                        } else if (before->since.change <= time) {
                           found[worker].emplace_back(group.own, number);
+                        }
+                      }
                     }
                   });
   bool any = false;
@@ -365,7 +376,7 @@ bool Islands::join_kicks() {
   compared_foreign_kicks_ = foreign_kicks_.size();
   if (fresh == 0) return false;
   bool any = false;
-  for (const auto& [a, b] : meetings(tables_, kicks, fresh, begin_, shift_)) {
+  for (const auto& [a, b, until, is_void] : meetings(tables_, kicks, fresh, begin_, shift_)) {
     const auto [own, foreign] = kicks[a].own == Sea::nobody ? std::pair(b, a) : std::pair(a, b);
     if (kicks[foreign].own == Sea::nobody) {
       // That body stands for its group, which is not here.
@@ -376,10 +387,39 @@ bool Islands::join_kicks() {
     Group& one = groups_.root_of(kicks[a].own);
     Group& other = groups_.root_of(kicks[b].own);
     if (&one == &other) continue;
+    // Processes tell each other of what is left of each group, not of what is between two.
+    if (until != Meeting::unknown && !sea_.comes(until) && may_leave_some()) {
+      if (!is_void) note_late(one, *kicks[a].kick, other, *kicks[b].kick, until);
+      continue;
+    }
     join(one, other);
     any = true;
   }
   return any;
+}
+
+/// Two kicked bodies that have to be looked at when the part is over, if they are not kicked again in it.
+void Islands::note_late(const Group& one, const BodyKick& kick, const Group& other, const BodyKick& other_kick,
+                        double until) {
+  const bool in_order = tables_.bodies.table().comes_before(kick.number, other_kick.number);
+  const BodyKick& first = in_order ? kick : other_kick;
+  const BodyKick& second = in_order ? other_kick : kick;
+  late_.push_back({one.own, one.attempts, other.own, other.attempts,
+                   {until, first.number, second.number, first.stamp, second.stamp}});
+}
+
+/// As if one of the two had found the other, if none of the two groups has been taken back since.
+void Islands::finish_late() {
+  const auto stands = [this](std::uint32_t own, std::uint32_t attempt) {
+    const Group& group = groups_[own];
+    return !group.joined() && group.attempted && group.attempts == attempt;
+  };
+  for (const Late& late : late_) {
+    if (!stands(late.one, late.attempt_of_one) || !stands(late.other, late.attempt_of_other)) continue;
+    everybody_.add_kicks({0, 1});
+    ++everybody_.counters().hot_pairs;
+    left_.push_back(late.pair);
+  }
 }
 
 void Islands::finish(const Group& group, bool is_counted, std::vector<const Told*>& told) {
@@ -387,18 +427,20 @@ void Islands::finish(const Group& group, bool is_counted, std::vector<const Told
   if (is_counted) {
     const Work& work = beside.works[group.outcome.work];
     everybody_.counters() += work.counters;
-    everybody_.add_kicks(work.settled);
+    everybody_.add_kicks({work.settled.bodies, work.settled.near - group.superseded});
+    everybody_.counters().hot_pairs -= group.superseded;
   }
   const std::span<const HotPair> left = left_of(group);
   left_.insert(left_.end(), left.begin(), left.end());
   for (const Told& one : group.outcome.told.of(beside.told.all())) told.push_back(&one);
   if (!tables_.bodies.shapes.any()) return;
   for (const std::uint32_t number : members_of(group))
-    tables_.book.tell_fixed(number, kept_[sea_.places[number].kept].contacts);
+    tables_.book.tell_fixed(number, sea_.kept[sea_.places[number].kept].contacts);
 }
 
 void Islands::finish(std::vector<const Told*>& told) {
   register_kicks();
+  finish_late();
   everybody_.leave_unsettled();
   everybody_.agenda().add_all(left_);
   std::sort(told.begin(), told.end(), [](const Told* a, const Told* b) {

@@ -7,8 +7,10 @@
 // meet a body of another: so
 //   - an island that claims a body stops; it is joined with the island that has the body, if there is one,
 //     and they run again, from where the part began;
+//   - an island that counts on a body is joined with the one that has reported it too early, if there is one;
 //   - when none claims any more, the capsules of all kicked bodies are held against each other; islands of
-//     two that may meet are joined, and run again.
+//     two that may meet in the part are joined, and run again; two that may meet later become a hot pair, as
+//     if one had found the other.
 // What is left is what one island with all bodies would have done, in another order: a body's reports, facts
 // and events depend on its own island alone. So what comes out depends neither on threads, nor on who ran
 // what, nor on where parts end. Events are told in the order of their times, rounds and kinds, when the part
@@ -55,12 +57,6 @@ class Islands {
   // islands are to be joined. The part begins with what everybody() has not settled, too, and what is to be
   // told.
 
-  /// A body as it was when the part began.
-  struct Kept {
-    Bodies::Kept body{};
-    ContactBook::Kept contacts{};
-  };
-
   /// Takes what is due from now to `until`, or to the end of a part of the phase, or to `latest`: where that
   /// is.
   double take_due(double until, double latest);
@@ -90,7 +86,7 @@ class Islands {
   std::span<const HotPair> left_of(const Group& group) const {
     return of(group, &Beside::left, &Outcome::left);
   }
-  std::span<const std::uint32_t> counted_on_of(const Group& group) const {
+  std::span<const CountedOn> counted_on_of(const Group& group) const {
     return of(group, &Beside::counted_on, &Outcome::counted_on);
   }
   std::span<const Turn> turned_of(const Group& group) const {
@@ -114,7 +110,7 @@ class Islands {
   /// Whether that is before the part ends.
   bool comes(double time) const { return sea_.comes(time); }
   /// Null for a body that is as it was when the part began.
-  const Kept* kept(std::uint32_t number) const;
+  const Kept* kept(std::uint32_t number) const { return sea_.kept_of(number); }
   /// All islands have run: what came of the groups becomes what came of everybody. Of those of which
   /// is_counted(group) is true, events are returned, in their order, and work is counted.
   template <class IsCounted>
@@ -137,6 +133,16 @@ class Islands {
 
  private:
   static constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
+
+  /// A pair of which two groups have one body each, which is due when the part is over: as these attempts have
+  /// it.
+  struct Late {
+    std::uint32_t one;
+    std::uint32_t attempt_of_one;
+    std::uint32_t other;
+    std::uint32_t attempt_of_other;
+    HotPair pair;
+  };
 
   /// Not after leave_nothing().
   bool may_leave_some() const { return sea_.most_kicks < no_limit; }
@@ -161,6 +167,9 @@ class Islands {
   bool join_counted_on();
   bool join_kicks();
   void finish(const Group& group, bool is_counted, std::vector<const Told*>& told);
+  void note_late(const Group& one, const BodyKick& kick, const Group& other, const BodyKick& other_kick,
+                 double until);
+  void finish_late();
   void finish(std::vector<const Told*>& told);
   void register_kicks();
 
@@ -176,8 +185,6 @@ class Islands {
   std::size_t first_runs_ = 0;   ///< pairs that were due in groups when these first ran in this part
   std::size_t repeats_ = 0;      ///< the same when they ran again
   Groups groups_;
-  std::vector<Kept> kept_;  ///< by Sea::Place::kept, where is_kept_ is not 0
-  std::vector<std::uint8_t> is_kept_;
   std::vector<std::uint32_t> again_;
   // Groups whose kicks have been held against all others, and those that have run since.
   std::vector<std::uint32_t> compared_;
@@ -190,6 +197,7 @@ class Islands {
   std::vector<BodyKick> foreign_kicks_;
   std::size_t compared_foreign_kicks_ = 0;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> meetings_;
+  std::vector<Late> late_;
 };
 
 template <class FindAgain>

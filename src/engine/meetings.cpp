@@ -2,30 +2,35 @@
 
 #include <algorithm>
 
-#include "bound/encounter.hpp"
+#include "engine/facts.hpp"
 #include "engine/room.hpp"
+#include "window/windows.hpp"
 
 namespace kinesphere {
 namespace {
 
 constexpr std::size_t kicks_at_once = 256;
 
-bool may_meet(const Bodies& bodies, const BodyKick& a, const BodyKick& b) {
-  if (!bodies.may_meet(a.number, b.number)) return false;
-  const double from = std::max(a.time, b.time);
-  const double end = std::min(a.window.end, b.window.end);
-  if (!(from < end)) return false;
-  MovedBound moved(b.bound, from);
-  if (bodies.space().repeats()) moved.centre += bodies.space().shift_between_homes(b.middle, a.middle);
-  const Encounter pair(MovedBound(a.bound, from), moved);
-  const double near = reach_of_pair(bodies, a.number, b.number) + bodies.definition().contact_tolerance;
-  return !pair.stay_apart(end - from, near);
+/// As Meeting::until; +infinity where they do not meet.
+double meeting_of(const Bodies& bodies, const BodyKick& earlier, const BodyKick& later) {
+  const double now = later.time;
+  const double end = std::min(earlier.window.end, later.window.end);
+  if (!(now < end) || !bodies.may_meet(earlier.number, later.number)) return infinity;
+  if (end == infinity) return Meeting::unknown;
+  const auto known = [](const BodyKick& kick) {
+    return Known{kick.number, &kick.bound, kick.window.end, &kick.middle};
+  };
+  const double until = apart_until(bodies, known(earlier), known(later), now);
+  // A later report makes the bound smaller: two that stay apart still do. What comes first at one instant, the
+  // two islands do not know.
+  const bool as_kicked = earlier.time < now && now < earlier.since.change;
+  return as_kicked || earlier.since.kick < now || until == infinity ? until : Meeting::unknown;
 }
 
 }  // namespace
 
-std::vector<Windows::Pair> meetings(const Tables& tables, std::span<const GroupKick> kicks, std::size_t fresh,
-                                    double begin, Shift& shift) {
+std::vector<Meeting> meetings(const Tables& tables, std::span<const GroupKick> kicks, std::size_t fresh,
+                              double begin, Shift& shift) {
   const Bodies& bodies = tables.bodies;
   const auto bound_at_begin = [&](std::uint32_t k) {
     const BodyKick& kick = *kicks[k].kick;
@@ -42,10 +47,14 @@ std::vector<Windows::Pair> meetings(const Tables& tables, std::span<const GroupK
   Windows windows(bodies.space());
   windows.start(starters, begin, bound_at_begin, shift);
   std::vector<Windows::Scratch> scratch(shift.count());
-  std::vector<std::vector<Windows::Pair>> meeting(shift.count());
+  std::vector<std::vector<Meeting>> meeting(shift.count());
   const auto compare = [&](std::uint32_t a, std::uint32_t b, std::size_t worker) {
-    if (kicks[a].own != kicks[b].own && may_meet(bodies, *kicks[a].kick, *kicks[b].kick))
-      meeting[worker].push_back({a, b});
+    if (kicks[a].own == kicks[b].own) return;
+    const bool in_order = kicks[a].kick->time < kicks[b].kick->time;
+    const BodyKick& earlier = *kicks[in_order ? a : b].kick;
+    const BodyKick& later = *kicks[in_order ? b : a].kick;
+    const double until = meeting_of(bodies, earlier, later);
+    if (until < infinity) meeting[worker].push_back({a, b, until, earlier.since.kick < later.time});
   };
   shift.for_each(fresh, kicks_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
     for (const auto& [a, b] : windows.near_started(from, to, begin, bound_at_begin, scratch[worker]))
@@ -59,8 +68,8 @@ std::vector<Windows::Pair> meetings(const Tables& tables, std::span<const GroupK
             compare(k, other, worker);
         }
       });
-  std::vector<Windows::Pair> all;
-  for (const std::vector<Windows::Pair>& some : meeting) all.insert(all.end(), some.begin(), some.end());
+  std::vector<Meeting> all;
+  for (const std::vector<Meeting>& some : meeting) all.insert(all.end(), some.begin(), some.end());
   return all;
 }
 

@@ -8,8 +8,8 @@
 
 #include "engine/beside.hpp"
 #include "engine/tables.hpp"
+#include "number/infinity.hpp"
 #include "parallel/crew.hpp"
-#include "window/windows.hpp"
 
 namespace kinesphere {
 
@@ -19,10 +19,23 @@ struct GroupKick {
   const BodyKick* kick;
 };
 
-/// Pairs of kicks (by their places here) of different groups whose bodies may meet while both windows last;
-/// at least one of each pair is among the first `fresh` kicks. Kicks count as if each had been there from
-/// `begin` on. Cost: as of a window's start for the fresh ones, and a search for each of the others.
-std::vector<Windows::Pair> meetings(const Tables& tables, std::span<const GroupKick> kicks, std::size_t fresh,
-                                    double begin, Shift& shift);
+/// Two kicks, by their places.
+struct Meeting {
+  /// In place of a time: it would take to run both islands as one to know it.
+  static constexpr double unknown = -infinity;
+
+  std::uint32_t first;
+  std::uint32_t second;
+  /// When the two may first meet: what Facts::apart_until() finds at the later kick.
+  double until;
+  /// The earlier one was void when the later one came.
+  bool is_void;
+};
+
+/// Pairs of kicks of different groups whose bodies may meet while both windows last; at least one of each pair
+/// is among the first `fresh` kicks. Kicks are searched for as if each had been there from `begin` on. Cost: as of a window's start for the fresh ones, and a search for each of the
+/// others.
+std::vector<Meeting> meetings(const Tables& tables, std::span<const GroupKick> kicks, std::size_t fresh,
+                              double begin, Shift& shift);
 
 }  // namespace kinesphere

@@ -41,11 +41,16 @@ void Island::search(std::span<const std::uint32_t> numbers) {
   found_.forget();
   const Facts facts = this->facts();
   for (const std::uint32_t number : numbers) {
-    const auto others = near(number);
-    if (beside_ && !beside_->claims.empty()) return;
+    if (beside_) claim_linked(number);
     ++found_.searches;
-    for (const std::uint32_t other : others)
-      if (!bodies()[other].settled) facts.find_hot_pair(number, other, found_);
+    for (const std::uint32_t other : near(number)) {
+      if (beside_ && !beside_->is_own(other)) {
+        find_hot_pair_beside(number, other);
+      } else if (!bodies()[other].settled) {
+        facts.find_hot_pair(number, other, found_);
+      }
+    }
+    if (beside_ && !beside_->claims.empty()) return;
     bodies()[number].settled = true;
   }
   for (const std::uint32_t number : numbers) {
@@ -92,21 +97,19 @@ void Island::enter(std::uint32_t number, const Window& window) {
   }
   if (beside_) {
     const Vec3 middle = bodies().space().repeats() ? bodies().homes[number].middle : Vec3{};
-    beside_->add({number, time_, window, body.bound, middle});
+    beside_->add({number, body.stamp, time_, window, body.bound, middle});
   } else {
     tables_->windows.enter(number, roomy_bound(bodies(), number, time_), time_, window);
   }
 }
 
-/// The bodies whose capsules may touch the body's new one; some of them need not. Beside other islands those
-/// that are not its own are claimed, if they matter.
+/// The bodies whose capsules may touch the body's new one; some of them need not.
 std::span<const std::uint32_t> Island::near(std::uint32_t number) {
   const RoomyBound bound = roomy_bound(bodies(), number, time_);
   const auto found = tables_->windows.near(number, bound, time_, facts().end_of(number), found_.scratch);
   if (!beside_) return found;
-  claim_linked(number);
   std::vector<std::uint32_t>& numbers = found_.scratch.numbers;
-  std::erase_if(numbers, [&](std::uint32_t other) { return !may_count_on(number, other); });
+  std::erase_if(numbers, [&](std::uint32_t other) { return beside_->last_kick(other) != nullptr; });
   beside_->for_each_kicked([&](std::uint32_t other) {
     if (other != number) numbers.push_back(other);
   });

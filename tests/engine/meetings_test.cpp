@@ -19,9 +19,10 @@ constexpr double begin = 1.0;
 
 using Places = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
-Places as_set(const std::vector<Windows::Pair>& pairs) {
+Places as_set(const std::vector<Meeting>& meetings) {
   Places places;
-  for (const auto& [a, b] : pairs) places.emplace(std::min(a, b), std::max(a, b));
+  for (const Meeting& meeting : meetings)
+    places.emplace(std::min(meeting.first, meeting.second), std::max(meeting.first, meeting.second));
   return places;
 }
 
@@ -42,7 +43,7 @@ struct Kicked {
         for (int axis = 0; axis < 3; ++axis) bound.position[axis] = edge * random.uniform();
         bound.radius = radius;
         bound.growth_acceleration = 5.0 * random.uniform();
-        all.push_back({number, time, window, bound, {}});
+        all.push_back({number, 0, time, window, bound, {}});
         groups.push_back(group);
       }
     }
