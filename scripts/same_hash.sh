@@ -4,7 +4,8 @@
 # and go through a recording of that build without diverging. The same again for a user of each of them who compiles its
 # headers in ways that change rounding, without inlining, so that copies of inline functions are left for the linker to
 # choose from.
-# Usage: same_hash.sh <the executable scene_hash>
+# Usage: same_hash.sh <the executable scene_hash> [<name of a build>]
+#   With a name only that build is made, on one core.
 set -euo pipefail
 
 scene_hash=$(realpath "$1")
@@ -23,8 +24,12 @@ foreign_flags=(-std=c++20 -O2 -fno-inline -ffp-contract=fast)
 if grep -qw fma /proc/cpuinfo; then foreign_flags+=(-mfma); fi
 
 mkdir -p build/hash
-# All public headers, so that all of their inline functions are there.
-(cd include && find kinesphere -name '*.hpp' | sort | sed 's/.*/#include <&>/') >build/hash/every_header.cpp
+jobs=()
+if [[ $# -gt 1 ]]; then
+  jobs=(--parallel 1)
+  named=$(printf '%s\n' "${configurations[@]}" | grep "^$2 ") || { echo "same_hash: no build is named $2" >&2; exit 1; }
+  configurations=("$named")
+fi
 recording=$(mktemp build/hash/recording-XXXXXX)
 trap 'rm -f "$recording"' EXIT
 expected=$("$scene_hash" record "$recording")
@@ -34,11 +39,13 @@ for configuration in "${configurations[@]}"; do
   read -r name compiler flags <<<"$configuration"
   build=build/hash/$name
   mkdir -p "$build"
+  # All public headers, so that all of their inline functions are there.
+  (cd include && find kinesphere -name '*.hpp' | sort | sed 's/.*/#include <&>/') >"$build/every_header.cpp"
   shared=OFF
   if [[ $name == *shared ]]; then shared=ON; fi
   if ! { cmake -S . -B "$build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags" \
            -DCMAKE_BUILD_TYPE=None -DKINESPHERE_BUILD_TESTS=ON -DBUILD_SHARED_LIBS="$shared" &&
-         cmake --build "$build" --target scene_hash; } >"$build/build.log" 2>&1; then
+         cmake --build "$build" --target scene_hash "${jobs[@]}"; } >"$build/build.log" 2>&1; then
     cat "$build/build.log"
     exit 1
   fi
@@ -50,7 +57,7 @@ for configuration in "${configurations[@]}"; do
   library=("$build"/src/libkinesphere.*)
   read -r -a flags <<<"$flags"
   "$compiler" "${flags[@]}" "${foreign_flags[@]}" "${keep[@]}" -Iinclude -I"$build/include" \
-    tests/same_hash/scene_hash.cpp build/hash/every_header.cpp "${library[0]}" -lhwy -Wl,-rpath,"$PWD/$build/src" \
+    tests/same_hash/scene_hash.cpp "$build/every_header.cpp" "${library[0]}" -lhwy -Wl,-rpath,"$PWD/$build/src" \
     -o "$build/foreign_user"
   foreign=$("$build/foreign_user")
   echo "$hash  ${replayed:-diverged}  $foreign  $name"

@@ -2,9 +2,9 @@
 //
 // Inside a part of a phase (islands.hpp) an island meets nobody else, unless one of its bodies is kicked:
 // that body's new capsule may touch others. While islands run, the capsules in the windows stay as they are,
-// for all; those of kicked bodies are kept here. A body of nobody's or of another island that a kicked one may
-// meet in time is claimed: then the island stops, and runs again with it from where the part began. One that
-// it may meet later is counted on to be as it was when the part began, up to the time of the kick.
+// for all; those of kicked bodies are kept here. A body of nobody's or of another island that a kicked one
+// may meet in time is claimed: then the island stops, and runs again with it from where the part began. One
+// that it may meet later is counted on to be as it was when the part began, up to the time of the kick.
 #pragma once
 
 #include <algorithm>

@@ -21,11 +21,6 @@ Known Facts::known(std::uint32_t number) const {
           repeats ? &bodies().homes[number].middle : nullptr};
 }
 
-std::uint32_t Facts::stamp_of(std::uint32_t number) const {
-  const Kept* const kept = beside_ ? beside_->as_it_began(number) : nullptr;
-  return kept != nullptr ? kept->body.body.stamp : bodies()[number].stamp;
-}
-
 HotPair Facts::hot_pair(double time, std::uint32_t a, std::uint32_t b) const {
   if (b >= HotPair::renewal) return {time, a, b, stamp_of(a), 0};
   const auto [first, second] = bodies().table().comes_before(b, a) ? std::pair(b, a) : std::pair(a, b);

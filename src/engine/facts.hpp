@@ -60,8 +60,8 @@ class Facts {
   std::optional<Window> window_of(std::uint32_t number) const;
 
   bool is_void(const HotPair& pair) const {
-    return bodies()[pair.first].stamp != pair.first_stamp ||
-           (pair.has_second() && bodies()[pair.second].stamp != pair.second_stamp);
+    return stamp_of(pair.first) != pair.first_stamp ||
+           (pair.has_second() && stamp_of(pair.second) != pair.second_stamp);
   }
   /// Two bodies, or a body and HotPair::walls or HotPair::renewal, to be looked at then.
   HotPair hot_pair(double time, std::uint32_t a, std::uint32_t b) const;
@@ -95,7 +95,10 @@ class Facts {
   const Bodies& bodies() const { return tables_.bodies; }
   const ContactBook& book() const { return tables_.book; }
   Known known(std::uint32_t number) const;
-  std::uint32_t stamp_of(std::uint32_t number) const;
+  std::uint32_t stamp_of(std::uint32_t number) const {
+    const Kept* const kept = beside_ ? beside_->as_it_began(number) : nullptr;
+    return kept != nullptr ? kept->body.body.stamp : bodies()[number].stamp;
+  }
 
   const Tables& tables_;
   double time_;

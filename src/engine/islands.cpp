@@ -28,6 +28,10 @@ bool Islands::run(double until, std::deque<Event>& events) {
   assert(everybody_.is_settled());
   // What these do reaches beyond an island, or asks the caller's own code in the middle of one.
   if (!bodies.rests.empty() || !bodies.changes.empty() || bodies.filters.has_pair_filter()) return false;
+  if (paused_ > 0) {
+    --paused_;
+    return false;
+  }
   open(take_due(until, infinity));
   const auto all = [](const Group&) { return true; };
   const bool done = are_worth_it() && attempt_all(all);
@@ -37,6 +41,7 @@ bool Islands::run(double until, std::deque<Event>& events) {
     take_back();
   }
   close();
+  pause(done);
   if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
   return done;
 }
@@ -93,6 +98,15 @@ void Islands::choose_part() {
   } else if (6 * repeats_ > first_runs_) {
     most_due_ = std::max(most_due_ / 2, least_due_);
   }
+}
+
+/// If the islands of a part that could not be shorter ran again and again, nobody runs any for some phases:
+/// for more and more of them, as long as it turns out to be so.
+void Islands::pause(bool done) {
+  constexpr int longest = 31;
+  const bool repeat_much = 3 * repeats_ > first_runs_ && (!done || most_due_ == least_due_);
+  if (first_runs_ > 0) pause_ = repeat_much ? std::min(2 * pause_ + 1, longest) : 0;
+  paused_ = pause_;
 }
 
 /// There are enough, and most of the work is not in one of them.
@@ -399,12 +413,15 @@ bool Islands::join_kicks() {
 }
 
 /// Two kicked bodies that have to be looked at when the part is over, if they are not kicked again in it.
-void Islands::note_late(const Group& one, const BodyKick& kick, const Group& other, const BodyKick& other_kick,
-                        double until) {
+void Islands::note_late(const Group& one, const BodyKick& kick, const Group& other,
+                        const BodyKick& other_kick, double until) {
   const bool in_order = tables_.bodies.table().comes_before(kick.number, other_kick.number);
   const BodyKick& first = in_order ? kick : other_kick;
   const BodyKick& second = in_order ? other_kick : kick;
-  late_.push_back({one.own, one.attempts, other.own, other.attempts,
+  late_.push_back({one.own,
+                   one.attempts,
+                   other.own,
+                   other.attempts,
                    {until, first.number, second.number, first.stamp, second.stamp}});
 }
 

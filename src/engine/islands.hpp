@@ -48,9 +48,9 @@ class Islands {
 
   /// From now to `until` or, if that comes first, to the end of a part of the phase, where all has happened
   /// but what is due then. Appends the events. False, and nothing has happened, if there are no islands worth
-  /// it, if they run again too often, or if something has failed in one of them: that comes again when events
-  /// are answered one by one. Needs a world in which nothing is left to be settled. Throws what a mover threw
-  /// that was to set a body back, when all others have been set back.
+  /// it, if they run again too often or have done so before, or if something has failed in one of them: that
+  /// comes again when events are answered one by one. Needs a world in which nothing is left to be settled.
+  /// Throws what a mover threw that was to set a body back, when all others have been set back.
   bool run(double until, std::deque<Event>& events);
 
   // The same in steps, for a process that has a part of the bodies and learns from others in between which
@@ -134,8 +134,8 @@ class Islands {
  private:
   static constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
 
-  /// A pair of which two groups have one body each, which is due when the part is over: as these attempts have
-  /// it.
+  /// A pair of which two groups have one body each, which is due when the part is over: as these attempts
+  /// have it.
   struct Late {
     std::uint32_t one;
     std::uint32_t attempt_of_one;
@@ -157,6 +157,7 @@ class Islands {
   bool attempt_found();
   void forget_taken_back();
   void choose_part();
+  void pause(bool done);
   void attempt(std::uint32_t own, std::uint32_t worker);
   void keep(const Group& group);
   void take_back(Group& group);
@@ -184,6 +185,8 @@ class Islands {
   std::size_t most_due_ = 0;     ///< in a part
   std::size_t first_runs_ = 0;   ///< pairs that were due in groups when these first ran in this part
   std::size_t repeats_ = 0;      ///< the same when they ran again
+  int pause_ = 0;                ///< so many phases without islands
+  int paused_ = 0;               ///< that are still to come
   Groups groups_;
   std::vector<std::uint32_t> again_;
   // Groups whose kicks have been held against all others, and those that have run since.

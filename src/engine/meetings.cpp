@@ -21,8 +21,8 @@ double meeting_of(const Bodies& bodies, const BodyKick& earlier, const BodyKick&
     return Known{kick.number, &kick.bound, kick.window.end, &kick.middle};
   };
   const double until = apart_until(bodies, known(earlier), known(later), now);
-  // A later report makes the bound smaller: two that stay apart still do. What comes first at one instant, the
-  // two islands do not know.
+  // A later report makes the bound smaller: two that stay apart still do. What comes first at one instant,
+  // the two islands do not know.
   const bool as_kicked = earlier.time < now && now < earlier.since.change;
   return as_kicked || earlier.since.kick < now || until == infinity ? until : Meeting::unknown;
 }

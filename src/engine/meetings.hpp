@@ -32,9 +32,9 @@ struct Meeting {
   bool is_void;
 };
 
-/// Pairs of kicks of different groups whose bodies may meet while both windows last; at least one of each pair
-/// is among the first `fresh` kicks. Kicks are searched for as if each had been there from `begin` on. Cost: as of a window's start for the fresh ones, and a search for each of the
-/// others.
+/// Pairs of kicks of different groups whose bodies may meet while both windows last; at least one of each
+/// pair is among the first `fresh` kicks. Kicks are searched for as if each had been there from `begin` on.
+/// Cost: as of a window's start for the fresh ones, and a search for each of the others.
 std::vector<Meeting> meetings(const Tables& tables, std::span<const GroupKick> kicks, std::size_t fresh,
                               double begin, Shift& shift);
 

@@ -1,5 +1,5 @@
-// What all islands of a part of a phase share: whose each body is, how it was when the part began, and how far
-// islands go.
+// What all islands of a part of a phase share: whose each body is, how it was when the part began, and how
+// far islands go.
 #pragma once
 
 #include <cstddef>

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -17,13 +17,15 @@ namespace {
 constexpr std::uint64_t seed = 4912;
 constexpr double begin = 1.0;
 
-using Places = std::set<std::pair<std::uint32_t, std::uint32_t>>;
+using Pair = std::pair<std::uint32_t, std::uint32_t>;
+/// By pair: until when the two do not meet, and whether the earlier kick was void.
+using Meetings = std::map<Pair, std::pair<double, bool>>;
 
-Places as_set(const std::vector<Meeting>& meetings) {
-  Places places;
-  for (const Meeting& meeting : meetings)
-    places.emplace(std::min(meeting.first, meeting.second), std::max(meeting.first, meeting.second));
-  return places;
+Meetings by_pair(const std::vector<Meeting>& meetings) {
+  Meetings all;
+  for (const auto& [first, second, until, is_void] : meetings)
+    EXPECT_TRUE(all.emplace(std::minmax(first, second), std::pair(until, is_void)).second);
+  return all;
 }
 
 /// Bodies that are kicked at some time in a box, a few of them twice, with others of their group.
@@ -43,7 +45,10 @@ struct Kicked {
         for (int axis = 0; axis < 3; ++axis) bound.position[axis] = edge * random.uniform();
         bound.radius = radius;
         bound.growth_acceleration = 5.0 * random.uniform();
-        all.push_back({number, 0, time, window, bound, {}});
+        Since since;
+        if (random.uniform() < 0.3) since.change = time + random.uniform() * 0.2;
+        if (random.uniform() < 0.5) since.kick = since.change;
+        all.push_back({number, 0, time, window, bound, {}, since});
         groups.push_back(group);
       }
     }
@@ -56,10 +61,10 @@ struct Kicked {
   std::vector<GroupKick> kicks;
 };
 
-/// Somewhere on the ways straight on, in their own largest sizes, they touch.
-bool surely_may_meet(const BodyKick& a, const BodyKick& b) {
+/// Before this time their bounds touch somewhere.
+bool may_meet_before(double last, const BodyKick& a, const BodyKick& b) {
   const double from = std::max(a.time, b.time);
-  const double end = std::min(a.window.end, b.window.end);
+  const double end = std::min({a.window.end, b.window.end, last});
   constexpr int looks = 40;
   for (int look = 0; look < looks; ++look) {
     const double time = from + (end - from) * look / looks;
@@ -74,7 +79,9 @@ bool surely_may_meet(const BodyKick& a, const BodyKick& b) {
 TEST(Meetings, AreThoseOfEachPairAlone) {
   SCOPED_TRACE(seed);
   Workers workers = Workers::create(3).value();
-  std::size_t met = 0;
+  std::size_t known = 0;
+  std::size_t unknown = 0;
+  std::size_t void_ones = 0;
   for (std::uint64_t part = 0; part < 12; ++part) {
     SCOPED_TRACE(part);
     Random random = Random::at(seed, part, 0);
@@ -82,27 +89,65 @@ TEST(Meetings, AreThoseOfEachPairAlone) {
     const auto size = static_cast<std::uint32_t>(kicked.kicks.size());
     const auto fresh = static_cast<std::uint32_t>((part % 3 == 0 ? 1.0 : random.uniform()) * size);
     Shift alone;
-    const Places found = as_set(meetings(kicked.tables, kicked.kicks, fresh, begin, alone));
+    const Meetings found = by_pair(meetings(kicked.tables, kicked.kicks, fresh, begin, alone));
     {
       Shift shift(&workers);
-      ASSERT_EQ(as_set(meetings(kicked.tables, kicked.kicks, fresh, begin, shift)), found);
+      ASSERT_EQ(by_pair(meetings(kicked.tables, kicked.kicks, fresh, begin, shift)), found);
     }
     for (std::uint32_t b = 0; b < size; ++b) {
       for (std::uint32_t a = 0; a < std::min(b, fresh); ++a) {
         const GroupKick two[] = {kicked.kicks[a], kicked.kicks[b]};
-        const bool meet = !meetings(kicked.tables, two, 2, begin, alone).empty();
+        const std::vector<Meeting> meeting = meetings(kicked.tables, two, 2, begin, alone);
         if (kicked.groups[a] == kicked.groups[b]) {
-          ASSERT_FALSE(meet);
-        } else if (surely_may_meet(*two[0].kick, *two[1].kick)) {
-          ASSERT_TRUE(meet) << a << ' ' << b;
+          ASSERT_TRUE(meeting.empty());
+        } else if (may_meet_before(infinity, *two[0].kick, *two[1].kick)) {
+          ASSERT_FALSE(meeting.empty()) << a << ' ' << b;
         }
-        ASSERT_EQ(found.contains({a, b}), meet) << a << ' ' << b;
+        ASSERT_EQ(found.contains({a, b}), !meeting.empty()) << a << ' ' << b;
+        if (meeting.empty()) continue;
+        ASSERT_EQ(found.at({a, b}), std::pair(meeting[0].until, meeting[0].is_void)) << a << ' ' << b;
       }
     }
-    for (const auto& [a, b] : found) ASSERT_TRUE(a < fresh || b < fresh);
-    met += found.size();
+    for (const auto& [pair, meeting] : found) {
+      const auto& [a, b] = pair;
+      const auto& [until, is_void] = meeting;
+      ASSERT_TRUE(a < fresh || b < fresh);
+      ASSERT_TRUE(until == Meeting::unknown || !may_meet_before(until, kicked.all[a], kicked.all[b]));
+      const auto [earlier, later] =
+          std::minmax(kicked.all[a], kicked.all[b],
+                      [](const BodyKick& one, const BodyKick& other) { return one.time < other.time; });
+      ASSERT_EQ(is_void, earlier.since.kick < later.time);
+      // It cannot be known if the earlier one was reported in between, and is not needed if that was kicked.
+      ASSERT_EQ(until == Meeting::unknown, earlier.since.change < later.time && !is_void);
+      (is_void ? void_ones : until == Meeting::unknown ? unknown : known) += 1;
+    }
   }
-  EXPECT_GT(met, 1000u);
+  EXPECT_GT(known, 1000u);
+  EXPECT_GT(unknown, 20u);
+  EXPECT_GT(void_ones, 20u);
+}
+
+TEST(Meetings, AreUnknownOfKicksAtOneInstantAndInEndlessWindows) {
+  Tables tables(WorldDefinition{.start_time = begin});
+  for (int body = 0; body < 2; ++body) tables.bodies.add({.radius = 1.0});
+  Shift alone;
+  const auto meeting_of = [&](double second_time, const Window& window) {
+    BodyKick kicks[2];
+    for (std::uint32_t k = 0; k < 2; ++k) {
+      kicks[k] = {.number = k, .stamp = 1, .time = k == 0 ? begin : second_time, .window = window};
+      kicks[k].bound = {.time = kicks[k].time, .position = {5.0 * k, 0, 0}, .radius = 1.0};
+      kicks[k].bound.growth_acceleration = window.end < infinity ? 40.0 : 0.0;
+    }
+    const GroupKick of_groups[] = {{0, &kicks[0]}, {1, &kicks[1]}};
+    return meetings(tables, of_groups, 2, begin, alone);
+  };
+  const Window window = Windows::window_at(begin, 0);
+  ASSERT_EQ(meeting_of(begin + 0.1, window).size(), 1u);
+  EXPECT_GT(meeting_of(begin + 0.1, window)[0].until, begin + 0.1);
+  ASSERT_EQ(meeting_of(begin, window).size(), 1u);
+  EXPECT_EQ(meeting_of(begin, window)[0].until, Meeting::unknown);
+  ASSERT_EQ(meeting_of(begin + 0.1, Windows::endless()).size(), 1u);
+  EXPECT_EQ(meeting_of(begin + 0.1, Windows::endless())[0].until, Meeting::unknown);
 }
 
 TEST(Meetings, NobodyMeetsWhereNobodyIsKicked) {
