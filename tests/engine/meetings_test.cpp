@@ -135,8 +135,9 @@ TEST(Meetings, AreUnknownOfKicksAtOneInstantAndInEndlessWindows) {
     BodyKick kicks[2];
     for (std::uint32_t k = 0; k < 2; ++k) {
       kicks[k] = {.number = k, .stamp = 1, .time = k == 0 ? begin : second_time, .window = window};
-      kicks[k].bound = {.time = kicks[k].time, .position = {5.0 * k, 0, 0}, .radius = 1.0};
-      kicks[k].bound.growth_acceleration = window.end < infinity ? 40.0 : 0.0;
+      const bool ends = window.end < infinity;
+      kicks[k].bound = {.time = kicks[k].time, .position = {(ends ? 5.0 : 1.0) * k, 0, 0}, .radius = 1.0};
+      kicks[k].bound.growth_acceleration = ends ? 40.0 : 0.0;
     }
     const GroupKick of_groups[] = {{0, &kicks[0]}, {1, &kicks[1]}};
     return meetings(tables, of_groups, 2, begin, alone);
