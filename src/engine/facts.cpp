@@ -6,29 +6,11 @@
 #include "number/infinity.hpp"
 
 namespace kinesphere {
+namespace {
 
-std::optional<Window> Facts::window_of(std::uint32_t number) const {
-  if (const BodyKick* kick = beside_ ? beside_->last_kick(number) : nullptr) return kick->window;
-  if (!tables_.windows.contains(number)) return std::nullopt;
-  return tables_.windows.window_of(number);
-}
-
-Known Facts::known(std::uint32_t number) const {
-  const bool repeats = bodies().space().repeats();
-  if (const Kept* const kept = beside_ ? beside_->as_it_began(number) : nullptr)
-    return {number, &kept->body.body.bound, end_of(number), repeats ? &kept->body.home.middle : nullptr};
-  return {number, &bodies()[number].bound, end_of(number),
-          repeats ? &bodies().homes[number].middle : nullptr};
-}
-
-HotPair Facts::hot_pair(double time, std::uint32_t a, std::uint32_t b) const {
-  if (b >= HotPair::renewal) return {time, a, b, stamp_of(a), 0};
-  const auto [first, second] = bodies().table().comes_before(b, a) ? std::pair(b, a) : std::pair(a, b);
-  return {time, first, second, stamp_of(first), stamp_of(second)};
-}
-
-double apart_until(const Bodies& bodies, Known a, Known b, double now) {
-  if (bodies.table().comes_before(b.number, a.number)) std::swap(a, b);
+/// Of two in their order.
+[[gnu::always_inline]] inline double apart_until_in_order(const Bodies& bodies, const Known& a,
+                                                          const Known& b, double now) {
   const double end = std::min(a.end, b.end);
   const double sensed = reach_of_pair(bodies, a.number, b.number);
   MovedBound moved(*b.bound, now);
@@ -42,6 +24,25 @@ double apart_until(const Bodies& bodies, Known a, Known b, double now) {
   return until < end ? std::max(until, now) : infinity;
 }
 
+}  // namespace
+
+std::optional<Window> Facts::window_of(std::uint32_t number) const {
+  if (const BodyKick* kick = beside_ ? beside_->last_kick(number) : nullptr) return kick->window;
+  if (!tables_.windows.contains(number)) return std::nullopt;
+  return tables_.windows.window_of(number);
+}
+
+HotPair Facts::hot_pair(double time, std::uint32_t a, std::uint32_t b) const {
+  if (b >= HotPair::renewal) return {time, a, b, stamp_of(a), 0};
+  const auto [first, second] = bodies().table().comes_before(b, a) ? std::pair(b, a) : std::pair(a, b);
+  return {time, first, second, stamp_of(first), stamp_of(second)};
+}
+
+double apart_until(const Bodies& bodies, const Known& a, const Known& b, double now) {
+  return bodies.table().comes_before(b.number, a.number) ? apart_until_in_order(bodies, b, a, now)
+                                                         : apart_until_in_order(bodies, a, b, now);
+}
+
 double Facts::apart_until(std::uint32_t a, std::uint32_t b) const {
   // The same, to the last bit, whoever has found whom.
   if (bodies().table().comes_before(b, a)) std::swap(a, b);
@@ -53,7 +54,7 @@ double Facts::apart_until(std::uint32_t a, std::uint32_t b) const {
     const double until = unchanged_until_by_thresholds(a, b);
     return until < end ? until : infinity;
   }
-  return kinesphere::apart_until(bodies(), one, other, time_);
+  return apart_until_in_order(bodies(), one, other, time_);
 }
 
 double Facts::unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const {

@@ -40,7 +40,7 @@ struct Known {
 
 /// As Facts::apart_until(), of two that may meet and of which one has a window that ends. The same, to the
 /// last bit, in whichever order they are given.
-double apart_until(const Bodies& bodies, Known a, Known b, double now);
+double apart_until(const Bodies& bodies, const Known& a, const Known& b, double now);
 
 /// Reads the tables and, of an island beside others, the capsules that its bodies have got in this part, and
 /// the bodies of other islands as they were when it began.
@@ -94,7 +94,13 @@ class Facts {
  private:
   const Bodies& bodies() const { return tables_.bodies; }
   const ContactBook& book() const { return tables_.book; }
-  Known known(std::uint32_t number) const;
+  Known known(std::uint32_t number) const {
+    const bool repeats = bodies().space().repeats();
+    if (const Kept* const kept = beside_ ? beside_->as_it_began(number) : nullptr)
+      return {number, &kept->body.body.bound, end_of(number), repeats ? &kept->body.home.middle : nullptr};
+    return {number, &bodies()[number].bound, end_of(number),
+            repeats ? &bodies().homes[number].middle : nullptr};
+  }
   std::uint32_t stamp_of(std::uint32_t number) const {
     const Kept* const kept = beside_ ? beside_->as_it_began(number) : nullptr;
     return kept != nullptr ? kept->body.body.stamp : bodies()[number].stamp;
