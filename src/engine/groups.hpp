@@ -24,7 +24,7 @@ struct Group {
   bool failed = false;
   bool is_news = true;  ///< until whoever tells other processes of groups sets it to false
   std::uint32_t attempts = 0;
-  /// Of the bodies that it has counted on, those that had another capsule before.
+  /// Of the bodies that it has counted on, those that others had kicked before.
   std::uint32_t superseded = 0;
   Stretch members{};  ///< of the lists of Groups
   Stretch due{};
