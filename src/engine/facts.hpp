@@ -94,15 +94,19 @@ class Facts {
  private:
   const Bodies& bodies() const { return tables_.bodies; }
   const ContactBook& book() const { return tables_.book; }
+  /// A body of another island that may be changing it now; null for all others.
+  const Kept* as_it_began(std::uint32_t number) const {
+    return beside_ ? beside_->as_it_began(number) : nullptr;
+  }
   Known known(std::uint32_t number) const {
     const bool repeats = bodies().space().repeats();
-    if (const Kept* const kept = beside_ ? beside_->as_it_began(number) : nullptr)
+    if (const Kept* const kept = as_it_began(number))
       return {number, &kept->body.body.bound, end_of(number), repeats ? &kept->body.home.middle : nullptr};
     return {number, &bodies()[number].bound, end_of(number),
             repeats ? &bodies().homes[number].middle : nullptr};
   }
   std::uint32_t stamp_of(std::uint32_t number) const {
-    const Kept* const kept = beside_ ? beside_->as_it_began(number) : nullptr;
+    const Kept* const kept = as_it_began(number);
     return kept != nullptr ? kept->body.body.stamp : bodies()[number].stamp;
   }
 
