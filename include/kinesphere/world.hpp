@@ -413,6 +413,7 @@ class World {
  private:
   friend class Replay;
   class Engine;
+  class Changes;
   class Check;
   class Refresher;
   class Run;
@@ -427,7 +428,7 @@ class World {
   Engine& changeable();
   /// For this change, which has been found to be possible.
   template <class Change>
-  Engine& changing(const Change& change);
+  Changes changing(const Change& change);
   Result<std::optional<Event>> engine_advance(double until, const Probe& probe);
   Result<std::optional<Event>> recorded_advance(double until, const Probe& probe);
   Result<std::optional<Event>> timed_advance(double until, const Probe& probe);

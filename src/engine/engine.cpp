@@ -75,46 +75,11 @@ Activity World::Engine::activity() const {
   return bodies().filters.is_filtering() ? Activity::filtering : Activity::idle;
 }
 
-double World::Engine::finest_length() const {
-  const double tolerance = definition().contact_tolerance;
-  return std::clamp(windows().least_width(), tolerance, 0x1p30 * tolerance);
-}
-
-/// Outside advance(): as Island::probe_stale().
 Result<bool> World::Engine::probe_stale(std::span<const std::uint32_t> numbers, const Probe& ask,
                                         std::string_view call) {
   everybody_.reports().ask(ask, call);
   Shift alone;
   return everybody_.probe_stale(numbers, alone);
-}
-
-/// The body with its last report in the primary box, wherever the engine keeps it.
-BodyView World::Engine::view(std::uint32_t number) const {
-  const Body& body = bodies()[number];
-  const Space& space = bodies().space();
-  BodyView view{bodies().definition_of(number),
-                body.bound,
-                {},
-                time(),
-                {},
-                body.enabled,
-                body.is_fixed(),
-                body.is_resting()};
-  if (windows().contains(number)) {
-    view.box = box(number);
-    view.box_end = windows().end_of(number);
-  }
-  if (!space.repeats()) return view;
-  const auto [position, images] = space.wrapped(body.bound.position);
-  const Vec3 shift = space.shift_of(images);
-  view.definition.position = view.bound.position = position;
-  view.box = {view.box.lower - shift, view.box.upper - shift};
-  for (int axis = 0; axis < 3; ++axis) {
-    constexpr double limit = 0x1p62;
-    view.image[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(
-        std::clamp(bodies().homes[number].image[axis] + images[axis], -limit, limit));
-  }
-  return view;
 }
 
 }  // namespace kinesphere

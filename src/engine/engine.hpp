@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,11 +14,12 @@
 #include <vector>
 
 #include "engine/activity.hpp"
+#include "engine/changes.hpp"
 #include "engine/island.hpp"
 #include "engine/islands.hpp"
+#include "engine/overlaps.hpp"
 #include "engine/pacing.hpp"
 #include "engine/tables.hpp"
-#include "kinesphere/shape.hpp"
 #include "kinesphere/world.hpp"
 
 namespace kinesphere {
@@ -45,28 +45,7 @@ class World::Engine {
   double time() const { return everybody_.time(); }
   Activity activity() const;
 
-  // Changes (changes.cpp). Their input has been checked.
-  void reserve(std::size_t bodies);
-  BodyId add(const BodyDefinition& definition);
-  BodyId add_fixed(const FixedDefinition& definition);
-  void remove(BodyId id);
-  void set_velocity(BodyId id, const Vec3& velocity) { everybody_.kick(id.index, velocity); }
-  void teleport(BodyId id, const State& state);
-  void set_radius(BodyId id, double radius);
-  void set_motion_limits(BodyId id, const MotionLimits& promise);
-  void disable(BodyId id);
-  void enable(BodyId id, const State& state);
-  void rest(BodyId id) { everybody_.rest(id.index); }
-  void wake_up(BodyId id) {
-    if (bodies()[id.index].is_resting()) everybody_.wake(id.index);
-  }
-  void set_filter(BodyId id, const Filter& filter);
-  void set_pair_filter(PairFilter filter);
-  void refilter(BodyId id);
-  void set_solid(BodyId id, bool solid);
-  void set_sensor(SensorClass sensor_class, const Sensor& sensor);
-  void set_sensor_class(BodyId id, SensorClass sensor_class);
-  void set_user_data(BodyId id, std::uint64_t data) { tables_.bodies[id.index].user_data = data; }
+  Changes changes() { return {tables_, everybody_}; }
 
   // What is known at the current time.
   const Bodies& bodies() const { return tables_.bodies; }
@@ -75,33 +54,16 @@ class World::Engine {
   const Island& everybody() const { return everybody_; }
   const WorldDefinition& definition() const { return bodies().definition(); }
   const Counters& counters() const { return everybody_.counters(); }
-  BodyView view(std::uint32_t number) const;
   /// Contains the body, and all that it senses, from now until its window ends.
   Box box(std::uint32_t number) const { return windows().box_of(number, time()); }
-  /// About the size of the smallest bodies (length).
-  double finest_length() const;
   class Answers;
   class Queries;
   std::optional<AuditFinding> audit() const;
   Memory memory() const;
-  std::vector<Certificate> certificates() const;
-  Result<bool> probe_stale(std::span<const std::uint32_t> numbers, const Probe& ask, std::string_view call);
 
-  // overlaps.cpp: bodies that certainly overlap by more than the tolerance now, wherever in their bounds they
-  // are.
-  /// The first other body that certainly overlaps body `id` with this extent and definition, and may touch
-  /// it.
-  std::optional<BodyId> certain_overlap(BodyId id, const Extent& extent,
-                                        const BodyDefinition& definition) const;
-  std::optional<Wall> certain_overlap_of_wall(const Bound& bound) const;
-  /// The first of new bodies that certainly overlaps one before it, and may touch it: as the second of a
-  /// pair, beside the first that it overlaps. Cost: a search for each.
-  std::optional<std::pair<std::size_t, std::size_t>> first_overlap(
-      std::span<const BodyDefinition> added) const;
-  /// Where a body with this definition would be now.
-  Bound bound_now(const BodyDefinition& body) const;
-  /// The body's bound, if its radius and errors were those of `changed`.
-  Bound bound_with(BodyId id, const BodyDefinition& changed) const;
+  Overlaps overlaps() const { return {bodies(), windows(), time()}; }
+  /// As Island::probe_stale(), while no advance() goes on.
+  Result<bool> probe_stale(std::span<const std::uint32_t> numbers, const Probe& ask, std::string_view call);
 
   // snapshot.cpp: the whole state as bytes.
   std::vector<std::byte> save() const;
@@ -115,13 +77,6 @@ class World::Engine {
   Result<void> start_with_arrivals(Shift& shift);
   Result<void> gather();
   Result<void> settle(Shift& shift);
-
-  // changes.cpp
-  void appear(std::uint32_t number, const Bound& bound);
-  void withdraw(std::uint32_t number);
-  void replace(std::uint32_t number, const Bound& bound);
-  void end_contacts(std::uint32_t number, const std::function<bool(const Event&)>& ends);
-  bool may_hold(const Event& event) const;
 
   // snapshot.cpp
   template <class Self, class Archive>

@@ -14,6 +14,19 @@ Box cut_box(const Bodies& bodies, const Shape& shape) {
 
 }  // namespace
 
+Bound bound_now(const BodyDefinition& body, double now) {
+  return bound_of(body, {body.position, body.velocity}, now);
+}
+
+Bound bound_with(const Bodies& bodies, std::uint32_t number, const BodyDefinition& changed, double now) {
+  const Body& body = bodies[number];
+  if (body.fresh(now)) return bound_of(changed, {body.bound.position, body.bound.velocity}, now);
+  // The old promise held until now, and the next report comes before time moves on.
+  Bound bound = body.bound;
+  bound.radius = changed.radius + (bound.radius - body.radius);
+  return bound;
+}
+
 GapLimits gap_at(const Bodies& bodies, double now, const Extent& a, const Extent& b) {
   const auto limits = [now](const Bound& bound, const auto& partner) {
     return gap_limits(bound, partner, now);

@@ -16,6 +16,10 @@ namespace kinesphere {
 inline Extent extent_of(const Bound& bound, const Shape& shape) {
   return {bound, true, std::holds_alternative<Ball>(shape) ? nullptr : &shape};
 }
+/// Of a body with this definition, which is where it says now.
+Bound bound_now(const BodyDefinition& body, double now);
+/// The body's bound, if its radius and errors were those of `changed`.
+Bound bound_with(const Bodies& bodies, std::uint32_t number, const BodyDefinition& changed, double now);
 /// What the body takes up, or would with another bound.
 inline Extent extent_of(const Bodies& bodies, std::uint32_t number, const Bound& bound) {
   if (!bodies[number].is_fixed()) return {bound};

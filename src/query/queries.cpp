@@ -99,6 +99,12 @@ void keep_first_of_each_body(std::vector<Hit>& hits) {
 
 }  // namespace
 
+/// About the size of the smallest bodies (length).
+double World::Engine::Queries::finest_length() const {
+  const double tolerance = engine_.definition().contact_tolerance;
+  return std::clamp(engine_.windows().least_width(), tolerance, 0x1p30 * tolerance);
+}
+
 /// In the image that is nearest to a point.
 Place World::Engine::Queries::place(std::uint32_t number, const Vec3& point) const {
   Place place = place_of(engine_.bodies()[number], now_);
@@ -165,7 +171,7 @@ std::vector<Near> World::Engine::Queries::distances(const std::vector<std::uint3
 /// half edge, and the others are outside the cube.
 std::vector<std::uint32_t> World::Engine::Queries::around(const Vec3& point, std::size_t count) const {
   const double farthest = 8.0 * coordinate_limit(engine_.definition());
-  for (double reach = engine_.finest_length(); reach <= farthest; reach *= 2.0) {
+  for (double reach = finest_length(); reach <= farthest; reach *= 2.0) {
     std::vector<std::uint32_t> numbers = engine_.everybody().bodies_in(box_around(point, point, reach));
     const std::vector<Near> all = distances(numbers, point);
     const auto within =
@@ -234,7 +240,7 @@ std::optional<Hit> World::Engine::Queries::hit(const Way& way, const Box& piece,
 std::vector<Hit> World::Engine::Queries::cast(const Way& way) const {
   std::vector<Hit> hits;
   double sure = infinity;  // something is hit by then
-  const double piece = std::max({way.length / most_pieces, 2.0 * way.radius, engine_.finest_length()});
+  const double piece = std::max({way.length / most_pieces, 2.0 * way.radius, finest_length()});
   std::vector<std::uint32_t> seen;
   for (int k = 0; k < most_pieces && k * piece <= std::min(way.length, sure); ++k) {
     const double end = k + 1 == most_pieces ? way.length : std::min(way.length, (k + 1) * piece);

@@ -27,6 +27,7 @@ class World::Engine::Queries {
   std::vector<Hit> cast(const Way& way) const;
 
  private:
+  double finest_length() const;
   Place place(std::uint32_t number, const Vec3& point) const;
   /// Those whose distance from the region, `distance_to(place centre)`, may be or is below their radius, and
   /// fixed bodies whose shape may have or has no gap to it, `gap_to(shape)`.

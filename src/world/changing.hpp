@@ -7,9 +7,9 @@
 namespace kinesphere {
 
 template <class Change>
-World::Engine& World::changing(const Change& change) {
+World::Changes World::changing(const Change& change) {
   if (recorder_) recorder_->note(change);
-  return changeable();
+  return changeable().changes();
 }
 
 }  // namespace kinesphere

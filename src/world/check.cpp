@@ -106,14 +106,14 @@ Result<void> World::Check::pair(BodyId first, BodyId second) const {
 
 Result<void> World::Check::room(const BodyDefinition& body, BodyId id) const {
   if (definition().allow_overlap) return {};
-  const auto other = engine_->certain_overlap(id, {engine_->bound_now(body)}, body);
+  const auto other = engine_->overlaps().of_body(id, {bound_now(body, engine_->time())}, body);
   return other ? Result<void>(overlap_error(call_, *other, text_of(*other))) : Result<void>();
 }
 
 Result<void> World::Check::fixed_room(const FixedDefinition& fixed, BodyId id) const {
   if (definition().allow_overlap) return {};
-  const Bound bound = engine_->bound_now(body_of(fixed));
-  const auto other = engine_->certain_overlap(id, extent_of(bound, fixed.shape), body_of(fixed));
+  const Bound bound = bound_now(body_of(fixed), engine_->time());
+  const auto other = engine_->overlaps().of_body(id, extent_of(bound, fixed.shape), body_of(fixed));
   return other ? Result<void>(overlap_error(call_, *other, text_of(*other), "shape")) : Result<void>();
 }
 
@@ -128,15 +128,15 @@ Result<void> World::Check::moved(BodyId id, const State& state) const {
 Result<void> World::Check::growth(const BodyDefinition& changed, BodyId id, std::string_view argument) const {
   if (auto valid = reach(changed, id, argument); !valid) return valid;
   const Body& body = engine_->bodies().table()[id.index];
-  const Bound bound = engine_->bound_with(id, changed);
+  const Bound bound = bound_with(engine_->bodies(), id.index, changed, engine_->time());
   if (definition().allow_overlap || !body.enabled || bound.radius <= body.bound.radius) return {};
-  if (const auto wall = engine_->certain_overlap_of_wall(bound)) {
+  if (const auto wall = engine_->overlaps().of_wall(bound)) {
     return Error{ErrorCode::outside_domain, std::string(argument), id,
                  std::string(call_) + ": " + std::string(argument) + " of " + text_of(id) +
                      " must keep the whole sphere in the box, but it would overlap the wall " +
                      std::string(name_of(*wall))};
   }
-  if (const auto other = engine_->certain_overlap(id, {bound}, changed))
+  if (const auto other = engine_->overlaps().of_body(id, {bound}, changed))
     return overlap_error(call_, *other, text_of(*other), argument);
   return {};
 }

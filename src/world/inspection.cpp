@@ -40,17 +40,6 @@ Memory World::Engine::memory() const {
   return memory;
 }
 
-std::vector<Certificate> World::Engine::certificates() const {
-  std::vector<Certificate> all;
-  for (const HotPair& pair : everybody_.hot_pairs()) {
-    if (pair.second == HotPair::renewal) continue;
-    const BodyId other = pair.second == HotPair::walls ? no_body : bodies().id_of(pair.second);
-    const auto [first, second] = std::minmax({bodies().id_of(pair.first), other});
-    all.push_back({first, second, pair.time});
-  }
-  return all;
-}
-
 Memory World::memory() const {
   Memory memory = engine("memory").memory();
   if (recorder_) memory.recording = recorder_->memory();
@@ -65,7 +54,17 @@ std::vector<CellView> World::cells() const {
   return all;
 }
 
-std::vector<Certificate> World::certificates() const { return engine("certificates").certificates(); }
+std::vector<Certificate> World::certificates() const {
+  const Engine& engine = this->engine("certificates");
+  std::vector<Certificate> all;
+  for (const HotPair& pair : engine.everybody().hot_pairs()) {
+    if (pair.second == HotPair::renewal) continue;
+    const BodyId other = pair.second == HotPair::walls ? no_body : engine.bodies().id_of(pair.second);
+    const auto [first, second] = std::minmax({engine.bodies().id_of(pair.first), other});
+    all.push_back({first, second, pair.time});
+  }
+  return all;
+}
 
 Result<void> World::set_timing(bool on) {
   auto valid = Check(*this, "set_timing").idle();

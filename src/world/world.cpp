@@ -11,6 +11,7 @@
 #include "engine/fixed.hpp"
 #include "engine/validation.hpp"
 #include "input/input_check.hpp"
+#include "query/body_view.hpp"
 #include "recording/recorder.hpp"
 #include "world/changing.hpp"
 #include "world/check.hpp"
@@ -77,7 +78,7 @@ Result<void> World::reserve(std::size_t bodies) {
                 .require(bodies <= most, ErrorCode::out_of_range, {"bodies"}, "must be at most", most, bodies)
                 .result();
   }
-  if (valid) changeable().reserve(bodies);
+  if (valid) changeable().changes().reserve(bodies);
   return valid;
 }
 
@@ -95,7 +96,7 @@ Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodie
     }
   }
   if (!engine_->definition().allow_overlap) {
-    if (const auto overlap = engine_->first_overlap(bodies.first(valid)))
+    if (const auto overlap = engine_->overlaps().first_among(bodies.first(valid)))
       return overlap_error(call_for(overlap->second), no_body,
                            "bodies[" + std::to_string(overlap->first) + "]");
   }
@@ -104,7 +105,7 @@ Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodie
   ids.reserve(bodies.size());
   // Room for each of many small batches would be made one by one.
   if (bodies.size() >= engine_->bodies().table().live_count())
-    changeable().reserve(engine_->bodies().table().live_count() + bodies.size());
+    changeable().changes().reserve(engine_->bodies().table().live_count() + bodies.size());
   for (const BodyDefinition& body : bodies) ids.push_back(changing(step::Add{body}).add(body));
   return ids;
 }
@@ -351,7 +352,7 @@ Result<std::vector<std::byte>> World::stop_recording() {
 
 Result<BodyView> World::body(BodyId id) const {
   if (auto valid = Check(*this, "body").known(id); !valid) return valid.error();
-  return engine_->view(id.index);
+  return body_view(engine_->bodies(), engine_->windows(), id.index, engine_->time());
 }
 
 Result<std::vector<BodyId>> World::touching(BodyId body) const {

@@ -1,0 +1,35 @@
+#include "query/body_view.hpp"
+
+#include <algorithm>
+
+namespace kinesphere {
+
+BodyView body_view(const Bodies& bodies, const Windows& windows, std::uint32_t number, double now) {
+  const Body& body = bodies[number];
+  const Space& space = bodies.space();
+  BodyView view{bodies.definition_of(number),
+                body.bound,
+                {},
+                now,
+                {},
+                body.enabled,
+                body.is_fixed(),
+                body.is_resting()};
+  if (windows.contains(number)) {
+    view.box = windows.box_of(number, now);
+    view.box_end = windows.end_of(number);
+  }
+  if (!space.repeats()) return view;
+  const auto [position, images] = space.wrapped(body.bound.position);
+  const Vec3 shift = space.shift_of(images);
+  view.definition.position = view.bound.position = position;
+  view.box = {view.box.lower - shift, view.box.upper - shift};
+  for (int axis = 0; axis < 3; ++axis) {
+    constexpr double limit = 0x1p62;
+    view.image[static_cast<std::size_t>(axis)] =
+        static_cast<std::int64_t>(std::clamp(bodies.homes[number].image[axis] + images[axis], -limit, limit));
+  }
+  return view;
+}
+
+}  // namespace kinesphere

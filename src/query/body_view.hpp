@@ -1,0 +1,14 @@
+// What a world tells of a body.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/room.hpp"
+#include "kinesphere/world.hpp"
+
+namespace kinesphere {
+
+/// The body with its last report in the primary box, wherever the engine keeps it.
+BodyView body_view(const Bodies& bodies, const Windows& windows, std::uint32_t number, double now);
+
+}  // namespace kinesphere
