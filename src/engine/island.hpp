@@ -26,7 +26,6 @@
 
 #include "contact/instant.hpp"
 #include "contact/outlook.hpp"
-#include "engine/answerer.hpp"
 #include "engine/beside.hpp"
 #include "engine/facts.hpp"
 #include "engine/pacing.hpp"
@@ -108,6 +107,7 @@ class alignas(128) Island {
   /// Nothing that was certified about the body holds any more.
   void void_facts(std::uint32_t number);
   /// The body has another velocity from now on.
+  void kick(BodyId body, const Vec3& velocity) { kick(bodies().table().number_of(body), velocity); }
   void kick(std::uint32_t number, const Vec3& velocity);
 
   // Rest (rest.cpp).
@@ -117,7 +117,7 @@ class alignas(128) Island {
 
   // Facts.
   /// At this time.
-  Facts facts() const { return {*tables_, time_, beside_ ? &*beside_ : nullptr}; }
+  Facts facts() const { return {*tables_, time_, beside_}; }
   /// Those that hold, or those of them that a body has a part in.
   std::vector<HotPair> hot_pairs(std::optional<std::uint32_t> number = std::nullopt) const;
   /// Into the agenda and the counters; nothing is left in it.
@@ -142,19 +142,10 @@ class alignas(128) Island {
   Sphere sphere(std::uint32_t number) const { return sphere_at(bodies(), time_, number); }
 
   // Beside other islands (beside.cpp).
-  /// From now on the island is one of those of a phase.
-  /// It begins with pairs that are due, bodies that have to be settled before anything else, and events that
-  /// are known already.
-  void begin(Sea& sea, std::uint32_t own, double now, std::span<const HotPair> due,
-             std::span<const std::uint32_t> unsettled, std::span<const Event> pending);
-  /// Goes on as far as islands go, or to where it claims a body that is not its own. Where they go nowhere,
-  /// it settles what is unsettled.
-  Result<void> go_on(Answerer* answerer);
-  /// What came of it.
-  Outcome end(std::uint32_t worker);
-  /// Its own, and of those before it.
-  Beside& beside() { return beside_ ? *beside_ : beside_.emplace(); }
-  const Beside& beside() const { return *beside_; }
+  /// From now on the island is one of those of a phase, from where its part begins. It begins with pairs that
+  /// are due, bodies that have to be settled before anything else, and events that are known already.
+  void begin(Beside& beside, std::span<const HotPair> due, std::span<const std::uint32_t> unsettled,
+             std::span<const Event> pending);
 
   // The phase.
   /// All windows that hold a body now end at this time or later; those that end before it, of bodies that
@@ -189,7 +180,6 @@ class alignas(128) Island {
   // beside.cpp
   void claim_linked(std::uint32_t number);
   void find_hot_pair_beside(std::uint32_t number, std::uint32_t other);
-  Result<void> answer(const Event& event, Answerer& answerer);
 
   // looking.cpp
   Result<void> look(const HotPair& pair);
@@ -220,7 +210,7 @@ class alignas(128) Island {
   Counters counters_;
   Kicks kicks_;
   Reports reports_;
-  std::optional<Beside> beside_;  ///< unless it has all bodies
+  Beside* beside_ = nullptr;  ///< unless it has all bodies
   // Kept for their memory only.
   std::vector<std::uint32_t> round_;
   FoundPairs found_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <exception>
+#include <tuple>
 #include <utility>
 
 #include "number/infinity.hpp"
@@ -15,23 +16,18 @@ constexpr std::size_t islands_at_once = 8;
 }  // namespace
 
 Islands::Islands(Tables& tables, Island& everybody, Shift& shift, const Probe& probe, Answerer* answerer)
-    : tables_(tables), everybody_(everybody), shift_(shift), answerer_(answerer) {
-  for (std::size_t worker = 0; worker < shift.count(); ++worker) {
-    crew_.emplace_back(tables, everybody.time());
-    crew_.back().agenda().order_by(everybody.agenda().order());
-    crew_.back().reports().ask(probe, "run");
-  }
-}
+    : tables_(tables),
+      everybody_(everybody),
+      shift_(shift),
+      answerer_(answerer),
+      attempts_(tables, everybody, shift.count(), probe, answerer) {}
 
 bool Islands::run(double until, std::deque<Event>& events) {
   const Bodies& bodies = tables_.bodies;
   assert(everybody_.is_settled());
   // What these do reaches beyond an island, or asks the caller's own code in the middle of one.
   if (!bodies.rests.empty() || !bodies.changes.empty() || bodies.filters.has_pair_filter()) return false;
-  if (paused_ > 0) {
-    --paused_;
-    return false;
-  }
+  if (size_.skips_phase()) return false;
   open(take_due(until, infinity));
   const auto all = [](const Group&) { return true; };
   const bool done = are_worth_it() && attempt_all(all);
@@ -41,19 +37,18 @@ bool Islands::run(double until, std::deque<Event>& events) {
     take_back();
   }
   close();
-  pause(done);
+  size_.pause(done);
   if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
   return done;
 }
 
 double Islands::take_due(double until, double latest) {
-  begin_ = everybody_.time();
+  sea_.begin = everybody_.time();
   sea_.phase_end = everybody_.phase_end();
   sea_.until = until;
-  if (most_due_ == 0) most_due_ = std::max(least_due_, tables_.bodies.table().live_count() / 32);
   due_.clear();
   return everybody_.agenda().take_until(
-      until, std::min(sea_.phase_end, latest), most_due_, due_,
+      until, std::min(sea_.phase_end, latest), size_.most_due(tables_.bodies.table().live_count()), due_,
       [facts = everybody_.facts()](const HotPair& pair) { return facts.is_void(pair); });
 }
 
@@ -64,16 +59,11 @@ void Islands::open(double stop) {
       std::partition_point(due_.begin(), due_.end(), [=](const HotPair& pair) { return pair.time < stop; });
   std::for_each(later, due_.end(), [this](const HotPair& pair) { everybody_.agenda().add(pair); });
   due_.erase(later, due_.end());
-  first_runs_ = repeats_ = 0;
+  size_.begin();
   failure_.reset();
-  foreign_kicks_.clear();
-  compared_foreign_kicks_ = 0;
-  kicks_kept_ = 0;
-  compared_.clear();
-  uncompared_.clear();
-  meetings_.clear();
+  attempts_.clear();
+  comparison_.clear();
   late_.clear();
-  for (Island& island : crew_) island.beside().clear();
   groups_.form(due_, tables_.bodies, sea_.places);
   sea_.is_kept.clear();
   // With room for those that are claimed, so that the list rarely has to grow while something is in it.
@@ -89,24 +79,6 @@ void Islands::open(double stop) {
 void Islands::close() {
   groups_.clear();
   tables_.book.stop_side_by_side();
-}
-
-/// In a short part few kicked bodies meet others; in a long one each body is copied once for many pairs.
-void Islands::choose_part() {
-  if (16 * repeats_ < first_runs_) {
-    most_due_ = std::min(2 * most_due_, std::max(least_due_, tables_.bodies.table().live_count()));
-  } else if (6 * repeats_ > first_runs_) {
-    most_due_ = std::max(most_due_ / 2, least_due_);
-  }
-}
-
-/// If the islands of a part that could not be shorter ran again and again, nobody runs any for some phases:
-/// for more and more of them, as long as it turns out to be so.
-void Islands::pause(bool done) {
-  constexpr int longest = 31;
-  const bool repeat_much = 3 * repeats_ > first_runs_ && (!done || most_due_ == least_due_);
-  if (first_runs_ > 0) pause_ = repeat_much ? std::min(2 * pause_ + 1, longest) : 0;
-  paused_ = pause_;
 }
 
 /// There are enough, and most of the work is not in one of them.
@@ -152,45 +124,11 @@ void Islands::add(const Beginning& more) {
     group_with({tables_.bodies.table().number_of(event.first)}).pending.push_back(event);
 }
 
-/// Lists forget what groups have done that were taken back since, when that is most of what they have.
-void Islands::forget_taken_back() {
-  constexpr std::size_t few = 1 << 12;
-  std::size_t all = 0;
-  for (const Island& island : crew_) all += island.beside().kicks.all().size();
-  if (all < 2 * kicks_kept_ + few) return;
-  kicks_kept_ = 0;
-  for (const Group& group : groups_.all()) kicks_kept_ += kicks_of(group).size();
-  if (all < 2 * kicks_kept_ + few) return;
-  for (std::uint32_t worker = 0; worker < crew_.size(); ++worker) {
-    Beside& beside = crew_[worker].beside();
-    Beside kept;
-    for (Group& group : groups_.all()) {
-      Outcome& outcome = group.outcome;
-      if (!group.attempted || outcome.worker != worker) continue;
-      const std::uint32_t first_kick = outcome.kicks.begin;
-      outcome.told = kept.told.add(beside.told, outcome.told);
-      outcome.kicks = kept.kicks.add(beside.kicks, outcome.kicks);
-      outcome.left = kept.left.add(beside.left, outcome.left);
-      outcome.counted_on = kept.counted_on.add(beside.counted_on, outcome.counted_on);
-      outcome.turned = kept.turned.add(beside.turned, outcome.turned);
-      outcome.claims = {};
-      kept.works.push_back(beside.works[outcome.work]);
-      outcome.work = static_cast<std::uint32_t>(kept.works.size() - 1);
-      for (const std::uint32_t number : members_of(group)) {
-        std::uint32_t& kick = sea_.places[number].kick;
-        if (kick != Sea::none) kick = outcome.kicks.begin + (kick - first_kick);
-      }
-    }
-    beside = std::move(kept);
-  }
-}
-
 /// False when one of them has failed, or so many run again and again that others had better do it.
 bool Islands::attempt_found() {
   if (thrown_) return false;
-  constexpr std::size_t too_often = 8;
-  if (may_leave_some() && repeats_ > too_often * first_runs_) return false;
-  forget_taken_back();
+  if (size_.repeats_too_often()) return false;
+  attempts_.forget_taken_back(groups_, sea_);
   assert(sea_.places.size() == tables_.bodies.numbers());
   sea_.is_kept.resize(groups_.kept(), 0);
   if (sea_.kept.size() < groups_.kept()) sea_.kept.resize(groups_.kept());
@@ -200,7 +138,7 @@ bool Islands::attempt_found() {
                         [this](std::uint32_t own) { return groups_[own].due.size() >= large; });
   for (const std::uint32_t own : again_) {
     Group& group = groups_[own];
-    (std::exchange(group.has_run, true) ? repeats_ : first_runs_) += group.due.size();
+    size_.note_run(group.due.size(), std::exchange(group.has_run, true));
   }
   try {
     shift_.for_each(again_.size(), islands_at_once, [this](std::size_t begin, std::size_t end, std::size_t) {
@@ -208,8 +146,10 @@ bool Islands::attempt_found() {
     });
     shift_.for_each(again_.size(), islands_at_once,
                     [this](std::size_t begin, std::size_t end, std::size_t worker) {
-                      for (std::size_t k = begin; k < end; ++k)
-                        attempt(again_[k], static_cast<std::uint32_t>(worker));
+                      for (std::size_t k = begin; k < end; ++k) {
+                        Group& group = groups_[again_[k]];
+                        attempts_.run(group, due_of(group), sea_, static_cast<std::uint32_t>(worker));
+                      }
                     });
   } catch (const std::exception& thrown) {
     // It comes again where events are answered one by one, if it comes again.
@@ -219,34 +159,14 @@ bool Islands::attempt_found() {
     failure_ = Error{ErrorCode::callback_threw, "callback", no_body, "something that is no std::exception"};
     return false;
   }
-  uncompared_.insert(uncompared_.end(), again_.begin(), again_.end());
+  comparison_.note_runs(again_);
   for (const std::uint32_t own : again_) {
     if (!groups_[own].failed) continue;
     // None where it had to stop; and where that was not so, it is the first of its worker that failed.
-    failure_ = crew_[groups_[own].outcome.worker].beside().failure;
+    failure_ = attempts_.failure_of(groups_[own]);
     return false;
   }
   return true;
-}
-
-void Islands::attempt(std::uint32_t own, std::uint32_t worker) {
-  Group& group = groups_[own];
-  Island& island = crew_[worker];
-  group.again = false;
-  group.attempted = group.is_news = true;
-  ++group.attempts;
-  group.kicks_are_compared = false;
-  group.failed = true;
-  island.begin(sea_, own, begin_, groups_.due_of(group), group.unsettled, group.pending);
-  try {
-    const auto gone = island.go_on(answerer_);
-    group.failed = !gone || island.beside().is_full();
-    if (!gone && !island.beside().failure) island.beside().failure = gone.error();
-  } catch (...) {
-    group.outcome = island.end(worker);
-    throw;
-  }
-  group.outcome = island.end(worker);
 }
 
 /// As the bodies are when the part begins. Others may look at that while the group runs.
@@ -316,9 +236,7 @@ void Islands::join(Group& one, Group& other) {
 bool Islands::join_claims() {
   bool any = false;
   for (const std::uint32_t own : again_) {
-    const Stretch claims = groups_[own].outcome.claims;
-    const Beside& beside = crew_[groups_[own].outcome.worker].beside();
-    for (const std::uint32_t number : claims.of(beside.claims.all())) {
+    for (const std::uint32_t number : attempts_.claims_of(groups_[own])) {
       any = true;
       Group* const theirs = group_of(number);
       if (theirs != nullptr) {
@@ -343,7 +261,7 @@ bool Islands::join_counted_on() {
                         const Kept* const before = kept(number);
                         if (before == nullptr) continue;
                         // Its new capsule is held against those of others by itself.
-                        if (before->since.kick < time && may_leave_some()) {
+                        if (before->since.kick < time && size_.may_leave_some()) {
                           ++group.superseded;
                         } else if (before->since.change <= time) {
                           found[worker].emplace_back(group.own, number);
@@ -364,46 +282,33 @@ bool Islands::join_counted_on() {
   return any;
 }
 
+/// Of two bodies as they are after these kicks.
+HotPair Islands::pair_of(const BodyKick& kick, const BodyKick& other, double until) const {
+  const bool in_order = tables_.bodies.table().comes_before(kick.number, other.number);
+  const auto& [first, second] = in_order ? std::tie(kick, other) : std::tie(other, kick);
+  return {until, first.number, second.number, first.stamp, second.stamp};
+}
+
 /// Joins groups of which kicked bodies may meet. True when some have to run again.
 bool Islands::join_kicks() {
   std::vector<GroupKick> kicks;
-  const auto add = [&](const Group& group) {
-    for (const BodyKick& kick : kicks_of(group)) kicks.push_back({group.own, &kick});
-  };
-  std::erase_if(compared_, [this](std::uint32_t own) {
-    return groups_[own].joined() || !groups_[own].attempted || !groups_[own].kicks_are_compared;
-  });
-  const std::size_t before = compared_.size();
-  for (const std::uint32_t own : std::exchange(uncompared_, {})) {
-    Group& group = groups_[own];
-    if (group.joined() || !group.attempted || group.kicks_are_compared) continue;
-    group.kicks_are_compared = true;
-    compared_.push_back(own);
-    add(group);
-  }
-  for (std::size_t k = compared_foreign_kicks_; k < foreign_kicks_.size(); ++k)
-    kicks.push_back({Sea::nobody, &foreign_kicks_[k]});
-  const std::size_t fresh = kicks.size();
-  for (std::size_t k = 0; k < before; ++k) add(groups_[compared_[k]]);
-  for (std::size_t k = 0; k < compared_foreign_kicks_; ++k)
-    kicks.push_back({Sea::nobody, &foreign_kicks_[k]});
-  compared_foreign_kicks_ = foreign_kicks_.size();
+  const std::size_t fresh = comparison_.take(groups_, attempts_, kicks);
   if (fresh == 0) return false;
   bool any = false;
-  for (const auto& [a, b, until, is_void] : meetings(tables_, kicks, fresh, begin_, shift_)) {
+  for (const auto& [a, b, until, is_void] : meetings(tables_, kicks, fresh, sea_.begin, shift_)) {
     const auto [own, foreign] = kicks[a].own == Sea::nobody ? std::pair(b, a) : std::pair(a, b);
     if (kicks[foreign].own == Sea::nobody) {
       // That body stands for its group, which is not here.
       const std::uint32_t number = kicks[foreign].kick->number;
-      if (sea_.places[number].island != kicks[own].own) meetings_.emplace_back(kicks[own].own, number);
+      if (sea_.places[number].island != kicks[own].own) comparison_.note_meeting(kicks[own].own, number);
       continue;
     }
     Group& one = groups_.root_of(kicks[a].own);
     Group& other = groups_.root_of(kicks[b].own);
     if (&one == &other) continue;
     // Processes tell each other of what is left of each group, not of what is between two.
-    if (until != Meeting::unknown && !sea_.comes(until) && may_leave_some()) {
-      if (!is_void) note_late(one, *kicks[a].kick, other, *kicks[b].kick, until);
+    if (until != Meeting::unknown && !sea_.comes(until) && size_.may_leave_some()) {
+      if (!is_void) late_.note(one, other, pair_of(*kicks[a].kick, *kicks[b].kick, until));
       continue;
     }
     join(one, other);
@@ -412,44 +317,16 @@ bool Islands::join_kicks() {
   return any;
 }
 
-/// Two kicked bodies that have to be looked at when the part is over, if they are not kicked again in it.
-void Islands::note_late(const Group& one, const BodyKick& kick, const Group& other,
-                        const BodyKick& other_kick, double until) {
-  const bool in_order = tables_.bodies.table().comes_before(kick.number, other_kick.number);
-  const BodyKick& first = in_order ? kick : other_kick;
-  const BodyKick& second = in_order ? other_kick : kick;
-  late_.push_back({one.own,
-                   one.attempts,
-                   other.own,
-                   other.attempts,
-                   {until, first.number, second.number, first.stamp, second.stamp}});
-}
-
-/// As if one of the two had found the other, if none of the two groups has been taken back since.
-void Islands::finish_late() {
-  const auto stands = [this](std::uint32_t own, std::uint32_t attempt) {
-    const Group& group = groups_[own];
-    return !group.joined() && group.attempted && group.attempts == attempt;
-  };
-  for (const Late& late : late_) {
-    if (!stands(late.one, late.attempt_of_one) || !stands(late.other, late.attempt_of_other)) continue;
-    everybody_.add_kicks({0, 1});
-    ++everybody_.counters().hot_pairs;
-    left_.push_back(late.pair);
-  }
-}
-
 void Islands::finish(const Group& group, bool is_counted, std::vector<const Told*>& told) {
-  const Beside& beside = crew_[group.outcome.worker].beside();
   if (is_counted) {
-    const Work& work = beside.works[group.outcome.work];
+    const Work& work = attempts_.work_of(group);
     everybody_.counters() += work.counters;
     everybody_.add_kicks({work.settled.bodies, work.settled.near - group.superseded});
     everybody_.counters().hot_pairs -= group.superseded;
   }
   const std::span<const HotPair> left = left_of(group);
   left_.insert(left_.end(), left.begin(), left.end());
-  for (const Told& one : group.outcome.told.of(beside.told.all())) told.push_back(&one);
+  for (const Told& one : attempts_.told_by(group)) told.push_back(&one);
   if (!tables_.bodies.shapes.any()) return;
   for (const std::uint32_t number : members_of(group))
     tables_.book.tell_fixed(number, sea_.kept[sea_.places[number].kept].contacts);
@@ -457,7 +334,12 @@ void Islands::finish(const Group& group, bool is_counted, std::vector<const Told
 
 void Islands::finish(std::vector<const Told*>& told) {
   register_kicks();
-  finish_late();
+  // As if one of the two had found the other.
+  late_.for_each_left(groups_, [this](const HotPair& pair) {
+    everybody_.add_kicks({0, 1});
+    ++everybody_.counters().hot_pairs;
+    left_.push_back(pair);
+  });
   everybody_.leave_unsettled();
   everybody_.agenda().add_all(left_);
   std::sort(told.begin(), told.end(), [](const Told* a, const Told* b) {
@@ -465,7 +347,7 @@ void Islands::finish(std::vector<const Told*>& told) {
     return a->round != b->round ? a->round < b->round : delivered_before(a->event, b->event);
   });
   everybody_.move_on_to(std::min(sea_.until, sea_.stop));
-  choose_part();
+  size_.adapt(tables_.bodies.table().live_count());
 }
 
 /// Bodies have the capsules that they got: also those that start anew when the part is over, since queries

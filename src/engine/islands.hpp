@@ -26,9 +26,12 @@
 #include <utility>
 #include <vector>
 
+#include "engine/attempts.hpp"
 #include "engine/groups.hpp"
 #include "engine/island.hpp"
-#include "engine/meetings.hpp"
+#include "engine/kick_comparison.hpp"
+#include "engine/late_pairs.hpp"
+#include "engine/part_size.hpp"
 #include "parallel/crew.hpp"
 
 namespace kinesphere {
@@ -80,28 +83,20 @@ class Islands {
   std::span<const std::uint32_t> members_of(const Group& group) const { return groups_.members_of(group); }
   std::span<const HotPair> due_of(const Group& group) const { return groups_.due_of(group); }
   // What came of a group in the last attempt; nothing, if it has been taken back.
-  std::span<const BodyKick> kicks_of(const Group& group) const {
-    return of(group, &Beside::kicks, &Outcome::kicks);
-  }
-  std::span<const HotPair> left_of(const Group& group) const {
-    return of(group, &Beside::left, &Outcome::left);
-  }
+  std::span<const BodyKick> kicks_of(const Group& group) const { return attempts_.kicks_of(group); }
+  std::span<const HotPair> left_of(const Group& group) const { return attempts_.left_of(group); }
   std::span<const CountedOn> counted_on_of(const Group& group) const {
-    return of(group, &Beside::counted_on, &Outcome::counted_on);
+    return attempts_.counted_on_of(group);
   }
-  std::span<const Turn> turned_of(const Group& group) const {
-    return of(group, &Beside::turned, &Outcome::turned);
-  }
+  std::span<const Turn> turned_of(const Group& group) const { return attempts_.turned_of(group); }
   /// These bodies have to be in one island.
   void join_bodies(std::span<const std::uint32_t> numbers);
   /// Bodies have become known meanwhile, and may bring these along.
   void add(const Beginning& more);
   /// A body that another process kicks: take_meetings() tells which islands here may meet it.
-  void add_foreign_kick(const BodyKick& kick) { foreign_kicks_.push_back(kick); }
+  void add_foreign_kick(const BodyKick& kick) { comparison_.add_foreign(kick); }
   /// Groups, and kicked bodies of others that they may meet.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> take_meetings() {
-    return std::exchange(meetings_, {});
-  }
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> take_meetings() { return comparison_.take_meetings(); }
   /// The island has to run again, from where the part began.
   void run_again(std::uint32_t own) {
     take_back(groups_[own]);
@@ -127,38 +122,15 @@ class Islands {
   void close();
   /// All is done by islands, however long they take and however few pairs are due.
   void leave_nothing() {
-    sea_.most_kicks = no_limit;
-    least_due_ = 8;
+    sea_.most_kicks = std::numeric_limits<std::size_t>::max();
+    size_.leave_nothing();
   }
 
  private:
-  static constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
-
-  /// A pair of which two groups have one body each, which is due when the part is over: as these attempts
-  /// have it.
-  struct Late {
-    std::uint32_t one;
-    std::uint32_t attempt_of_one;
-    std::uint32_t other;
-    std::uint32_t attempt_of_other;
-    HotPair pair;
-  };
-
-  /// Not after leave_nothing().
-  bool may_leave_some() const { return sea_.most_kicks < no_limit; }
-  template <class T>
-  std::span<const T> of(const Group& group, Listing<T> Beside::*list, Stretch Outcome::*stretch) const {
-    if (!group.attempted) return {};
-    return (group.outcome.*stretch).of((crew_[group.outcome.worker].beside().*list).all());
-  }
   bool are_worth_it() const;
   template <class FindAgain>
   bool go_through(FindAgain find_again);
   bool attempt_found();
-  void forget_taken_back();
-  void choose_part();
-  void pause(bool done);
-  void attempt(std::uint32_t own, std::uint32_t worker);
   void keep(const Group& group);
   void take_back(Group& group);
   void set_out_again(const Turn& turn);
@@ -166,11 +138,9 @@ class Islands {
   void join(Group& one, Group& other);
   bool join_claims();
   bool join_counted_on();
+  HotPair pair_of(const BodyKick& kick, const BodyKick& other, double until) const;
   bool join_kicks();
   void finish(const Group& group, bool is_counted, std::vector<const Told*>& told);
-  void note_late(const Group& one, const BodyKick& kick, const Group& other, const BodyKick& other_kick,
-                 double until);
-  void finish_late();
   void finish(std::vector<const Told*>& told);
   void register_kicks();
 
@@ -178,29 +148,18 @@ class Islands {
   Island& everybody_;
   Shift& shift_;
   Answerer* answerer_;
-  std::vector<Island> crew_;  ///< by worker
+  PartSize size_;
+  // Of the part.
   Sea sea_;
-  double begin_ = 0.0;
-  std::size_t least_due_ = 128;  ///< in a part: fewer are not worth the while
-  std::size_t most_due_ = 0;     ///< in a part
-  std::size_t first_runs_ = 0;   ///< pairs that were due in groups when these first ran in this part
-  std::size_t repeats_ = 0;      ///< the same when they ran again
-  int pause_ = 0;                ///< so many phases without islands
-  int paused_ = 0;               ///< that are still to come
   Groups groups_;
-  std::vector<std::uint32_t> again_;
-  // Groups whose kicks have been held against all others, and those that have run since.
-  std::vector<std::uint32_t> compared_;
-  std::vector<std::uint32_t> uncompared_;
+  Attempts attempts_;
+  KickComparison comparison_;
+  LatePairs late_;
   std::vector<HotPair> due_;
-  std::vector<HotPair> left_;
-  std::size_t kicks_kept_ = 0;  ///< in the lists, when these were looked through
+  std::vector<HotPair> left_;         ///< that go back into everybody's agenda
+  std::vector<std::uint32_t> again_;  ///< groups that run next
   std::optional<Error> failure_;
   std::exception_ptr thrown_;  ///< by a mover that was to go back
-  std::vector<BodyKick> foreign_kicks_;
-  std::size_t compared_foreign_kicks_ = 0;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> meetings_;
-  std::vector<Late> late_;
 };
 
 template <class FindAgain>
@@ -208,7 +167,7 @@ bool Islands::go_through(FindAgain find_again) {
   for (;;) {
     again_.clear();
     find_again();
-    if (again_.empty() && compared_foreign_kicks_ == foreign_kicks_.size()) return true;
+    if (again_.empty() && !comparison_.has_new_foreign()) return true;
     if (!attempt_found()) return false;
     if (!join_claims()) join_kicks();
   }

@@ -39,6 +39,7 @@ struct Sea {
   // By Place::kept. All bodies of islands are kept before these run.
   std::vector<Kept> kept;
   std::vector<std::uint8_t> is_kept;
+  double begin = 0.0;  ///< of the part
   double phase_end = 0.0;
   double stop = 0.0;   ///< islands go up to here,
   double until = 0.0;  ///< and no further than this
