@@ -218,7 +218,7 @@ Result<std::uint32_t> DistributedWorld::Domain::install(Parcel& parcel) {
   tables_.book.put_back_alone(number, parcel.contacts);
   if (body.dirty) {
     body.dirty = false;
-    everybody_.mark_dirty(number);
+    everybody_.unsettled().add(bodies(), number);
   }
   return number;
 }

@@ -95,9 +95,8 @@ Result<std::vector<std::byte>> DistributedWorld::Domain::save() {
   checkpoint.tempo = tempo.take();
   checkpoint.sensors = bodies().sensors;
   checkpoint.phase_end = everybody_.phase_end();
-  checkpoint.kicks = everybody_.take_kicks();
-  everybody_.add_kicks(checkpoint.kicks);
-  checkpoint.counters = everybody_.counters();
+  checkpoint.kicks = everybody_.work().settled;
+  checkpoint.counters = everybody_.work().counters;
   checkpoint.hash = hash_.parts();
   std::vector<std::uint32_t> numbers;
   const auto written = guarded([&]() -> Result<void> {
@@ -178,8 +177,8 @@ Result<void> DistributedWorld::Domain::resume(const Checkpoint& common, std::vec
   bodies().sensors = common.sensors;
   std::vector<Parcel> parcels;
   for (Checkpoint& part : parts) {
-    everybody_.add_kicks(part.kicks);
-    everybody_.counters() += part.counters;
+    everybody_.work().settled += part.kicks;
+    everybody_.work().counters += part.counters;
     hash_ += EventHash::of(part.hash);
     std::move(part.parcels.begin(), part.parcels.end(), std::back_inserter(parcels));
   }

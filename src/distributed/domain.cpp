@@ -19,7 +19,7 @@ DistributedWorld::Domain::Domain(const WorldDefinition& definition, Motion& moti
       partition_(communicator_.ranks()),
       known_(ranks()) {
   tables_.book.find_numbers_in_tags();
-  everybody_.order_by_names();
+  everybody_.agenda().order_by(HotPairOrder(bodies().table().names()));
   for (int rank = 0; rank < communicator_.ranks(); ++rank)
     known_[static_cast<std::size_t>(rank)].begin(partition_.region_of(rank));
 }

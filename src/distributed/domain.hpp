@@ -50,7 +50,7 @@ class DistributedWorld::Domain final : private Answerer, private Mover {
                                                  Motion& motion);
 
   std::uint64_t own_bodies() const { return roster_.size() - copies_.size(); }
-  const Counters& counters() const { return everybody_.counters(); }
+  const Counters& counters() const { return everybody_.work().counters; }
   const EventHash& hash() const { return hash_; }
   RankFigures figures() const;
 

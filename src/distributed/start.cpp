@@ -75,7 +75,7 @@ std::size_t DistributedWorld::Domain::moving_copies() const {
 
 /// As World::Engine::start_with_arrivals() and what follows it.
 Result<void> DistributedWorld::Domain::settle_arrivals(Shift& shift) {
-  std::vector<std::uint32_t> arrived = everybody_.arrivals();
+  std::vector<std::uint32_t> arrived = everybody_.unsettled().arrivals(bodies());
   const Windows& windows = tables_.windows;
   std::uint64_t sums[] = {arrived.size(), windows.size() - registered_copies(),
                           windows.moving() - moving_copies()};
@@ -150,16 +150,16 @@ Result<void> DistributedWorld::Domain::start_windows(Shift& shift, bool all,
   const bool most = 2 * (sums[0] + sums[1]) > sums[2];
   if (auto probed = agree(guarded([&] { return starting.refresh(numbers); })); !probed) return probed;
   if (most) {
-    const Kicks here = everybody_.take_kicks();
+    const Kicks here = std::exchange(everybody_.work().settled, {});
     std::uint64_t kicks[] = {here.bodies, here.near};
     communicator_.sum(kicks);
     tempo.start_main(now, {kicks[0], kicks[1]});
   }
   windows.end_windows(now, all);
   std::erase_if(numbers, [this](std::uint32_t number) { return bodies()[number].dirty; });
-  if (rank() == 0) ++everybody_.counters().window_ends;
-  everybody_.counters().starts += numbers.size();
-  everybody_.counters().restarts += joining.size();
+  if (rank() == 0) ++everybody_.work().counters.window_ends;
+  everybody_.work().counters.starts += numbers.size();
+  everybody_.work().counters.restarts += joining.size();
   for (const std::uint32_t number : joining) {
     if (windows.contains(number)) windows.leave(number);
     numbers.push_back(number);

@@ -28,21 +28,23 @@ void Attempts::run(Group& group, std::span<const HotPair> due, Sea& sea, std::ui
   group.failed = true;
   beside.begin(sea, group.own);
   island.begin(beside, due, group.unsettled, group.pending);
-  const auto end = [&, &the_island = island, &lists = beside] {
-    the_island.agenda().for_each([&](const HotPair& pair) {
-      if (!the_island.facts().is_void(pair)) lists.left.add(pair);
-    });
-    return lists.end(worker, {the_island.counters(), the_island.take_kicks()});
-  };
   try {
     const auto gone = go_on(runners_[worker]);
     group.failed = !gone || beside.is_full();
     if (!gone && !beside.failure) beside.failure = gone.error();
   } catch (...) {
-    group.outcome = end();
+    group.outcome = end(runners_[worker], worker);
     throw;
   }
-  group.outcome = end();
+  group.outcome = end(runners_[worker], worker);
+}
+
+Outcome Attempts::end(Runner& runner, std::uint32_t worker) {
+  const Facts facts = runner.island.facts();
+  runner.island.agenda().for_each([&](const HotPair& pair) {
+    if (!facts.is_void(pair)) runner.beside.left.add(pair);
+  });
+  return runner.beside.end(worker, runner.island.work());
 }
 
 /// As World::Engine::advance(), but that no windows start. Where islands go nowhere, it settles what is

@@ -60,6 +60,7 @@ class Attempts {
     Beside beside{};
   };
 
+  static Outcome end(Runner& runner, std::uint32_t worker);
   Result<void> go_on(Runner& runner);
   Result<void> answer(Runner& runner, const Event& event);
   const Beside& lists_of(const Group& group) const { return runners_[group.outcome.worker].beside; }

@@ -16,10 +16,9 @@ void Island::begin(Beside& beside, std::span<const HotPair> due, std::span<const
   for (const HotPair& pair : due) agenda_.add(pair);
   instant_.clear();
   for (const Event& event : pending) instant_.announce(event);
-  dirty_.assign(unsettled.begin(), unsettled.end());
+  unsettled_.assign(unsettled);
   gathering_ = true;
-  counters_ = {};
-  kicks_ = {};
+  work_ = {};
 }
 
 /// Whom the body touches or senses, the island has to have too.

@@ -58,7 +58,7 @@ using Turn = std::pair<BodyId, Departure>;
 /// What an island has done that is only counted.
 struct Work {
   Counters counters{};
-  Kicks settled{};
+  Kicks settled{};  ///< bodies that were settled one by one
 };
 
 /// Where something stands in a list.

@@ -100,7 +100,7 @@ class Bodies {
   const char* contradiction(double now, const std::vector<std::uint32_t>& dirty) const;
 
   // Parts of the bodies. What concerns the table too is done by the functions above.
-  Changes changes;
+  WaitingChanges changes;
   Rests rests;
   Filters filters;
   std::vector<Home> homes;  ///< by number; empty unless space repeats

@@ -8,7 +8,7 @@ void World::Changes::reserve(std::size_t bodies) {
   tables_.bodies.reserve(bodies);
   tables_.book.reserve(bodies);
   tables_.windows.reserve(bodies);
-  everybody_.reserve(bodies);
+  everybody_.unsettled().reserve(bodies);
 }
 
 BodyId World::Changes::add(const BodyDefinition& definition) {
@@ -55,14 +55,14 @@ void World::Changes::withdraw(std::uint32_t number) {
 
 void World::Changes::end_contacts(std::uint32_t number, const std::function<bool(const Event&)>& ends) {
   everybody_.instant().end_contacts(
-      tables_.book, number, time(), [this](std::uint32_t other) { return everybody_.sphere(other); },
-      bodies().walls(), ends);
+      tables_.book, number, time(),
+      [this](std::uint32_t other) { return sphere_at(bodies(), time(), other); }, bodies().walls(), ends);
 }
 
 void World::Changes::remove(BodyId id) {
   const std::uint32_t number = id.index;
-  if (bodies()[number].is_resting()) everybody_.resume(number);
-  everybody_.wake(number);
+  if (bodies()[number].is_resting()) resting().resume(number);
+  resting().wake(number);
   withdraw(number);
   tables_.bodies.remove(number);
 }
@@ -85,7 +85,7 @@ void World::Changes::replace(std::uint32_t number, const Bound& bound) {
 }
 
 void World::Changes::teleport(BodyId id, const State& state) {
-  everybody_.wake(id.index);
+  resting().wake(id.index);
   if (bodies().definition().contacts == ContactMode::impacts) tables_.book.release_all(id.index);
   tables_.bodies.count_images_anew(id.index);
   replace(id.index, bound_of(bodies().definition_of(id.index), state, time()));
@@ -93,7 +93,7 @@ void World::Changes::teleport(BodyId id, const State& state) {
 }
 
 void World::Changes::set_radius(BodyId id, double radius) {
-  if (bodies()[id.index].enabled) everybody_.wake(id.index);
+  if (bodies()[id.index].enabled) resting().wake(id.index);
   BodyDefinition changed = bodies().definition_of(id.index);
   changed.radius = radius;
   if (bodies()[id.index].enabled) replace(id.index, bound_with(bodies(), id.index, changed, time()));
@@ -102,7 +102,7 @@ void World::Changes::set_radius(BodyId id, double radius) {
 
 void World::Changes::set_motion_limits(BodyId id, const MotionLimits& promise) {
   Body& body = tables_.bodies[id.index];
-  if (body.is_resting()) everybody_.wake(id.index);
+  if (body.is_resting()) resting().wake(id.index);
   const BodyDefinition changed = with_motion_limits(bodies().definition_of(id.index), promise);
   if (body.enabled) replace(id.index, bound_with(bodies(), id.index, changed, time()));
   body.position_error = promise.position_error;
@@ -114,8 +114,8 @@ void World::Changes::set_motion_limits(BodyId id, const MotionLimits& promise) {
 void World::Changes::disable(BodyId id) {
   Body& body = tables_.bodies[id.index];
   // It will come back awake.
-  if (body.is_resting()) everybody_.resume(id.index);
-  everybody_.wake(id.index);
+  if (body.is_resting()) resting().resume(id.index);
+  resting().wake(id.index);
   withdraw(id.index);
   body.enabled = false;
 }

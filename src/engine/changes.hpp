@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "engine/island.hpp"
+#include "engine/rest.hpp"
 #include "engine/tables.hpp"
 #include "kinesphere/shape.hpp"
 #include "kinesphere/world.hpp"
@@ -27,9 +28,9 @@ class World::Changes {
   void set_motion_limits(BodyId id, const MotionLimits& promise);
   void disable(BodyId id);
   void enable(BodyId id, const State& state);
-  void rest(BodyId id) { everybody_.rest(id.index); }
+  void rest(BodyId id) { resting().rest(id.index); }
   void wake_up(BodyId id) {
-    if (bodies()[id.index].is_resting()) everybody_.wake(id.index);
+    if (bodies()[id.index].is_resting()) resting().wake(id.index);
   }
   void set_filter(BodyId id, const Filter& filter);
   void set_pair_filter(PairFilter filter);
@@ -42,6 +43,7 @@ class World::Changes {
  private:
   const Bodies& bodies() const { return tables_.bodies; }
   double time() const { return everybody_.time(); }
+  Resting resting() { return {tables_, everybody_}; }
   void appear(std::uint32_t number, const Bound& bound);
   void withdraw(std::uint32_t number);
   void replace(std::uint32_t number, const Bound& bound);

@@ -10,9 +10,7 @@ namespace kinesphere {
 World::Engine::Engine(const WorldDefinition& definition)
     : tables_(definition), everybody_(tables_, definition.start_time) {}
 
-World::Engine::Engine(const Engine& other) : tables_(other.tables_), everybody_(other.everybody_) {
-  everybody_.attach(tables_);
-}
+World::Engine::Engine(const Engine& other) : tables_(other.tables_), everybody_(other.everybody_, tables_) {}
 
 Result<std::optional<Event>> World::Engine::advance(double until, const Probe& probe) {
   everybody_.reports().ask(probe, "advance");
@@ -64,7 +62,7 @@ Result<void> World::Engine::gather() {
 /// Where many have arrived, all others start anew with them; else each is settled by itself.
 Result<void> World::Engine::settle(Shift& shift) {
   everybody_.settle_changed();
-  if (!everybody_.dirty().empty()) {
+  if (!everybody_.unsettled().empty()) {
     if (auto started = start_with_arrivals(shift); !started) return started;
   }
   return everybody_.settle();
@@ -73,6 +71,16 @@ Result<void> World::Engine::settle(Shift& shift) {
 Activity World::Engine::activity() const {
   if (everybody_.reports().is_asking()) return Activity::probing;
   return bodies().filters.is_filtering() ? Activity::filtering : Activity::idle;
+}
+
+std::vector<HotPair> World::Engine::hot_pairs(std::optional<std::uint32_t> number) const {
+  std::vector<HotPair> pairs;
+  const Facts facts = everybody_.facts();
+  everybody_.agenda().for_each([&](const HotPair& pair) {
+    const bool asked = !number || pair.first == *number || pair.second == *number;
+    if (asked && !facts.is_void(pair)) pairs.push_back(pair);
+  });
+  return pairs;
 }
 
 Result<bool> World::Engine::probe_stale(std::span<const std::uint32_t> numbers, const Probe& ask,

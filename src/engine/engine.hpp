@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/activity.hpp"
+#include "engine/bodies_in.hpp"
 #include "engine/changes.hpp"
 #include "engine/island.hpp"
 #include "engine/islands.hpp"
@@ -52,8 +53,14 @@ class World::Engine {
   const ContactBook& book() const { return tables_.book; }
   const Windows& windows() const { return tables_.windows; }
   const Island& everybody() const { return everybody_; }
+  /// Those that hold, or those of them that a body has a part in.
+  std::vector<HotPair> hot_pairs(std::optional<std::uint32_t> number = std::nullopt) const;
+  /// All that may be in a box now, by number.
+  std::vector<std::uint32_t> bodies_in(const Box& box) const {
+    return kinesphere::bodies_in(box, tables_, everybody_.unsettled(), time());
+  }
   const WorldDefinition& definition() const { return bodies().definition(); }
-  const Counters& counters() const { return everybody_.counters(); }
+  const Counters& counters() const { return everybody_.work().counters; }
   /// Contains the body, and all that it senses, from now until its window ends.
   Box box(std::uint32_t number) const { return windows().box_of(number, time()); }
   class Answers;

@@ -27,6 +27,14 @@ struct alignas(128) FoundPairs {
     hot.clear();
     searches = candidates = near = pairs = 0;
   }
+  /// Nothing is left here then.
+  void hand_over(Agenda& agenda, Counters& counters) {
+    counters.searches += searches;
+    counters.candidates += candidates;
+    counters.hot_pairs += pairs;
+    agenda.add_all(hot);
+    forget();
+  }
 };
 
 /// A body that can move: its bound, until when its capsule holds it and, where space repeats, the middle of

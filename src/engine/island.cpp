@@ -6,6 +6,7 @@
 
 #include "archive/fields.hpp"
 #include "archive/heap_counter.hpp"
+#include "engine/rest.hpp"
 
 namespace kinesphere {
 
@@ -51,9 +52,9 @@ std::optional<Event> Island::deliver() {
   if (!event) return event;
   event->first = bodies().table().tagged(event->first);
   if (event->second != no_body) event->second = bodies().table().tagged(event->second);
-  ++counters_.events[static_cast<std::size_t>(event->kind)];
-  if (!bodies().rests.empty()) wake_by(*event);
-  if (event->repeated) ++counters_.repeated_contacts;
+  ++work_.counters.events[static_cast<std::size_t>(event->kind)];
+  if (!bodies().rests.empty()) Resting(*tables_, *this).wake_by(*event);
+  if (event->repeated) ++work_.counters.repeated_contacts;
   return event;
 }
 
@@ -64,7 +65,7 @@ Result<void> Island::probe(std::span<const std::uint32_t> numbers) {
 
 Result<void> Island::probe(std::span<const std::uint32_t> numbers, Shift& shift) {
   // Counted first: a probe that throws leaves the same world as one that does not answer.
-  counters_.probes += numbers.size();
+  work_.counters.probes += numbers.size();
   if (beside_)
     for (const std::uint32_t number : numbers) beside_->note_change(number, time_);
   const auto broken = reports_.take(bodies(), time_, numbers, shift);
@@ -87,20 +88,14 @@ Result<bool> Island::probe_stale(std::span<const std::uint32_t> numbers, Shift& 
   return true;
 }
 
-void Island::mark_dirty(std::uint32_t number) {
-  if (bodies()[number].dirty) return;
-  bodies()[number].dirty = true;
-  dirty_.push_back(number);
-}
-
 void Island::void_facts(std::uint32_t number) {
   ++bodies()[number].stamp;
-  mark_dirty(number);
+  unsettled_.add(bodies(), number);
 }
 
 void Island::kick(std::uint32_t number, const Vec3& velocity) {
   Body& body = bodies()[number];
-  if (body.is_resting()) wake(number);
+  if (body.is_resting()) Resting(*tables_, *this).wake(number);
   if (body.fresh(time_)) {
     body.bound.velocity = velocity;
   } else {
@@ -112,29 +107,6 @@ void Island::kick(std::uint32_t number, const Vec3& velocity) {
   }
   if (bodies().definition().contacts == ContactMode::impacts) book().release_all(number);
   void_facts(number);
-}
-
-std::vector<std::uint32_t> Island::arrivals() const {
-  std::vector<std::uint32_t> numbers;
-  for (const std::uint32_t number : dirty_)
-    if (bodies()[number].dirty && bodies()[number].arrived) numbers.push_back(number);
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  return numbers;
-}
-
-/// A capsule holds its body until its window ends, which is not past; only a change or a broken promise
-/// leaves a body outside, and dirty.
-std::vector<std::uint32_t> Island::bodies_in(const Box& box) const {
-  std::vector<std::uint32_t> numbers;
-  for (const std::uint32_t number : dirty_)
-    if (bodies()[number].dirty) numbers.push_back(number);
-  Windows::Scratch scratch;
-  for (const std::uint32_t number : tables_->windows.in_box(box, time_, scratch))
-    if (!bodies()[number].dirty) numbers.push_back(number);
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  return numbers;
 }
 
 void Island::settle_changed() {
@@ -149,7 +121,7 @@ void Island::settle_changed() {
 Result<void> Island::settle() {
   settle_changed();
   // Reports may show broken promises, which make further bodies dirty.
-  while (!dirty_.empty()) {
+  while (!unsettled_.empty()) {
     if (auto settled = settle_dirty(); !settled) return settled;
   }
   return {};
@@ -162,7 +134,7 @@ void Island::settle_changed(std::uint32_t a, std::uint32_t b) {
 }
 
 std::size_t Island::bytes() const {
-  return agenda_.bytes() + reports_.bytes() + heap_bytes(instant_, dirty_, round_, found_.hot);
+  return agenda_.bytes() + reports_.bytes() + heap_bytes(instant_, unsettled_, round_, found_.hot);
 }
 
 }  // namespace kinesphere

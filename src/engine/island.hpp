@@ -31,7 +31,7 @@
 #include "engine/pacing.hpp"
 #include "engine/reports.hpp"
 #include "engine/tables.hpp"
-#include "kinesphere/counters.hpp"
+#include "engine/unsettled.hpp"
 #include "kinesphere/result.hpp"
 #include "number/infinity.hpp"
 #include "parallel/crew.hpp"
@@ -42,27 +42,24 @@ namespace kinesphere {
 class alignas(128) Island {
  public:
   Island(Tables& tables, double time) : tables_(&tables), time_(time) {}
-  /// Its world has another place now.
-  void attach(Tables& tables) { tables_ = &tables; }
+  /// The same with a copy of the other's tables.
+  Island(const Island& other, Tables& tables) : Island(other) { tables_ = &tables; }
 
-  /// For a world whose bodies will have names; before anything is due.
-  void order_by_names() { agenda_.order_by(HotPairOrder(bodies().table().names())); }
-
-  void reserve(std::size_t bodies) { dirty_.reserve(bodies); }
   double time() const { return time_; }
-  const Counters& counters() const { return counters_; }
-  Counters& counters() { return counters_; }
+  /// Since somebody took it.
+  const Work& work() const { return work_; }
+  Work& work() { return work_; }
   const Instant& instant() const { return instant_; }
   Instant& instant() { return instant_; }
   const Agenda& agenda() const { return agenda_; }
   Agenda& agenda() { return agenda_; }
-  const std::vector<std::uint32_t>& dirty() const { return dirty_; }
-  /// Those of them that have come to where they are since windows started, in ascending order.
-  std::vector<std::uint32_t> arrivals() const;
+  /// Of these nothing is known that holds when time moves on. Facts about a body that is added stay.
+  const Unsettled& unsettled() const { return unsettled_; }
+  Unsettled& unsettled() { return unsettled_; }
 
   /// All facts are as they should be, and nothing is to be delivered.
   bool is_settled() const {
-    return !gathering_ && dirty_.empty() && instant_.is_quiet() && instant_.changed().empty();
+    return !gathering_ && unsettled_.empty() && instant_.is_quiet() && instant_.changed().empty();
   }
 
   // The clock.
@@ -96,38 +93,21 @@ class alignas(128) Island {
 
   /// What the island has to begin with is left to others.
   void leave_unsettled() {
-    dirty_.clear();
+    unsettled_.clear();
     instant_.clear();
     gathering_ = false;
   }
 
   // Discontinuities.
-  /// The body must be settled before time moves on. Facts about it stay.
-  void mark_dirty(std::uint32_t number);
   /// Nothing that was certified about the body holds any more.
   void void_facts(std::uint32_t number);
   /// The body has another velocity from now on.
   void kick(BodyId body, const Vec3& velocity) { kick(bodies().table().number_of(body), velocity); }
   void kick(std::uint32_t number, const Vec3& velocity);
 
-  // Rest (rest.cpp).
-  void rest(std::uint32_t number);
-  void resume(std::uint32_t number);
-  void wake(std::uint32_t number);
-
   // Facts.
   /// At this time.
   Facts facts() const { return {*tables_, time_, beside_}; }
-  /// Those that hold, or those of them that a body has a part in.
-  std::vector<HotPair> hot_pairs(std::optional<std::uint32_t> number = std::nullopt) const;
-  /// Into the agenda and the counters; nothing is left in it.
-  void take(FoundPairs& found);
-  /// Bodies that were settled one by one since this was asked last.
-  Kicks take_kicks() { return std::exchange(kicks_, {}); }
-  void add_kicks(const Kicks& kicks) { kicks_ += kicks; }
-  /// All that may be in a box now, by number. Cost: a search, and those that were added or changed since time
-  /// moved on.
-  std::vector<std::uint32_t> bodies_in(const Box& box) const;
 
   // Reports.
   Reports& reports() { return reports_; }
@@ -137,9 +117,6 @@ class alignas(128) Island {
   Result<void> probe(std::span<const std::uint32_t> numbers, Shift& shift);
   /// Those of them whose reports are not of this time, except for disabled ones. True when there were any.
   Result<bool> probe_stale(std::span<const std::uint32_t> numbers, Shift& shift);
-
-  // Events.
-  Sphere sphere(std::uint32_t number) const { return sphere_at(bodies(), time_, number); }
 
   // Beside other islands (beside.cpp).
   /// From now on the island is one of those of a phase, from where its part begins. It begins with pairs that
@@ -156,8 +133,8 @@ class alignas(128) Island {
   /// What a snapshot holds of it: the agenda comes apart.
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    archive(self.instant_, self.time_, self.phase_end_, self.dirty_, self.gathering_, self.counters_,
-            self.kicks_);
+    archive(self.instant_, self.time_, self.phase_end_, self.unsettled_, self.gathering_, self.work_.counters,
+            self.work_.settled);
   }
   std::size_t bytes() const;
 
@@ -191,24 +168,19 @@ class alignas(128) Island {
   std::optional<double> judge(const Outlook<Partner>& outlook, const Threshold& threshold, Event current,
                               const Promise& promise);
   Result<void> probe_staler(std::uint32_t a, std::uint32_t b);
+  Sphere sphere(std::uint32_t number) const { return sphere_at(bodies(), time_, number); }
   Event contact(EventKind kind, std::uint32_t a, std::uint32_t b) const;
   Event wall_contact(EventKind kind, std::uint32_t number, Wall wall) const;
   Senses senses_in(const Event& event) const;
-
-  // rest.cpp
-  void rouse(std::uint32_t number);
-  void wake_by(const Event& event);
-  std::vector<std::uint32_t> resting_in_touch(std::uint32_t number) const;
 
   Tables* tables_;
   double time_;
   double phase_end_ = infinity;
   Agenda agenda_;
   Instant instant_;
-  std::vector<std::uint32_t> dirty_;
+  Unsettled unsettled_;
   bool gathering_ = false;
-  Counters counters_;
-  Kicks kicks_;
+  Work work_;
   Reports reports_;
   Beside* beside_ = nullptr;  ///< unless it has all bodies
   // Kept for their memory only.

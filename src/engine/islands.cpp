@@ -69,7 +69,7 @@ void Islands::open(double stop) {
   // With room for those that are claimed, so that the list rarely has to grow while something is in it.
   if (sea_.kept.size() < groups_.kept()) sea_.kept = std::vector<Kept>(2 * groups_.kept());
   Beginning unsettled;
-  for (const std::uint32_t number : everybody_.dirty())
+  for (const std::uint32_t number : everybody_.unsettled().numbers())
     if (tables_.bodies[number].dirty) unsettled.unsettled.push_back(number);
   everybody_.instant().pending().for_each([&](const Event& event) { unsettled.pending.push_back(event); });
   add(unsettled);
@@ -320,9 +320,9 @@ bool Islands::join_kicks() {
 void Islands::finish(const Group& group, bool is_counted, std::vector<const Told*>& told) {
   if (is_counted) {
     const Work& work = attempts_.work_of(group);
-    everybody_.counters() += work.counters;
-    everybody_.add_kicks({work.settled.bodies, work.settled.near - group.superseded});
-    everybody_.counters().hot_pairs -= group.superseded;
+    everybody_.work().counters += work.counters;
+    everybody_.work().settled += {work.settled.bodies, work.settled.near - group.superseded};
+    everybody_.work().counters.hot_pairs -= group.superseded;
   }
   const std::span<const HotPair> left = left_of(group);
   left_.insert(left_.end(), left.begin(), left.end());
@@ -336,8 +336,8 @@ void Islands::finish(std::vector<const Told*>& told) {
   register_kicks();
   // As if one of the two had found the other.
   late_.for_each_left(groups_, [this](const HotPair& pair) {
-    everybody_.add_kicks({0, 1});
-    ++everybody_.counters().hot_pairs;
+    everybody_.work().settled += {0, 1};
+    ++everybody_.work().counters.hot_pairs;
     left_.push_back(pair);
   });
   everybody_.leave_unsettled();

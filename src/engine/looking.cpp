@@ -8,16 +8,6 @@
 
 namespace kinesphere {
 
-std::vector<HotPair> Island::hot_pairs(std::optional<std::uint32_t> number) const {
-  std::vector<HotPair> pairs;
-  const Facts facts = this->facts();
-  agenda_.for_each([&](const HotPair& pair) {
-    const bool asked = !number || pair.first == *number || pair.second == *number;
-    if (asked && !facts.is_void(pair)) pairs.push_back(pair);
-  });
-  return pairs;
-}
-
 /// A pair that was taken out of the agenda is put back unless it has been looked at.
 class Island::StillDue {
  public:
@@ -45,7 +35,7 @@ Result<void> Island::look(const HotPair& pair) {
 }
 
 Result<void> Island::look_at_pair(std::uint32_t a, std::uint32_t b) {
-  ++counters_.pair_checks;
+  ++work_.counters.pair_checks;
   const Facts facts = this->facts();
   const double end = facts.windows_end(a, b);
   // A broken promise makes a body dirty, and then it gets all its pairs anew.
@@ -56,7 +46,7 @@ Result<void> Island::look_at_pair(std::uint32_t a, std::uint32_t b) {
       if (next && *next < end) agenda_.add(facts.hot_pair(*next, a, b));
       return {};
     }
-    ++counters_.certificates;
+    ++work_.counters.certificates;
     const double until =
         facts.are_linked(a, b) ? facts.unchanged_until_by_thresholds(a, b) : facts.apart_until(a, b);
     if (until > time_) {
@@ -88,7 +78,7 @@ std::optional<double> Island::judge_pair(std::uint32_t a, std::uint32_t b) {
   std::optional<double> next = infinity;
   visit_pair(bodies(), a, b, [&](const Bound& bound, const auto& partner) {
     facts.for_each_threshold(a, b, [&](const Threshold& threshold) {
-      ++counters_.certificates;
+      ++work_.counters.certificates;
       const Outlook outlook(book().rule_of(threshold), threshold, bound, partner, time_, {end, end});
       const auto known = judge(outlook, threshold, contact(EventKind::zeno_guard, a, b), sum);
       next = next && known ? std::optional(std::min(*next, *known)) : std::nullopt;
@@ -112,14 +102,14 @@ std::optional<double> Island::judge(const Outlook<Partner>& outlook, const Thres
     return std::nullopt;
   }
   if (verdict.change == ContactRule::Change::release) book().set_touching(current, false);
-  if (verdict.zeno_step) ++counters_.zeno_steps;
+  if (verdict.zeno_step) ++work_.counters.zeno_steps;
   if (verdict.breaks_tolerance) instant_.announce(current);
   return verdict.next_look;
 }
 
 /// The walls of a body are due.
 Result<void> Island::look_at_walls(std::uint32_t number) {
-  ++counters_.wall_checks;
+  ++work_.counters.wall_checks;
   const Facts facts = this->facts();
   const double end = facts.end_of(number);
   while (!bodies()[number].dirty) {

@@ -9,7 +9,7 @@ namespace kinesphere {
 /// Where many have arrived since windows started, all start anew with them: those that have arrived one by
 /// one would cost more.
 Result<void> World::Engine::start_with_arrivals(Shift& shift) {
-  std::vector<std::uint32_t> joining = everybody_.arrivals();
+  std::vector<std::uint32_t> joining = everybody_.unsettled().arrivals(bodies());
   const bool anew = are_many(joining.size(), windows().size());
   if (anew) {
     std::erase_if(joining, [this](std::uint32_t number) {
@@ -39,13 +39,13 @@ Result<void> World::Engine::start_windows(Shift& shift, bool all, std::span<cons
   std::vector<std::uint32_t> numbers = windows.ended(now, all);
   const bool most = 2 * (numbers.size() + joining.size()) > windows.moving();
   if (auto probed = starting.refresh(numbers); !probed) return probed;
-  if (most) tempo.start_main(now, everybody_.take_kicks());
+  if (most) tempo.start_main(now, std::exchange(everybody_.work().settled, {}));
   windows.end_windows(now, all);
   // Those with a broken promise, too, are settled by themselves.
   std::erase_if(numbers, [this](std::uint32_t number) { return bodies()[number].dirty; });
-  ++everybody_.counters().window_ends;
-  everybody_.counters().starts += numbers.size();
-  everybody_.counters().restarts += joining.size();
+  ++everybody_.work().counters.window_ends;
+  everybody_.work().counters.starts += numbers.size();
+  everybody_.work().counters.restarts += joining.size();
   const auto ended = static_cast<std::ptrdiff_t>(numbers.size());
   numbers.insert(numbers.end(), joining.begin(), joining.end());
   std::inplace_merge(numbers.begin(), numbers.begin() + ended, numbers.end());

@@ -10,20 +10,15 @@
 namespace kinesphere {
 /// A capsule and hot pairs for each dirty body.
 Result<void> Island::settle_dirty() {
-  if (dirty_.size() > 1) {
-    std::sort(dirty_.begin(), dirty_.end());
-    dirty_.erase(std::unique(dirty_.begin(), dirty_.end()), dirty_.end());
-  }
   // Some have been removed or disabled since, or have started with all others.
-  std::erase_if(dirty_, [this](std::uint32_t number) { return !bodies()[number].dirty; });
-  round_ = dirty_;
+  round_ = unsettled_.sort(bodies());
   Shift alone;
   if (auto probed = probe_stale(round_, alone); !probed) return probed.error();
   // Broken promises may have made further bodies dirty.
-  round_ = dirty_;
+  round_ = unsettled_.numbers();
   settle(round_);
   for (const std::uint32_t number : round_) bodies()[number].settled_now();
-  dirty_.clear();
+  unsettled_.clear();
   return {};
 }
 
@@ -35,7 +30,7 @@ void Island::settle(std::span<const std::uint32_t> numbers) {
 
 /// Of bodies that have a new capsule.
 void Island::search(std::span<const std::uint32_t> numbers) {
-  counters_.restarts += numbers.size();
+  work_.counters.restarts += numbers.size();
   if (!beside_) tables_->windows.tidy();
   // An island that stopped to claim a body may have left something.
   found_.forget();
@@ -58,8 +53,8 @@ void Island::search(std::span<const std::uint32_t> numbers) {
     facts.find_walls(number, found_);
   }
   for (const std::uint32_t number : numbers) bodies()[number].settled = false;
-  kicks_ += {numbers.size(), found_.near};
-  take(found_);
+  work_.settled += {numbers.size(), found_.near};
+  found_.hand_over(agenda_, work_.counters);
 }
 
 /// A window that the body has for itself ends.
@@ -74,14 +69,6 @@ Result<void> Island::renew(std::uint32_t number) {
   enter(number, lasted ? pacing.longer_window(number, *ended) : pacing.window_for(number));
   search(std::span(&number, 1));
   return {};
-}
-
-void Island::take(FoundPairs& found) {
-  counters_.searches += std::exchange(found.searches, 0);
-  counters_.candidates += std::exchange(found.candidates, 0);
-  counters_.hot_pairs += std::exchange(found.pairs, 0);
-  found.near = 0;
-  agenda_.add_all(found.hot);
 }
 
 /// The body gets a capsule from now on. That it was kicked does not end the phase, so its window may end

@@ -57,7 +57,7 @@ class SideTable {
   std::vector<Record> records_;
 };
 
-using Changes = SideTable<Change, &Body::change_number>;
+using WaitingChanges = SideTable<Change, &Body::change_number>;
 using Rests = SideTable<Rest, &Body::rest_number>;
 
 }  // namespace kinesphere

@@ -40,7 +40,7 @@ void World::Engine::transfer(Self& self, Archive& archive) {
   archive(self.tables_.bodies, self.tables_.book, self.tables_.windows, self.tables_.tempo, self.everybody_);
   // Of the agenda what counts, in an order of its own: not what is void, nor how it has divided time.
   if constexpr (std::is_const_v<Self>) {
-    std::vector<HotPair> pairs = self.everybody_.hot_pairs();
+    std::vector<HotPair> pairs = self.hot_pairs();
     std::sort(pairs.begin(), pairs.end());
     archive(pairs);
   } else {
@@ -81,7 +81,7 @@ Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const st
 /// than the one that was saved, but is one in which every call is safe.
 const char* World::Engine::contradiction() const {
   if (!std::isfinite(time()) || std::isnan(everybody_.phase_end())) return "time";
-  if (const char* where = bodies().contradiction(time(), everybody_.dirty())) return where;
+  if (const char* where = bodies().contradiction(time(), everybody_.unsettled().numbers())) return where;
   const auto known = [this](BodyId id) { return bodies().table().was_given_out(id); };
   if (!book().is_sound(bodies().numbers(), bodies().walls()) ||
       !everybody_.instant().is_sound(bodies().numbers(), time(), bodies().walls(), known) ||

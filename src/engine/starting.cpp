@@ -84,7 +84,7 @@ std::vector<Windows::Starter> Starting::choose_windows(std::span<const std::uint
   for (const Tempo::Round& one : rounds) round += one;
   std::erase_if(starters, [&](const Windows::Starter& starter) {
     if (starter.window.end > now) return false;
-    everybody_.mark_dirty(starter.number);
+    everybody_.unsettled().add(bodies(), starter.number);
     return true;
   });
   return starters;
@@ -97,7 +97,7 @@ std::uint64_t Starting::start(std::span<const Windows::Starter> starters,
   found_.resize(shift_.count());
   const std::uint64_t near = find_pairs(others);
   find_links_and_walls(starters);
-  for (FoundPairs& found : found_) everybody_.take(found);
+  for (FoundPairs& found : found_) found.hand_over(everybody_.agenda(), everybody_.work().counters);
   return near;
 }
 

@@ -122,7 +122,7 @@ void World::Engine::Answers::consider(std::uint32_t a, std::uint32_t b, const Pa
 Onset World::Engine::Answers::of_pair(std::uint32_t a, std::uint32_t b) const {
   if (engine_.book().touch(a, b)) return {now_, a, b, Wall::none, true};
   Onset first;
-  consider(a, b, PairTimes(engine_.everybody().hot_pairs(a)), first);
+  consider(a, b, PairTimes(engine_.hot_pairs(a)), first);
   return first;
 }
 
@@ -130,7 +130,7 @@ Onset World::Engine::Answers::of_body(std::uint32_t number) const {
   Onset first;
   consider_touching(number, first);
   if (first.touching) return first;
-  const PairTimes hot(engine_.everybody().hot_pairs(number));
+  const PairTimes hot(engine_.hot_pairs(number));
   consider_walls(number, hot, first);
   // Those that are near leave little to compute of the others.
   for (const HotPair& pair : hot.pairs())
@@ -148,7 +148,7 @@ Onset World::Engine::Answers::of_world() const {
   for (const std::uint32_t number : present) consider_touching(number, first);
   if (first.touching) return first;
   // Any pair limits the answer; those at hand limit it well.
-  const PairTimes hot(engine_.everybody().hot_pairs());
+  const PairTimes hot(engine_.hot_pairs());
   for (const HotPair& pair : hot.pairs())
     if (pair.has_second()) consider(pair.first, pair.second, hot, first);
   for (std::size_t k = 0; k < present.size(); ++k) {

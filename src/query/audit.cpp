@@ -29,8 +29,7 @@ std::string times(double recorded, double computed) {
 
 class World::Engine::Audit {
  public:
-  explicit Audit(const Engine& engine)
-      : engine_(engine), now_(engine.time()), hot_(engine.everybody().hot_pairs()) {}
+  explicit Audit(const Engine& engine) : engine_(engine), now_(engine.time()), hot_(engine.hot_pairs()) {}
 
   std::optional<AuditFinding> run() {
     const auto count = static_cast<std::uint32_t>(engine_.bodies().numbers());

@@ -118,7 +118,7 @@ std::vector<Found> World::Engine::Queries::overlapping(const Box& box, Distance 
   const Vec3 middle = 0.5 * (box.lower + box.upper);
   std::vector<Found> found;
   const double size = norm_one(box.lower) + norm_one(box.upper);
-  for (const std::uint32_t number : engine_.everybody().bodies_in(box)) {
+  for (const std::uint32_t number : engine_.bodies_in(box)) {
     if (const Shape* shape = extent_of(engine_.bodies(), number).shape) {
       const GapLimits gap = gap_to(*shape);
       if (gap.lower > 0.0) continue;
@@ -172,7 +172,7 @@ std::vector<Near> World::Engine::Queries::distances(const std::vector<std::uint3
 std::vector<std::uint32_t> World::Engine::Queries::around(const Vec3& point, std::size_t count) const {
   const double farthest = 8.0 * coordinate_limit(engine_.definition());
   for (double reach = finest_length(); reach <= farthest; reach *= 2.0) {
-    std::vector<std::uint32_t> numbers = engine_.everybody().bodies_in(box_around(point, point, reach));
+    std::vector<std::uint32_t> numbers = engine_.bodies_in(box_around(point, point, reach));
     const std::vector<Near> all = distances(numbers, point);
     const auto within =
         std::count_if(all.begin(), all.end(), [=](const Near& n) { return n.upper <= reach; });
@@ -247,7 +247,7 @@ std::vector<Hit> World::Engine::Queries::cast(const Way& way) const {
     const Box box =
         box_around(way.origin + way.direction * (k * piece), way.origin + way.direction * end, way.radius);
     std::vector<std::uint32_t> fresh;
-    const std::vector<std::uint32_t> here = engine_.everybody().bodies_in(box);
+    const std::vector<std::uint32_t> here = engine_.bodies_in(box);
     std::set_difference(here.begin(), here.end(), seen.begin(), seen.end(), std::back_inserter(fresh));
     for (const std::uint32_t number : fresh) {
       const std::optional<Hit> found = hit(way, box, number);

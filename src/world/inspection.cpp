@@ -57,7 +57,7 @@ std::vector<CellView> World::cells() const {
 std::vector<Certificate> World::certificates() const {
   const Engine& engine = this->engine("certificates");
   std::vector<Certificate> all;
-  for (const HotPair& pair : engine.everybody().hot_pairs()) {
+  for (const HotPair& pair : engine.hot_pairs()) {
     if (pair.second == HotPair::renewal) continue;
     const BodyId other = pair.second == HotPair::walls ? no_body : engine.bodies().id_of(pair.second);
     const auto [first, second] = std::minmax({engine.bodies().id_of(pair.first), other});

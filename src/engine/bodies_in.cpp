@@ -1,0 +1,22 @@
+#include "engine/bodies_in.hpp"
+
+#include <algorithm>
+
+namespace kinesphere {
+
+/// A capsule holds its body until its window ends, which is not past; only a change or a broken promise
+/// leaves a body outside, and dirty.
+std::vector<std::uint32_t> bodies_in(const Box& box, const Tables& tables, const Unsettled& unsettled,
+                                     double now) {
+  std::vector<std::uint32_t> numbers;
+  for (const std::uint32_t number : unsettled.numbers())
+    if (tables.bodies[number].dirty) numbers.push_back(number);
+  Windows::Scratch scratch;
+  for (const std::uint32_t number : tables.windows.in_box(box, now, scratch))
+    if (!tables.bodies[number].dirty) numbers.push_back(number);
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
+}
+
+}  // namespace kinesphere
