@@ -46,14 +46,14 @@ class alignas(128) Island {
   Island(const Island& other, Tables& tables) : Island(other) { tables_ = &tables; }
 
   double time() const { return time_; }
-  /// Since somebody took it.
+  /// Until somebody takes it away.
   const Work& work() const { return work_; }
   Work& work() { return work_; }
   const Instant& instant() const { return instant_; }
   Instant& instant() { return instant_; }
   const Agenda& agenda() const { return agenda_; }
   Agenda& agenda() { return agenda_; }
-  /// Of these nothing is known that holds when time moves on. Facts about a body that is added stay.
+  /// Bodies that have to be settled before time moves on. Facts about one that is added stay.
   const Unsettled& unsettled() const { return unsettled_; }
   Unsettled& unsettled() { return unsettled_; }
 
@@ -105,7 +105,6 @@ class alignas(128) Island {
   void kick(BodyId body, const Vec3& velocity) { kick(bodies().table().number_of(body), velocity); }
   void kick(std::uint32_t number, const Vec3& velocity);
 
-  // Facts.
   /// At this time.
   Facts facts() const { return {*tables_, time_, beside_}; }
 
@@ -118,7 +117,6 @@ class alignas(128) Island {
   /// Those of them whose reports are not of this time, except for disabled ones. True when there were any.
   Result<bool> probe_stale(std::span<const std::uint32_t> numbers, Shift& shift);
 
-  // Beside other islands (beside.cpp).
   /// From now on the island is one of those of a phase, from where its part begins. It begins with pairs that
   /// are due, bodies that have to be settled before anything else, and events that are known already.
   void begin(Beside& beside, std::span<const HotPair> due, std::span<const std::uint32_t> unsettled,
