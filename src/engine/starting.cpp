@@ -130,10 +130,14 @@ std::uint64_t Starting::find_pairs(const std::vector<std::uint8_t>* others) {
 /// Pairs that touch or sense each other, and walls, of those that have started.
 void Starting::find_links_and_walls(std::span<const Windows::Starter> starters) {
   const Facts facts = everybody_.facts();
+  const auto is_linked = [this](std::uint32_t number) {
+    return !tables_.book.partners_of(number).empty() || !tables_.book.crossings_of(number).empty();
+  };
+  // Of most bodies nothing is read then.
   const auto mark = [&](bool settled) {
     shift_.for_each(starters.size(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
       for (const Windows::Starter& starter : starters.subspan(from, to - from))
-        bodies()[starter.number].settled = settled;
+        if (is_linked(starter.number)) bodies()[starter.number].settled = settled;
     });
   };
   mark(true);
