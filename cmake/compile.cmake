@@ -41,6 +41,12 @@ function(kinesphere_batches target)
   endforeach()
 endfunction()
 
+# The same for sources of any folders, as many at a time as are given: for tests, each of which has a namespace that bears
+# the name of its file.
+function(kinesphere_batches_of target size)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE BATCH UNITY_BUILD_BATCH_SIZE ${size})
+endfunction()
+
 # Code that takes no time to run is optimised little, whatever the preset says: that compiles faster.
 function(kinesphere_optimise_little target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)

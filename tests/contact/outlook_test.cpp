@@ -7,7 +7,7 @@
 #include "number/infinity.hpp"
 #include "space/space.hpp"
 
-namespace kinesphere {
+namespace kinesphere::outlook_test {
 namespace {
 
 constexpr double tolerance = 1e-3;
@@ -56,4 +56,4 @@ TEST(Outlook, BeginsWithinTheTolerance) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::outlook_test
