@@ -18,7 +18,13 @@ struct Point {
 };
 Point point(const Vec3& v) { return {v.x, v.y, v.z}; }
 Long dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Long length(const Point& a) { return std::hypot(a.x, a.y, a.z); }
+Long length(const Point& a) {
+  // Where there is room for squares of squares, nothing needs to be scaled.
+  if constexpr (std::numeric_limits<Long>::max_exponent > 8 * std::numeric_limits<double>::max_exponent)
+    return std::sqrt(dot(a, a));
+  else
+    return std::hypot(a.x, a.y, a.z);
+}
 Point cross(const Point& a, const Point& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
