@@ -25,9 +25,15 @@ function(kinesphere_relocatable target)
   target_compile_options(${target} PRIVATE -fno-semantic-interposition)
 endfunction()
 
-# The sources of a folder are compiled together, as if they were one, which reads headers once: no name may stand for two
-# things in a folder.
+# The sources of a folder are compiled together, as if they were one, which reads headers once. Instead those of all
+# folders of a target can be, which takes least time in all where nothing is built twice, or each file alone: no name may
+# stand for two things in a target.
+set(KINESPHERE_BATCH folder CACHE STRING "What is compiled together: each folder, target or file")
+mark_as_advanced(KINESPHERE_BATCH)
 function(kinesphere_batches target)
+  if(KINESPHERE_BATCH STREQUAL "file")
+    return()
+  endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   get_target_property(sources ${target} SOURCES)
   foreach(source ${sources})
@@ -36,9 +42,18 @@ function(kinesphere_batches target)
       cmake_path(GET source PARENT_PATH folder)
       cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE group)
       string(MAKE_C_IDENTIFIER "${group}" group)
+      if(KINESPHERE_BATCH STREQUAL "target")
+        set(group all)
+      endif()
       set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
     endif()
   endforeach()
+endfunction()
+
+# The same for sources of any folders, as many at a time as are given: for tests, each of which has a namespace that bears
+# the name of its file.
+function(kinesphere_batches_of target size)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE BATCH UNITY_BUILD_BATCH_SIZE ${size})
 endfunction()
 
 # Code that takes no time to run is optimised little, whatever the preset says: that compiles faster.

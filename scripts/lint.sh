@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Checks the format of all C++ and Python files, all sources but the tests with clang-tidy, and that neither the library nor the
-# examples include the lab. The sources of a folder are checked together, as their headers take most of the time.
+# examples include the lab. The sources of a target are checked together, as their headers take most of the time.
 # Usage: lint.sh
 set -euo pipefail
 
@@ -25,15 +25,25 @@ mkdir -p "$build"
 mpi=OFF
 if command -v mpicxx >/dev/null && find /usr/include /usr/local/include -name zoltan.h 2>/dev/null | grep -q .; then mpi=ON; fi
 if [[ $mpi == OFF ]]; then echo "lint: without MPI and Zoltan, so clang-tidy leaves out src/distributed"; fi
-cmake -S . -B "$build" -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
-  -DCMAKE_CXX_FLAGS_RELEASE=-O3 -DKINESPHERE_BUILD_PROGRAM=ON -DKINESPHERE_BUILD_BENCH=ON \
-  -DKINESPHERE_BUILD_MPI=$mpi >"$build/lint.log" 2>&1 ||
-  { cat "$build/lint.log"; exit 1; }
-if ! run-clang-tidy -quiet -p "$build" -j "$(nproc)" -checks=-bugprone-suspicious-include >"$build/lint.log" 2>&1; then
-  # What was found, without the names of the files where nothing was; all of it if that is not known.
-  grep -A 8 -E '(error|warning): ' "$build/lint.log" || cat "$build/lint.log"
-  exit 1
-fi
+for batch in target file; do
+  cmake -S . -B "$build/$batch" -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
+    -DCMAKE_CXX_FLAGS_RELEASE=-O3 -DKINESPHERE_BATCH=$batch -DKINESPHERE_BUILD_PROGRAM=ON -DKINESPHERE_BUILD_BENCH=ON \
+    -DKINESPHERE_BUILD_MPI=$mpi >"$build/lint.log" 2>&1 ||
+    { cat "$build/lint.log"; exit 1; }
+done
+# What clang-tidy finds and nothing else; all that it says if it fails in another way.
+tidy() {
+  local said
+  said=$(clang-tidy -quiet "$@" 2>&1) || { grep -A 8 -E '(error|warning): ' <<<"$said" || echo "$said"; return 1; }
+}
+export -f tidy
+# Each line of this file is a call of clang-tidy. They are done side by side, those that take longest first.
+calls=$build/calls
+check() { printf '%q ' tidy "$@" >>"$calls" && echo >>"$calls"; }
+: >"$calls"
+batches=-checks=-bugprone-suspicious-include,-misc-unused-using-decls
+mapfile -t sources < <(sed -n 's/^ *"file": "\(.*\)".*/\1/p' "$build/target/compile_commands.json")
+for source in "${sources[@]}"; do check -p "$build/target" $batches "$source"; done
 # All examples at once, each in a namespace of its own, as most of the time goes into their headers.
 mapfile -t examples < <(find examples -maxdepth 1 -name '*.cpp' | sort)
 {
@@ -42,16 +52,22 @@ mapfile -t examples < <(find examples -maxdepth 1 -name '*.cpp' | sort)
     printf 'namespace %s {\n#include "%s"\n}\n' "$(basename "$example" .cpp)" "$PWD/$example"
   done
 } >"$build/examples.cpp"
-clang-tidy -quiet -checks=-bugprone-suspicious-include "$build/examples.cpp" -- -std=c++20 -Iinclude -I"$build/include" \
-  >"$build/lint.log" 2>&1 || { cat "$build/lint.log"; exit 1; }
+check $batches "$build/examples.cpp" -- -std=c++20 -Iinclude -I"$build/target/include"
 # The face for JavaScript, as emscripten's compiler reads it.
 sysroot=/usr/share/emscripten/cache/sysroot
+wasm=(-target wasm32-unknown-emscripten --sysroot=$sysroot -isystem $sysroot/include/c++/v1 -std=c++20 -Iinclude -Isrc
+  -I"$build/target/include")
 if [[ -d $sysroot ]]; then
-  clang-tidy -quiet browser/module/*.cpp -- -target wasm32-unknown-emscripten --sysroot=$sysroot -isystem $sysroot/include/c++/v1 \
-    -std=c++20 -Iinclude -Isrc -I"$build/include" 2>"$build/lint.log" || { cat "$build/lint.log"; exit 1; }
+  printf "#include \"$PWD/%s\"\n" browser/module/*.cpp >"$build/faces.cpp"
+  check $batches "$build/faces.cpp" -- "${wasm[@]}"
 else
   echo "lint: without emscripten, so clang-tidy leaves out browser/module"
 fi
-# The one check that does not look into what a batch includes.
-mapfile -t sources < <(grep -rlE '^ *using (\w+::)+\w+;' src programs examples --include='*.cpp')
-clang-tidy -quiet -p "$build" -checks='-*,misc-unused-using-decls' "${sources[@]}" 2>"$build/lint.log"
+# The check that does not look into what a batch includes, nor into classes and functions.
+using() { grep -rlE '^using [^=]*::[^=]*;' "$@" --include='*.cpp' || true; }
+unused=-checks=-*,misc-unused-using-decls
+for source in $(using src programs examples); do check -p "$build/file" "$unused" "$source"; done
+if [[ -d $sysroot ]]; then
+  for source in $(using browser/module); do check "$unused" "$source" -- "${wasm[@]}"; done
+fi
+xargs -P "$(nproc)" -d '\n' -n 1 bash -c <"$calls"

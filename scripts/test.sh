@@ -9,4 +9,5 @@ preset=${KINESPHERE_PRESET:-ci}
 scripts/setup.sh test
 cmake --preset "$preset"
 cmake --build --preset "$preset"
-exec ctest --preset "$preset" --parallel "$(nproc)" "$@"
+# One more than there are processors, as some tests wait most of the time.
+exec ctest --preset "$preset" --parallel $(($(nproc) + 1)) "$@"

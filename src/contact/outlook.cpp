@@ -37,8 +37,8 @@ double Outlook<Partner>::until_reports() const {
 }
 
 template <class Partner>
-Verdict Outlook<Partner>::judge(const Event& current, const Promise& promise) const {
-  Verdict verdict;
+Judgement Outlook<Partner>::judge(const Event& current, const Promise& promise) const {
+  Judgement verdict;
   const double beyond = current.gap - threshold_.distance;
   const double error = approach_error(current, arm(current.gap));
   verdict.change = rule_.decide(threshold_.within, beyond, current.approach_speed, error);
@@ -70,7 +70,7 @@ Verdict Outlook<Partner>::judge(const Event& current, const Promise& promise) co
 }
 
 template <class Partner>
-Verdict Outlook<Partner>::put_off(const Event& current, const Promise& promise) const {
+Judgement Outlook<Partner>::put_off(const Event& current, const Promise& promise) const {
   const double beyond = current.gap - threshold_.distance;
   const double speed = promise.speed_error + std::max(current.approach_speed, 0.0);
   const double next_look = now_ + rule_.least_step(beyond, speed, promise.acceleration);

@@ -23,7 +23,7 @@ struct Horizons {
 };
 
 /// What fresh reports say of a threshold.
-struct Verdict {
+struct Judgement {
   /// A begin or an end has to be delivered first; then no time is known.
   ContactRule::Change change = ContactRule::Change::none;
   /// Else: it cannot be crossed before this.
@@ -68,11 +68,11 @@ class Outlook {
   double until_reports() const;
 
   /// From fresh reports; `current` is an event that describes the two now.
-  Verdict judge(const Event& current, const Promise& promise) const;
+  Judgement judge(const Event& current, const Promise& promise) const;
 
   /// For two that touch too often at this instant: the Zeno guard lets their gap shrink, by no more than it
   /// may, before the next contact can begin.
-  Verdict put_off(const Event& current, const Promise& promise) const;
+  Judgement put_off(const Event& current, const Promise& promise) const;
 
  private:
   double meeting(double gap) const {

@@ -92,7 +92,7 @@ std::optional<double> Island::judge_pair(std::uint32_t a, std::uint32_t b) {
 template <class Partner>
 std::optional<double> Island::judge(const Outlook<Partner>& outlook, const Threshold& threshold,
                                     Event current, const Promise& promise) {
-  Verdict verdict = outlook.judge(current, promise);
+  Judgement verdict = outlook.judge(current, promise);
   if (verdict.change == ContactRule::Change::begin && !threshold.sensed && book().is_jammed(current))
     verdict = outlook.put_off(current, promise);
   if (verdict.is_news()) {

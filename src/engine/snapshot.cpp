@@ -23,14 +23,14 @@ namespace {
 
 /// Raise the version when the fields change, or when the engine would go on from the same fields in another
 /// way.
-constexpr Envelope envelope{{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'},
-                            15,
-                            "world",
-                            "World::restore",
-                            "snapshot",
-                            ErrorCode::bad_snapshot};
+constexpr Envelope world_envelope{{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'},
+                                  15,
+                                  "world",
+                                  "World::restore",
+                                  "snapshot",
+                                  ErrorCode::bad_snapshot};
 
-Error refusal(const std::string& what) { return envelope.refusal(what); }
+Error refusal(const std::string& what) { return world_envelope.refusal(what); }
 
 }  // namespace
 
@@ -52,12 +52,12 @@ std::vector<std::byte> World::Engine::save() const {
   ByteWriter content;
   content(definition());
   transfer(*this, content);
-  return envelope.seal(content.bytes());
+  return world_envelope.seal(content.bytes());
 }
 
 Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const std::byte> bytes,
                                                               PairFilter pair_filter) {
-  auto content = envelope.open(bytes);
+  auto content = world_envelope.open(bytes);
   if (!content) return content.error();
   ByteReader reader(*content);
   WorldDefinition definition;

@@ -26,8 +26,8 @@ Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::u
     return Error{ErrorCode::out_of_range, "level", no_body,
                  "answer: level must be less than " + std::to_string(levels.size()) + ", but is " +
                      std::to_string(level)};
-  const Track& one = tracks_[a];
-  const Track& other = tracks_[b];
+  const KnownTrack& one = tracks_[a];
+  const KnownTrack& other = tracks_[b];
   PairAnswer answer;
   const Course now = course(a, b, levels[level], infinity);
   const OpenRecord* record = open_.find(a, b);
@@ -42,7 +42,7 @@ Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::u
   answer.upper = between.upper;
 
   // As if both went straight on from where they are now.
-  const auto ahead = [this](const Track& track) {
+  const auto ahead = [this](const KnownTrack& track) {
     const Claim& claim = Knowledge::tightest(track.knowledge.hypotheses().front(), time_);
     return State{claim.centre_at(time_), claim.velocity_at(time_)};
   };

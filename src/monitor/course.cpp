@@ -36,9 +36,9 @@ struct View {
 };
 
 /// Two claims and a component.
-class Meeting {
+class ClaimsMeeting {
  public:
-  Meeting(const Claim& a, const Claim& b, const Component& component, double tolerance, double now)
+  ClaimsMeeting(const Claim& a, const Claim& b, const Component& component, double tolerance, double now)
       : a_(a, component),
         b_(b, component),
         now_(now),
@@ -88,7 +88,7 @@ void for_each_meeting(const Hypothesis& a, const Hypothesis& b, const Component&
                       double now, Visit visit) {
   for (const Claim& one : a.claims)
     for (const Claim& other : b.claims)
-      if (const Meeting meeting(one, other, component, tolerance, now); meeting.holds())
+      if (const ClaimsMeeting meeting(one, other, component, tolerance, now); meeting.holds())
         if (!visit(meeting)) return;
 }
 
@@ -103,7 +103,7 @@ Certain certain_of(const Hypothesis& a, const Hypothesis& b, const Components& c
   Certain certain;
   for (const Component& component : components) {
     double within = -infinity;
-    for_each_meeting(a, b, component, tolerance, now, [&](const Meeting& meeting) {
+    for_each_meeting(a, b, component, tolerance, now, [&](const ClaimsMeeting& meeting) {
       if (meeting.is_apart()) certain.apart = std::max(certain.apart, meeting.apart_until(horizon));
       if (meeting.is_within()) within = std::max(within, meeting.within_until(horizon));
       // No other pair can say more.
@@ -121,7 +121,7 @@ double decided_from(const Hypothesis& a, const Hypothesis& b, const Components& 
   double within = -infinity;
   for (const Component& component : components) {
     double one_within = infinity;
-    for_each_meeting(a, b, component, tolerance, now, [&](const Meeting& meeting) {
+    for_each_meeting(a, b, component, tolerance, now, [&](const ClaimsMeeting& meeting) {
       apart = std::min(apart, meeting.may_be_apart(horizon));
       one_within = std::min(one_within, meeting.is_within() ? now : meeting.may_be_within(horizon));
       return true;
@@ -161,7 +161,7 @@ DistanceBetween distance_between(const Knowledge& a, const Knowledge& b, const C
   for (const Hypothesis& one : a.hypotheses())
     for (const Hypothesis& other : b.hypotheses()) {
       DistanceBetween between;
-      for_each_meeting(one, other, component, 0.0, now, [&](const Meeting& meeting) {
+      for_each_meeting(one, other, component, 0.0, now, [&](const ClaimsMeeting& meeting) {
         between.lower = std::max(between.lower, meeting.lower());
         between.upper = std::min(between.upper, meeting.upper());
         return true;

@@ -28,7 +28,7 @@ Monitor::Engine::Engine(const MonitorDefinition& definition)
       windows_(space_of(definition)) {}
 
 bool Monitor::Engine::is_void(const HotPair& pair) const {
-  const Track& first = tracks_[pair.first];
+  const KnownTrack& first = tracks_[pair.first];
   if (!pair.has_second()) return first.life != pair.first_stamp || first.expected != pair.second_stamp;
   if (pair.second_stamp == of_open_record) {
     const OpenRecord* record = open_.find(pair.first, pair.second);
@@ -88,7 +88,7 @@ Result<void> Monitor::Engine::start_windows(const Poll* poll) {
     // Whose plan ends, and who is in a pair that is undecided.
     std::vector<std::uint32_t> asked;
     for (const std::uint32_t number : numbers) {
-      const Track& track = tracks_[number];
+      const KnownTrack& track = tracks_[number];
       if (track.knowledge.stamp() < time_ &&
           (track.knowledge.first_end() < next.end ||
            std::any_of(track.open.begin(), track.open.end(),
@@ -106,7 +106,7 @@ Result<void> Monitor::Engine::start_windows(const Poll* poll) {
   std::vector<Windows::Starter> starters;
   bounds_.resize(std::size_t{tracks_.numbers()} * Knowledge::slots);
   for (const std::uint32_t number : numbers) {
-    Track& track = tracks_[number];
+    KnownTrack& track = tracks_[number];
     for (const Hypothesis& hypothesis : track.knowledge.hypotheses()) {
       track.placed |= 1u << hypothesis.slot;
       const std::uint32_t place = place_of(number, hypothesis);

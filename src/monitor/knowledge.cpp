@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t most_hypotheses = Knowledge::slots - 1;
 
 /// Relative rounding of the few operations behind a claim.
-constexpr double margin = 0x1p-47;
+constexpr double rounding_margin = 0x1p-47;
 
 /// The error of a stamp, told as errors of the state.
 TrackReport with_exact_stamp(TrackReport report, const TrackClass& promise) {
@@ -28,8 +28,8 @@ TrackReport with_exact_stamp(TrackReport report, const TrackClass& promise) {
       promise.acceleration_limit + Spread::cylinder(std::hypot(plan.x, plan.y), std::abs(plan.z));
   // A path that turns goes no farther than this, and no farther than the largest speed takes it.
   const Spread way = least((speed + turn * (0.5 * error)) * error, promise.largest_speed * error);
-  report.position_error = report.position_error + way * (1.0 + margin);
-  report.velocity_error = report.velocity_error + turn * (error * (1.0 + margin));
+  report.position_error = report.position_error + way * (1.0 + rounding_margin);
+  report.velocity_error = report.velocity_error + turn * (error * (1.0 + rounding_margin));
   report.stamp_error = 0.0;
   return report;
 }
@@ -69,7 +69,7 @@ Claim brought_back(Claim claim, double now) {
 
 /// With room for the roundings of what is computed from it.
 void widen(Claim& claim) {
-  const double size = norm_one(claim.position) * margin;
+  const double size = norm_one(claim.position) * rounding_margin;
   claim.radius = claim.radius + Spread(size);
 }
 
@@ -112,7 +112,7 @@ std::vector<Claim> claims_of(const TrackReport& report, const TrackClass& promis
 }
 
 double beyond(const Vec3& way, const Spread& limit, double size) {
-  const double room = margin * size;
+  const double room = rounding_margin * size;
   const double flat = std::hypot(way.x, way.y) - limit.horizontal();
   const double upright = std::abs(way.z) - limit.vertical();
   const double all = norm(way) - limit.total();

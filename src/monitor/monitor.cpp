@@ -106,7 +106,7 @@ Result<TrackView> Monitor::track(TrackId id) const {
   const auto number = engine("track").tracks().find(id);
   if (!number)
     return Error{ErrorCode::unknown_body, "id", no_body, "track: there is no track " + std::to_string(id)};
-  const Track& track = engine_->tracks()[*number];
+  const KnownTrack& track = engine_->tracks()[*number];
   TrackView view{.id = id,
                  .track_class = track.track_class,
                  .stamp = track.knowledge.stamp(),

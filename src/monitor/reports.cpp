@@ -62,7 +62,7 @@ void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placin
   const TrackClass& promise = definition_.classes[report.track_class];
   const auto known = tracks_.find(id);
   const std::uint32_t number = known ? *known : tracks_.add(id, report.track_class);
-  Track& track = tracks_[number];
+  KnownTrack& track = tracks_[number];
   TrackReport flat = report;
   if (definition_.dimensions == 2) {
     flat.state.position.z = 0.0;
@@ -113,7 +113,7 @@ void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placin
 /// A track is new, or may be elsewhere than was thought: its hypotheses get capsules from now on, and the
 /// pairs that they find are looked at.
 void Monitor::Engine::place(std::uint32_t number) {
-  Track& track = tracks_[number];
+  KnownTrack& track = tracks_[number];
   const Window now = window();
   for (const Hypothesis& hypothesis : track.knowledge.hypotheses()) {
     if ((track.placed & 1u << hypothesis.slot) != 0) continue;
@@ -138,7 +138,7 @@ Result<void> Monitor::Engine::remove(TrackId id) {
 }
 
 void Monitor::Engine::leave(std::uint32_t number) {
-  Track& track = tracks_[number];
+  KnownTrack& track = tracks_[number];
   for (const std::uint32_t other : track.open) {
     open_.remove(number, other);
     std::erase(tracks_[other].open, number);
@@ -152,7 +152,7 @@ void Monitor::Engine::leave(std::uint32_t number) {
 
 /// Puts on the agenda when too long nothing will have been heard of a track.
 void Monitor::Engine::expect_to_hear(std::uint32_t number) {
-  Track& track = tracks_[number];
+  KnownTrack& track = tracks_[number];
   const double after =
       track.silent ? definition_.forget_after : std::min(definition_.silence_after, definition_.forget_after);
   const double time = std::max(time_, track.knowledge.stamp() + after);
@@ -166,7 +166,7 @@ void Monitor::Engine::expect_to_hear(std::uint32_t number) {
 }
 
 void Monitor::Engine::is_due(std::uint32_t number) {
-  Track& track = tracks_[number];
+  KnownTrack& track = tracks_[number];
   const double age = track.knowledge.stamp();
   if (age + definition_.forget_after <= time_) return leave(number);
   if (!track.silent && age + definition_.silence_after <= time_) {

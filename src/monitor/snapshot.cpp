@@ -14,12 +14,12 @@ namespace {
 
 /// Raise the version when the fields change, or when the engine would go on from the same fields in another
 /// way.
-constexpr Envelope envelope{{'K', 'i', 'n', 'M', 'o', 'n', '\r', '\n'},
-                            3,
-                            "monitor",
-                            "Monitor::restore",
-                            "snapshot",
-                            ErrorCode::bad_snapshot};
+constexpr Envelope monitor_envelope{{'K', 'i', 'n', 'M', 'o', 'n', '\r', '\n'},
+                                    3,
+                                    "monitor",
+                                    "Monitor::restore",
+                                    "snapshot",
+                                    ErrorCode::bad_snapshot};
 
 }  // namespace
 
@@ -56,24 +56,24 @@ std::vector<std::byte> Monitor::Engine::save() const {
   ByteWriter content;
   content(definition_);
   transfer(*this, content);
-  return envelope.seal(content.bytes());
+  return monitor_envelope.seal(content.bytes());
 }
 
 Result<std::unique_ptr<Monitor::Engine>> Monitor::Engine::restore(std::span<const std::byte> snapshot) {
-  const auto content = envelope.open(snapshot);
+  const auto content = monitor_envelope.open(snapshot);
   if (!content) return content.error();
   ByteReader reader(*content);
   MonitorDefinition definition;
   reader(definition);
   if (reader.failed() || !check_monitor(definition))
-    return envelope.refusal("must hold a monitor that can be, but its definition is impossible");
+    return monitor_envelope.refusal("must hold a monitor that can be, but its definition is impossible");
   auto engine = std::make_unique<Engine>(definition);
   transfer(*engine, reader);
   if (reader.failed() || reader.remaining() != 0)
-    return envelope.refusal("must hold a monitor, but its content does not have the form of one");
+    return monitor_envelope.refusal("must hold a monitor, but its content does not have the form of one");
   if (const char* where = engine->tracks_.index() ? engine->contradiction() : "tracks")
-    return envelope.refusal(std::string("must hold a monitor that can be, but contradicts itself in its ") +
-                            where);
+    return monitor_envelope.refusal(
+        std::string("must hold a monitor that can be, but contradicts itself in its ") + where);
   engine->agenda_.add_all(engine->read_pairs_);
   return engine;
 }
@@ -86,7 +86,7 @@ const char* Monitor::Engine::contradiction() const {
   };
   std::size_t partners = 0;
   for (std::uint32_t number = 0; number < tracks_.numbers(); ++number) {
-    const Track& track = tracks_[number];
+    const KnownTrack& track = tracks_[number];
     bool placed = false;
     for (std::uint32_t slot = 0; slot < Knowledge::slots; ++slot) {
       const bool contains = windows_.contains(number * Knowledge::slots + slot);

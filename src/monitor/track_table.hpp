@@ -12,7 +12,7 @@
 
 namespace kinesphere {
 
-struct Track {
+struct KnownTrack {
   TrackId id = 0;
   std::size_t track_class = 0;
   bool present = false;
@@ -38,8 +38,8 @@ class TrackTable {
   std::size_t size() const { return numbers_.size(); }
   /// Numbers are less than this.
   std::uint32_t numbers() const { return static_cast<std::uint32_t>(tracks_.size()); }
-  Track& operator[](std::uint32_t number) { return tracks_[number]; }
-  const Track& operator[](std::uint32_t number) const { return tracks_[number]; }
+  KnownTrack& operator[](std::uint32_t number) { return tracks_[number]; }
+  const KnownTrack& operator[](std::uint32_t number) const { return tracks_[number]; }
   std::optional<std::uint32_t> find(TrackId id) const {
     const auto at = numbers_.find(id);
     return at == numbers_.end() ? std::nullopt : std::optional(at->second);
@@ -54,7 +54,7 @@ class TrackTable {
       free_.pop_back();
     }
     numbers_.emplace(id, number);
-    Track& track = tracks_[number];
+    KnownTrack& track = tracks_[number];
     track.id = id;
     track.track_class = track_class;
     track.present = true;
@@ -83,7 +83,7 @@ class TrackTable {
   bool index() {
     numbers_.clear();
     for (std::uint32_t number = 0; number < tracks_.size(); ++number) {
-      const Track& track = tracks_[number];
+      const KnownTrack& track = tracks_[number];
       if (track.present && !numbers_.emplace(track.id, number).second) return false;
       if (track.life > last_life_) return false;
     }
@@ -96,7 +96,7 @@ class TrackTable {
   }
 
  private:
-  std::vector<Track> tracks_;
+  std::vector<KnownTrack> tracks_;
   std::vector<std::uint32_t> free_;
   std::uint32_t last_life_ = 0;
   std::unordered_map<TrackId, std::uint32_t> numbers_;

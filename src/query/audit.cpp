@@ -1,8 +1,10 @@
 // The audit: everything that should be true now, rebuilt from scratch.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "engine/engine.hpp"
 #include "input/input_check.hpp"
@@ -33,6 +35,7 @@ class World::Engine::Audit {
 
   std::optional<AuditFinding> run() {
     const auto count = static_cast<std::uint32_t>(engine_.bodies().numbers());
+    boxes_.resize(count);
     for (std::uint32_t a = 0; a < count && !finding_; ++a) {
       if (!body(a).present()) {
         check_absence(a);
@@ -167,23 +170,31 @@ class World::Engine::Audit {
     const ContactRule& rule = engine_.book().rule_of(threshold);
     const PlainGap::Limits limits = gap.of_bodies(now_);
     const double room = slack_of_gaps() + gap.uncertainty(now_);
+    const bool end_untold = threshold.within && limits.lower > threshold.distance + rule.release_gap() + room;
+    const bool begin_untold =
+        !threshold.within && limits.upper < threshold.distance - rule.tolerance() - room;
+    if (!end_untold && !begin_untold) return;
     const std::string distance = threshold.sensed ? " of " + std::to_string(threshold.distance) : "";
-    const std::string where = threshold.sensed ? "sensor" : "contact";
-    if (threshold.within && limits.lower > threshold.distance + rule.release_gap() + room)
-      find(where, pair(a, b) + " are apart, and no end" + distance +
-                      " has been told: their gap is at least " + text_of(limits.lower));
-    if (!threshold.within && limits.upper < threshold.distance - rule.tolerance() - room)
-      find(where, pair(a, b) + " are too near, and no begin" + distance +
-                      " has been told: their gap is at most " + text_of(limits.upper));
+    find(threshold.sensed ? "sensor" : "contact",
+         pair(a, b) + (end_untold ? " are apart, and no end" : " are too near, and no begin") + distance +
+             " has been told: their gap is at " +
+             (end_untold ? "least " + text_of(limits.lower) : "most " + text_of(limits.upper)));
   }
 
   /// Far below what the contact rule can tell, and four times what a faithful report may be wrong by.
   double slack_of_gaps() const { return 0.25 * engine_.definition().contact_tolerance; }
 
-  bool boxes_overlap(std::uint32_t a, std::uint32_t b) const {
+  /// In which a body is registered: once a body, not once a pair.
+  const Box& box(std::uint32_t number) {
+    std::optional<Box>& known = boxes_[number];
+    if (!known) known = engine_.box(number);
+    return *known;
+  }
+
+  bool boxes_overlap(std::uint32_t a, std::uint32_t b) {
     const Vec3 shift = engine_.bodies().space().repeats() ? shift_to_meet(engine_.bodies(), a, b) : Vec3{};
-    const Box one = engine_.box(a);
-    const Box other = engine_.box(b);
+    const Box& one = box(a);
+    const Box& other = box(b);
     for (int axis = 0; axis < 3; ++axis)
       if (one.upper[axis] < other.lower[axis] + shift[axis] ||
           other.upper[axis] + shift[axis] < one.lower[axis])
@@ -255,6 +266,7 @@ class World::Engine::Audit {
   const Engine& engine_;
   double now_;
   PairTimes hot_;
+  std::vector<std::optional<Box>> boxes_;
   std::optional<AuditFinding> finding_;
 };
 

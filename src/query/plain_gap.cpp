@@ -18,7 +18,13 @@ struct Point {
 };
 Point point(const Vec3& v) { return {v.x, v.y, v.z}; }
 Long dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Long length(const Point& a) { return std::hypot(a.x, a.y, a.z); }
+Long length(const Point& a) {
+  // Where there is room for squares of squares, nothing needs to be scaled.
+  if constexpr (std::numeric_limits<Long>::max_exponent > 8 * std::numeric_limits<double>::max_exponent)
+    return std::sqrt(dot(a, a));
+  else
+    return std::hypot(a.x, a.y, a.z);
+}
 Point cross(const Point& a, const Point& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
@@ -147,18 +153,25 @@ double PlainGap::growth(double time) const {
   return static_cast<double>(growth_of(moving_, time) + growth_of(other_, time));
 }
 
-PlainGap::Limits PlainGap::of_bounds(double time) const {
-  const Limits limits = distance(time);
+PlainGap::Limits PlainGap::of_bounds(double time) const { return of_bounds(time, distance(time)); }
+
+PlainGap::Limits PlainGap::of_bounds(double time, const Limits& distance) const {
   const double less = radii() + growth(time);
-  const double room = 0x1p-50 * (std::abs(limits.upper) + less);
-  return {limits.lower - less - room, limits.upper - less + room};
+  const double room = 0x1p-50 * (std::abs(distance.upper) + less);
+  return {distance.lower - less - room, distance.upper - less + room};
 }
 
-PlainGap::Limits PlainGap::at_farthest(double time) const {
-  const Limits limits = distance(time);
+PlainGap::Limits PlainGap::at_farthest(double time) const { return at_farthest(time, distance(time)); }
+
+PlainGap::Limits PlainGap::at_farthest(double time, const Limits& distance) const {
   const double more = growth(time) - radii();
-  const double room = 0x1p-50 * (std::abs(limits.upper) + radii() + growth(time));
-  return {limits.lower + more - room, limits.upper + more + room};
+  const double room = 0x1p-50 * (std::abs(distance.upper) + radii() + growth(time));
+  return {distance.lower + more - room, distance.upper + more + room};
+}
+
+PlainGap::Limits PlainGap::of_bodies(double time) const {
+  const Limits limits = distance(time);
+  return {of_bounds(time, limits).lower, at_farthest(time, limits).upper};
 }
 
 double PlainGap::largest_speed(double from, double to) const {

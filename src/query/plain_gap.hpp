@@ -27,7 +27,7 @@ class PlainGap {
   /// Of the largest gap that two bodies in these bounds can have.
   Limits at_farthest(double time) const;
   /// Of the gap of two bodies in these bounds, wherever they are.
-  Limits of_bodies(double time) const { return {of_bounds(time).lower, at_farthest(time).upper}; }
+  Limits of_bodies(double time) const;
 
   /// How fast these gaps change between two times, at most.
   double largest_speed(double from, double to) const;
@@ -37,6 +37,8 @@ class PlainGap {
 
  private:
   Limits distance(double time) const;
+  Limits of_bounds(double time, const Limits& distance) const;
+  Limits at_farthest(double time, const Limits& distance) const;
   double radii() const;
   double growth(double time) const;
 

@@ -7,7 +7,7 @@ namespace kinesphere {
 namespace {
 
 /// More than the few roundings of a shifted coordinate, relative to what went into it.
-constexpr double margin = 0x1p-50;
+constexpr double shift_margin = 0x1p-50;
 
 }  // namespace
 
@@ -45,7 +45,7 @@ Box Space::moved(const Box& box, const Vec3& shift) {
   Box image = box;
   for (int axis = 0; axis < 3; ++axis) {
     if (shift[axis] == 0.0) continue;
-    const auto room = [&](double edge) { return margin * (std::abs(edge) + std::abs(shift[axis])); };
+    const auto room = [&](double edge) { return shift_margin * (std::abs(edge) + std::abs(shift[axis])); };
     image.lower[axis] = box.lower[axis] + shift[axis] - room(box.lower[axis]);
     image.upper[axis] = box.upper[axis] + shift[axis] + room(box.upper[axis]);
   }
@@ -66,7 +66,7 @@ Space::Images Space::images_near(const Box& box, double largest_extent) const {
   for (int axis = 0; axis < 3; ++axis) {
     if (!repeats(axis)) continue;
     const double size = std::abs(lower_[axis]) + std::abs(upper_[axis]);
-    const double reach = std::min(half_width, 0.5 * period_[axis]) + margin * size;
+    const double reach = std::min(half_width, 0.5 * period_[axis]) + shift_margin * size;
     const double lower = lower_[axis] - reach;
     const double upper = upper_[axis] + reach;
     // Far from both borders there is one image only.
@@ -76,7 +76,7 @@ Space::Images Space::images_near(const Box& box, double largest_extent) const {
       images.box.upper[axis] = upper;
       continue;
     }
-    const double room = 4.0 * margin * (size + std::abs(box.lower[axis]) + std::abs(box.upper[axis]));
+    const double room = 4.0 * shift_margin * (size + std::abs(box.lower[axis]) + std::abs(box.upper[axis]));
     images.first[axis] = std::ceil((lower - box.upper[axis] - room) * per_period_[axis]);
     const double last = std::floor((upper - box.lower[axis] + room) * per_period_[axis]);
     // Never more than four, whatever rounding does to numbers that are too large for any promise.

@@ -8,7 +8,7 @@
 
 #include "archive/fields.hpp"
 
-namespace kinesphere {
+namespace kinesphere::archive_test {
 namespace {
 
 std::vector<int> as_numbers(const std::vector<std::byte>& bytes) {
@@ -93,4 +93,4 @@ TEST(Archive, FailureStays) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::archive_test

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace kinesphere {
+namespace kinesphere::checksum_test {
 namespace {
 
 std::uint64_t checksum_of(std::string_view text) { return checksum(std::as_bytes(std::span(text))); }
@@ -68,4 +68,4 @@ TEST(Checksum, ShowsAnyTwoFlippedBits) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::checksum_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace kinesphere {
+namespace kinesphere::envelope_test {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -61,4 +61,4 @@ TEST(Envelope, RefusesAnyTwoFlippedBits) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::envelope_test

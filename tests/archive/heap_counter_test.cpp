@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace kinesphere {
+namespace kinesphere::heap_counter_test {
 namespace {
 
 struct Tree {
@@ -32,4 +32,4 @@ TEST(HeapCounter, CountsCapacitiesAndNodesHoweverDeep) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::heap_counter_test

@@ -10,7 +10,7 @@
 #include "support/exact_certificates.hpp"
 #include "support/family_test.hpp"
 
-namespace kinesphere {
+namespace kinesphere::encounter_test {
 namespace {
 
 using exact::Wide;
@@ -218,4 +218,4 @@ TEST(Encounter, of_ballistic_bounds_is_exact) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::encounter_test

@@ -7,7 +7,7 @@
 
 #include "support/bound_checks.hpp"
 
-namespace kinesphere {
+namespace kinesphere::extreme_numbers_test {
 namespace {
 
 constexpr std::uint64_t seed = 754;
@@ -262,4 +262,4 @@ TEST(ExtremeNumbers, gaps_that_overflow_are_not_known) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::extreme_numbers_test

@@ -3,7 +3,7 @@
 
 #include "support/bound_checks.hpp"
 
-namespace kinesphere {
+namespace kinesphere::gap_limits_test {
 namespace {
 
 constexpr std::uint64_t seed = 1687;
@@ -102,4 +102,4 @@ TEST(BoundOfABody, holds_what_the_body_promises) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::gap_limits_test

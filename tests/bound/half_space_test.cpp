@@ -3,7 +3,7 @@
 
 #include "support/bound_checks.hpp"
 
-namespace kinesphere {
+namespace kinesphere::half_space_test {
 namespace {
 
 constexpr std::uint64_t seed = 1638;
@@ -135,4 +135,4 @@ TEST(HalfSpaceSeparation, of_a_ball_that_jumps) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::half_space_test

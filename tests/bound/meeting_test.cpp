@@ -5,7 +5,7 @@
 
 #include "support/bound_checks.hpp"
 
-namespace kinesphere {
+namespace kinesphere::meeting_test {
 namespace {
 
 constexpr std::uint64_t seed = 2005;
@@ -144,4 +144,4 @@ TEST(EarliestMeetingOfTwoBounds, of_points_needs_them_at_one_place) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::meeting_test

@@ -6,7 +6,7 @@
 #include "support/exact_shapes.hpp"
 #include "support/needles.hpp"
 
-namespace kinesphere {
+namespace kinesphere::needle_test {
 namespace {
 
 using exact::Wide;
@@ -133,4 +133,4 @@ TEST(Needle, SeparationIsNeverLateAndSpansMostOfTheTolerance) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::needle_test

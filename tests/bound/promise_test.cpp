@@ -4,7 +4,7 @@
 
 #include "support/bound_checks.hpp"
 
-namespace kinesphere {
+namespace kinesphere::promise_test {
 namespace {
 
 constexpr std::uint64_t seed = 2718;
@@ -215,4 +215,4 @@ TEST(PromiseOnALine, is_used_up_by_the_worst_behaviour) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::promise_test

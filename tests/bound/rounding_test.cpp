@@ -6,7 +6,7 @@
 #include "support/bound_cases.hpp"
 #include "support/exact_polynomial.hpp"
 
-namespace kinesphere {
+namespace kinesphere::rounding_test {
 namespace {
 
 constexpr std::uint64_t seed = 1202;
@@ -106,4 +106,4 @@ TEST(FirstCrossing, is_now_for_anything_that_is_no_number) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::rounding_test

@@ -3,7 +3,7 @@
 
 #include "support/bound_checks.hpp"
 
-namespace kinesphere {
+namespace kinesphere::separation_test {
 namespace {
 
 constexpr std::uint64_t seed = 1957;
@@ -133,4 +133,4 @@ TEST(EarliestSeparationOfTwoBounds, is_tight_when_the_quadratic_part_hardly_fall
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::separation_test

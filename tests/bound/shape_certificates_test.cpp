@@ -4,7 +4,7 @@
 #include "support/bound_checks.hpp"
 #include "support/exact_shapes.hpp"
 
-namespace kinesphere {
+namespace kinesphere::shape_certificates_test {
 namespace {
 
 using exact::Wide;
@@ -296,4 +296,4 @@ TEST(Mesh, NamesTheTriangleThatIsWrong) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::shape_certificates_test

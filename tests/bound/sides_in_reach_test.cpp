@@ -7,7 +7,7 @@
 #include "support/exact_certificates.hpp"
 #include "support/family_test.hpp"
 
-namespace kinesphere {
+namespace kinesphere::sides_in_reach_test {
 namespace {
 
 using exact::Wide;
@@ -125,4 +125,4 @@ TEST(SidesInReach, are_all_that_there_are_where_a_number_is_none) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::sides_in_reach_test

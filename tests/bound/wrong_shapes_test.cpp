@@ -7,7 +7,7 @@
 #include "kinesphere/shape.hpp"
 #include "number/infinity.hpp"
 
-namespace kinesphere {
+namespace kinesphere::wrong_shapes_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -71,4 +71,4 @@ TEST(WrongShape, NearestPlaceToNowhereIsNowhere) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::wrong_shapes_test

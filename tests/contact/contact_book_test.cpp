@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace kinesphere {
+namespace kinesphere::contact_book_test {
 namespace {
 
 /// Unit spheres on the x axis.
@@ -103,4 +103,4 @@ TEST_F(ContactBookTest, ReleasesBodiesAndWalls) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::contact_book_test

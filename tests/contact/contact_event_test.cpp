@@ -8,7 +8,7 @@
 #include "contact/contact_event.hpp"
 #include "kinesphere/random.hpp"
 
-namespace kinesphere {
+namespace kinesphere::contact_event_test {
 namespace {
 
 TEST(ContactEvent, IsTheSameFromBothSides) {
@@ -84,4 +84,4 @@ TEST(Names, AreThoseOfTheEnumerators) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::contact_event_test

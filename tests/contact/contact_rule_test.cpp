@@ -6,7 +6,7 @@
 
 #include "contact/contact_rule.hpp"
 
-namespace kinesphere {
+namespace kinesphere::contact_rule_test {
 namespace {
 
 using Change = ContactRule::Change;
@@ -95,4 +95,4 @@ TEST(ContactRule, HopWithinTheToleranceIsARepeatedContact) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::contact_rule_test

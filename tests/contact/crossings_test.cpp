@@ -8,7 +8,7 @@
 #include "contact/sensor_table.hpp"
 #include "kinesphere/random.hpp"
 
-namespace kinesphere {
+namespace kinesphere::crossings_test {
 namespace {
 
 constexpr std::uint64_t seed = 1405;
@@ -106,4 +106,4 @@ TEST(SensorTable, NextInwardIsTheLargestThatIsNotCrossed) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::crossings_test

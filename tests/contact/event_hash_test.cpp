@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-namespace kinesphere {
+namespace kinesphere::event_hash_test {
 namespace {
 
 std::uint64_t hash_of(const std::vector<Event>& events) {
@@ -74,4 +74,4 @@ TEST(EventHash, IsTheSameEverywhere) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::event_hash_test

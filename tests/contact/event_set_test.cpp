@@ -9,7 +9,7 @@
 #include "archive/fields.hpp"
 #include "kinesphere/random.hpp"
 
-namespace kinesphere {
+namespace kinesphere::event_set_test {
 namespace {
 
 constexpr std::uint64_t seed = 411;
@@ -90,4 +90,4 @@ TEST(EventSet, that_was_read_is_sound_if_the_first_comes_first) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::event_set_test

@@ -7,7 +7,7 @@
 #include "number/infinity.hpp"
 #include "space/space.hpp"
 
-namespace kinesphere {
+namespace kinesphere::outlook_test {
 namespace {
 
 constexpr double tolerance = 1e-3;
@@ -28,7 +28,7 @@ struct Pair {
     };
     return contact_event(EventKind::zeno_guard, 0.0, sphere(0, first), sphere(1, second), Space(world));
   }
-  Verdict judge(const ContactRule& rule) const {
+  Judgement judge(const ContactRule& rule) const {
     const Outlook<Bound> outlook(rule, {.within = false}, first, second, 0.0, {infinity, infinity});
     return outlook.judge(now(), {0.0, 2.0});
   }
@@ -43,7 +43,7 @@ TEST(Outlook, GuardsTheDistanceOfAPairOutsideTheTolerance) {
       const Pair pair(tolerance + steps * step, 2.0, x);
       const Event now = pair.now();
       if (!(now.gap > tolerance)) continue;
-      const Verdict verdict = pair.judge(ContactRule(pair.world).with_ends());
+      const Judgement verdict = pair.judge(ContactRule(pair.world).with_ends());
       EXPECT_EQ(verdict.change, ContactRule::Change::none);
       EXPECT_LE(verdict.next_look, 1.0001 * now.gap / 2.0) << "at " << x << ", " << steps << " steps out";
     }
@@ -56,4 +56,4 @@ TEST(Outlook, BeginsWithinTheTolerance) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::outlook_test

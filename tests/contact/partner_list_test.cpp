@@ -9,7 +9,7 @@
 #include "archive/heap_counter.hpp"
 #include "kinesphere/random.hpp"
 
-namespace kinesphere {
+namespace kinesphere::partner_list_test {
 namespace {
 
 using Numbers = std::vector<std::uint32_t>;
@@ -77,4 +77,4 @@ TEST(PartnerList, NeedsMemoryForMoreThanTwo) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::partner_list_test

@@ -7,7 +7,7 @@
 #include "kinesphere/response.hpp"
 #include "number/infinity.hpp"
 
-namespace kinesphere {
+namespace kinesphere::response_test {
 namespace {
 
 TEST(Bounce, KeepsMomentumAndLosesWhatRestitutionSays) {
@@ -140,4 +140,4 @@ TEST(Settle, LeastRestingSpeedFitsTheTolerance) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::response_test

@@ -10,7 +10,7 @@
 
 #include "kinesphere/random.hpp"
 
-namespace kinesphere {
+namespace kinesphere::communicator_test {
 namespace {
 
 using Bytes = Communicator::Bytes;
@@ -98,4 +98,4 @@ TEST(Communicator, CountsWhatItSends) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::communicator_test

@@ -10,7 +10,7 @@
 #include "lab/scene/make_scene.hpp"
 #include "support/expect_error.hpp"
 
-namespace kinesphere {
+namespace kinesphere::distributed_checkpoints_test {
 namespace {
 
 using Part = std::vector<std::byte>;
@@ -140,4 +140,4 @@ TEST(DistributedCheckpoints, AreRefusedUnlessTheyAreWhole) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::distributed_checkpoints_test

@@ -11,7 +11,7 @@
 #include "lab/scene/make_scene.hpp"
 #include "support/expect_error.hpp"
 
-namespace kinesphere {
+namespace kinesphere::distributed_failures_test {
 namespace {
 
 Scene scene() {
@@ -182,4 +182,4 @@ TEST(DistributedFailures, OfSensorsThatComeAfterABodyOfAnyRankLeaveTheWorldAsItW
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::distributed_failures_test

@@ -14,7 +14,7 @@
 #include "lab/truth/comparison.hpp"
 #include "scene/differential_scenes.hpp"
 
-namespace kinesphere {
+namespace kinesphere::distributed_world_test {
 namespace {
 
 SceneParameters parameters_of(const std::string& name, std::uint32_t bodies, double seconds) {
@@ -233,13 +233,13 @@ TEST(DistributedWorld, CanBeGivenMoreBodiesLater) {
 /// In scenes in which nobody reacts, the truth is known.
 TEST(DistributedWorldDifferential, AgreesWithTheOracle) {
   int scenes = 0;
-  for (int index = 0; index < static_cast<int>(testing::Family::count); ++index) {
-    const testing::Family family{index};
+  for (int index = 0; index < static_cast<int>(scene_tests::Family::count); ++index) {
+    const scene_tests::Family family{index};
     // Their bodies come and go.
-    if (family == testing::Family::tracks) continue;
+    if (family == scene_tests::Family::tracks) continue;
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
-      SCOPED_TRACE(std::string(testing::name_of(family)) + " " + std::to_string(seed));
-      Setting setting{.scene = testing::differential_scene(family, seed)};
+      SCOPED_TRACE(std::string(scene_tests::name_of(family)) + " " + std::to_string(seed));
+      Setting setting{.scene = scene_tests::differential_scene(family, seed)};
       setting.bringer = seed % 2 == 0 ? Bringer(in_turn) : Bringer(last_brings_all);
       const Outcome outcome = spread_out(setting);
       const ContactComparison comparison = compare_with_oracle(setting.scene, outcome.events).value();
@@ -251,4 +251,4 @@ TEST(DistributedWorldDifferential, AgreesWithTheOracle) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::distributed_world_test

@@ -15,7 +15,7 @@
 #include "kinesphere/random.hpp"
 #include "number/infinity.hpp"
 
-namespace kinesphere {
+namespace kinesphere::partition_test {
 namespace {
 
 struct Cloud {
@@ -289,4 +289,4 @@ TEST(Partition, OfClustersOfCoincidingPoints) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::partition_test

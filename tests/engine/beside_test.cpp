@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace kinesphere {
+namespace kinesphere::beside_test {
 namespace {
 
 TEST(Beside, TellsReportsAndRenewalsFromKicks) {
@@ -52,4 +52,4 @@ TEST(Beside, SeesBodiesOfOtherIslandsAsThePartBegan) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::beside_test

@@ -10,7 +10,7 @@
 
 #include "kinesphere/random.hpp"
 
-namespace kinesphere {
+namespace kinesphere::groups_test {
 namespace {
 
 constexpr std::uint64_t seed = 4811;
@@ -159,4 +159,4 @@ TEST(Groups, AFixedBodyJoinsNobody) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::groups_test

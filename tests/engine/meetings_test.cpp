@@ -11,7 +11,7 @@
 #include "kinesphere/random.hpp"
 #include "kinesphere/workers.hpp"
 
-namespace kinesphere {
+namespace kinesphere::meetings_test {
 namespace {
 
 constexpr std::uint64_t seed = 4912;
@@ -158,4 +158,4 @@ TEST(Meetings, NobodyMeetsWhereNobodyIsKicked) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::meetings_test

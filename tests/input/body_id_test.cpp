@@ -6,7 +6,7 @@
 #include <sstream>
 #include <unordered_map>
 
-namespace kinesphere {
+namespace kinesphere::body_id_test {
 namespace {
 
 TEST(BodyIds, PrintTheirIndexAndWhatGenerationTheyAreOf) {
@@ -35,4 +35,4 @@ TEST(BodyIds, CompareAndHashWithoutTheWorldThatGaveThemOut) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::body_id_test

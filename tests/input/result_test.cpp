@@ -11,7 +11,7 @@
 
 #include "kinesphere/world.hpp"
 
-namespace kinesphere {
+namespace kinesphere::result_test {
 namespace {
 
 template <class T>
@@ -78,4 +78,4 @@ TEST(ErrorCode, HasANameOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::result_test

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace kinesphere {
+namespace kinesphere::monitor_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -461,4 +461,4 @@ TEST(Monitor, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::monitor_test

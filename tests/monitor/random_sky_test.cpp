@@ -14,7 +14,7 @@
 #include "kinesphere/motion/random_forces.hpp"
 #include "kinesphere/random.hpp"
 
-namespace kinesphere {
+namespace kinesphere::random_sky_test {
 namespace {
 
 struct Sky {
@@ -213,4 +213,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& sky) { return sky.param.name; });
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::random_sky_test

@@ -9,7 +9,7 @@
 #include "kinesphere/random.hpp"
 #include "support/expect_error.hpp"
 
-namespace kinesphere {
+namespace kinesphere::share_test {
 namespace {
 
 MonitorDefinition definition(PairShare share) {
@@ -88,4 +88,4 @@ TEST(MonitorShare, IsChecked) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::share_test

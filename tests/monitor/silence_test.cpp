@@ -3,7 +3,7 @@
 
 #include "kinesphere/monitor/monitor.hpp"
 
-namespace kinesphere {
+namespace kinesphere::silence_test {
 namespace {
 
 TEST(Silence, LeavesNothingBehindWhenItIsOver) {
@@ -26,4 +26,4 @@ TEST(Silence, LeavesNothingBehindWhenItIsOver) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::silence_test

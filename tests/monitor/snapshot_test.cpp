@@ -8,7 +8,7 @@
 #include "kinesphere/random.hpp"
 #include "support/sealed_snapshot.hpp"
 
-namespace kinesphere {
+namespace kinesphere::snapshot_test {
 namespace {
 
 constexpr std::size_t tracks = 60;
@@ -142,4 +142,4 @@ TEST(MonitorSnapshot, RefusesDamage) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::snapshot_test

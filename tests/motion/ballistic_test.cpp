@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace kinesphere {
+namespace kinesphere::ballistic_test {
 namespace {
 
 TEST(Ballistic, FollowsAParabolaAndPlansIt) {
@@ -29,4 +29,4 @@ TEST(Ballistic, NamesWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::ballistic_test

@@ -27,7 +27,7 @@
 #include "motion/motion_properties.hpp"
 #include "motion/still.hpp"
 
-namespace kinesphere {
+namespace kinesphere::body_bytes_test {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -502,4 +502,4 @@ TEST(WrittenBodies, AreUnsupportedUnlessAMotionHasThem) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::body_bytes_test

@@ -12,7 +12,7 @@
 #include "motion/still.hpp"
 #include "support/expect_error.hpp"
 
-namespace kinesphere {
+namespace kinesphere::body_map_test {
 namespace {
 
 Ballistic rows(std::size_t bodies, double y) {
@@ -142,4 +142,4 @@ TEST(BodyMap, TellsViolationsAtTheirFrameOnly) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::body_map_test

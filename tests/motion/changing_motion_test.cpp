@@ -11,7 +11,7 @@
 #include "kinesphere/motion/steered.hpp"
 #include "kinesphere/motion/velocity_field.hpp"
 
-namespace kinesphere {
+namespace kinesphere::changing_motion_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -108,4 +108,4 @@ TEST(TeleportedBodies, GoOnFromTheirNewPlaceInTheFrames) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::changing_motion_test

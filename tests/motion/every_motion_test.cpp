@@ -19,7 +19,7 @@
 #include "kinesphere/world.hpp"
 #include "motion/motion_properties.hpp"
 
-namespace kinesphere {
+namespace kinesphere::every_motion_test {
 namespace {
 
 constexpr std::size_t bodies = 6;
@@ -391,4 +391,4 @@ INSTANTIATE_TEST_SUITE_P(All, EveryMotion,
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::every_motion_test

@@ -15,7 +15,7 @@
 #include "kinesphere/motion/frames.hpp"
 #include "kinesphere/random.hpp"
 
-namespace kinesphere {
+namespace kinesphere::frame_violations_test {
 namespace {
 
 /// An integrator that bounces its balls off the walls of a room by itself, and lets them pass each other.
@@ -232,4 +232,4 @@ TEST(FrameViolations, LoseNoContactWhenTheWorldIsToldOfThem) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::frame_violations_test

@@ -14,7 +14,7 @@
 #include "motion/motion_properties.hpp"
 #include "support/expect_error.hpp"
 
-namespace kinesphere {
+namespace kinesphere::frames_test {
 namespace {
 
 TEST(Frames, InterpolateBetweenTheLastTwo) {
@@ -310,4 +310,4 @@ TEST(Frames, TakesAChangeBackToTheLastBit) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::frames_test

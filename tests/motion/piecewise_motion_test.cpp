@@ -9,7 +9,7 @@
 
 #include "motion/motion_properties.hpp"
 
-namespace kinesphere {
+namespace kinesphere::piecewise_motion_test {
 namespace {
 
 /// Up and back from time 1 to 5: x = 6 at time 3.
@@ -82,4 +82,4 @@ TEST(PiecewiseMotion, NamesWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::piecewise_motion_test

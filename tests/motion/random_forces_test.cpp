@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace kinesphere {
+namespace kinesphere::random_forces_test {
 namespace {
 
 RandomForcesDefinition two_bodies() {
@@ -138,4 +138,4 @@ TEST(RandomForces, NameWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::random_forces_test

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <set>
 
-namespace kinesphere {
+namespace kinesphere::random_test {
 namespace {
 
 TEST(Random, IsSplitmix64) {
@@ -73,4 +73,4 @@ TEST(Random, EverySeedStreamAndIndexHasItsOwnDraws) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::random_test

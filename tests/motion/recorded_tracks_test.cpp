@@ -11,7 +11,7 @@
 
 #include "motion/motion_properties.hpp"
 
-namespace kinesphere {
+namespace kinesphere::recorded_tracks_test {
 namespace {
 
 Track random_track(Random& random, std::size_t samples) {
@@ -115,4 +115,4 @@ TEST(RecordedTracks, NameWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::recorded_tracks_test

@@ -9,7 +9,7 @@
 
 #include "motion/motion_properties.hpp"
 
-namespace kinesphere {
+namespace kinesphere::steered_test {
 namespace {
 
 Steered two_bodies() {
@@ -78,4 +78,4 @@ TEST(Steered, RefusesWhatTheBodyCannotDoAndStaysAsItWas) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::steered_test

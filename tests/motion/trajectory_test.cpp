@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace kinesphere {
+namespace kinesphere::trajectory_test {
 namespace {
 
 TEST(Segment, FollowsItsCubic) {
@@ -20,4 +20,4 @@ TEST(Segment, BeginsExactlyWhereItSays) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::trajectory_test

@@ -5,7 +5,7 @@
 
 #include "kinesphere/random.hpp"
 
-namespace kinesphere {
+namespace kinesphere::velocity_field_test {
 namespace {
 
 const Box box{{0, -50, 10}, {200, 50, 90}};
@@ -131,4 +131,4 @@ TEST(VelocityField, NamesWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::velocity_field_test

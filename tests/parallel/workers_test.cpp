@@ -20,7 +20,7 @@
 #include "parallel/crew.hpp"
 #include "support/expect_error.hpp"
 
-namespace kinesphere {
+namespace kinesphere::workers_test {
 namespace {
 
 /// A task system that does each task when it is waited for, in ranges and threads as it likes.
@@ -241,4 +241,4 @@ TEST(Workers, WorkForOneRunAtATime) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::workers_test

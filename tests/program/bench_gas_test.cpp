@@ -2,7 +2,7 @@
 #include "bench_table.hpp"
 #include "support.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::bench_gas_test {
 namespace {
 
 class BenchGasTest : public ProgramTest {
@@ -46,4 +46,4 @@ TEST_F(BenchGasTest, RefusesWrongOptions) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::bench_gas_test

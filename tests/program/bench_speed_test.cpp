@@ -8,7 +8,7 @@
 #include "bench_table.hpp"
 #include "support.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::bench_speed_test {
 namespace {
 
 class BenchSpeedTest : public ProgramTest {
@@ -136,4 +136,4 @@ TEST_F(BenchSpeedTest, RefusesWrongOptions) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::bench_speed_test

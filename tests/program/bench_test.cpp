@@ -6,7 +6,7 @@
 #include "bench_table.hpp"
 #include "support.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::bench_test {
 namespace {
 
 using Row = std::vector<std::string>;
@@ -122,4 +122,4 @@ TEST_F(BenchTest, RefusesWrongOptions) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::bench_test

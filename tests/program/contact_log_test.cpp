@@ -8,7 +8,7 @@
 
 #include "support.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::contact_log_test {
 namespace {
 
 using ContactLogTest = FolderTest;
@@ -97,4 +97,4 @@ TEST_F(ContactLogTest, DoublesComeBackToTheLastBit) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::contact_log_test

@@ -4,7 +4,7 @@
 #include "kinesphere/motion/recorded_tracks.hpp"
 #include "support.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::frames_xyz_test {
 namespace {
 
 using FramesXyzTest = FolderTest;
@@ -68,4 +68,4 @@ TEST_F(FramesXyzTest, LeavesOutWhatIsNotThereAndALatticeWithoutBox) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::frames_xyz_test

@@ -7,7 +7,7 @@
 #include "program/support.hpp"
 #include "tracks/track_file.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::monitoring_test {
 namespace {
 
 struct RecordedSet {
@@ -176,4 +176,4 @@ TEST_F(WatchSoak, ALineThatIsNoAlertOfTheSoakIsNamed) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::monitoring_test

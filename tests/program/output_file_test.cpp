@@ -7,7 +7,7 @@
 
 #include "support.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::output_file_test {
 namespace {
 
 using OutputFileTest = FolderTest;
@@ -132,4 +132,4 @@ TEST_F(OutputFileTest, RefusesWhatIsNoRegularFile) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::output_file_test

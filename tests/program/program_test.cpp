@@ -7,7 +7,7 @@
 #include "scene_file.hpp"
 #include "support.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::program_test {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -367,4 +367,4 @@ INSTANTIATE_TEST_SUITE_P(All, TracksOfRecording,
                          });
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::program_test

@@ -1,7 +1,7 @@
 // `run --record` and `replay`: the same hash, files that are whole, and one clear line for what is wrong.
 #include "support.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::replay_test {
 namespace {
 
 constexpr std::string_view coming_and_going = R"({
@@ -46,4 +46,4 @@ TEST_F(ProgramTest, RecordsWithTheWorldAloneAndIntoAFileOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::replay_test

@@ -9,7 +9,7 @@
 
 #include "support.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::robustness_test {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -168,4 +168,4 @@ TEST_F(ProgramTest, GivesItsSummaryEvenIfAFileCouldNotBeWritten) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::robustness_test

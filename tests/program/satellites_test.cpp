@@ -7,7 +7,7 @@
 #include "lab/satellites/true_approaches.hpp"
 #include "program/support.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::satellites_test {
 namespace {
 
 TEST(Satellites, TheMonitorTellsOfAllApproachesAndOfNothingElse) {
@@ -39,4 +39,4 @@ TEST_F(SatellitesProgram, SatellitesThatAreNoneAreRefused) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::satellites_test

@@ -3,7 +3,7 @@
 
 #include "support.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::scene_file_test {
 namespace {
 
 using SceneFileTest = FolderTest;
@@ -122,4 +122,4 @@ TEST(SceneFile, ExamplesAreScenes) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::scene_file_test

@@ -17,7 +17,7 @@
 #include "bench/speed/wall_check.hpp"
 #include "kinesphere/random.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::step_kernels_test {
 namespace {
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
@@ -147,4 +147,4 @@ TEST(WallCheck, FindsThoseThatReachOut) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::step_kernels_test

@@ -7,7 +7,7 @@
 
 #include "progress.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::summary_test {
 namespace {
 
 TEST(Summary, GroupsThousands) {
@@ -47,4 +47,4 @@ TEST(Progress, Line) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::summary_test

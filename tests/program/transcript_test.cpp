@@ -8,7 +8,7 @@
 #include "bench/speed/recall.hpp"
 #include "support.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::transcript_test {
 namespace {
 
 Scene scene(Response response) {
@@ -46,4 +46,4 @@ TEST(Recall, FineStepsMissLessAndSweptOnesNothing) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::transcript_test

@@ -7,7 +7,7 @@
 
 #include "bench/speed/verdicts.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::verdicts_test {
 namespace {
 
 /// Took as long in each of three turns; the default engine took a millisecond.
@@ -112,4 +112,4 @@ TEST(Verdicts, Growth) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::verdicts_test

@@ -12,7 +12,7 @@
 #include <httplib.h>
 #endif
 
-namespace kinesphere::program {
+namespace kinesphere::program::view_test {
 namespace {
 
 class View : public ProgramTest {
@@ -270,4 +270,4 @@ TEST_F(View, ShowsOpenedFilesToNobodyElse) {
 #endif
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::view_test

@@ -2,7 +2,7 @@
 #include "kinesphere/random.hpp"
 #include "support.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::checkpoint_test {
 namespace {
 
 class MpiProgramCheckpoints : public MpiProgramTest {
@@ -134,4 +134,4 @@ TEST_F(MpiProgramCheckpoints, AreNotMixedUpWithThoseOfAnotherRun) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::checkpoint_test

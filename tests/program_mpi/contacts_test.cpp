@@ -1,7 +1,7 @@
 // What kinesphere-mpi writes and prints is what kinesphere does, on any number of ranks.
 #include "support.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::contacts_test {
 namespace {
 
 class ContactsOfAllRanks : public MpiProgramTest, public ::testing::WithParamInterface<const char*> {};
@@ -83,4 +83,4 @@ TEST_F(MpiProgramTest, HelpAndVersionAreSaidOnce) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::contacts_test

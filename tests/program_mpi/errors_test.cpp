@@ -1,7 +1,7 @@
 // What goes wrong is said once, and all ranks end.
 #include "support.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::errors_test {
 namespace {
 
 class MpiProgramErrors : public MpiProgramTest {
@@ -60,4 +60,4 @@ TEST_F(MpiProgramErrors, OfARankThatIsKilled) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::errors_test

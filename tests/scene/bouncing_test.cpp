@@ -11,7 +11,7 @@
 #include "lab/truth/gap_course.hpp"
 #include "scene/differential_scenes.hpp"
 
-namespace kinesphere::testing {
+namespace kinesphere::scene_tests::bouncing_test {
 namespace {
 
 constexpr std::uint64_t scenes_per_family = 25;
@@ -73,4 +73,4 @@ std::string name_of_case(const ::testing::TestParamInfo<Case>& info) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Bouncing, ::testing::ValuesIn(all_cases()), name_of_case);
 
 }  // namespace
-}  // namespace kinesphere::testing
+}  // namespace kinesphere::scene_tests::bouncing_test

@@ -11,7 +11,7 @@
 #include "kinesphere/random.hpp"
 #include "lab/scene/make_scene.hpp"
 
-namespace kinesphere::testing {
+namespace kinesphere::scene_tests {
 namespace {
 
 using MotionKind = SceneParameters::MotionKind;
@@ -304,4 +304,4 @@ Scene differential_scene(Family family, std::uint64_t seed) {
   return scene;
 }
 
-}  // namespace kinesphere::testing
+}  // namespace kinesphere::scene_tests

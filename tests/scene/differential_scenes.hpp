@@ -7,7 +7,7 @@
 
 #include "lab/scene/scene.hpp"
 
-namespace kinesphere::testing {
+namespace kinesphere::scene_tests {
 
 enum class Family {
   random_forces,   ///< the paper's first experiment at many sizes and densities
@@ -30,4 +30,4 @@ std::string_view name_of(Family family);
 /// The scene that belongs to this seed.
 Scene differential_scene(Family family, std::uint64_t seed);
 
-}  // namespace kinesphere::testing
+}  // namespace kinesphere::scene_tests

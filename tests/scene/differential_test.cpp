@@ -8,7 +8,7 @@
 #include "lab/truth/comparison.hpp"
 #include "scene/differential_scenes.hpp"
 
-namespace kinesphere::testing {
+namespace kinesphere::scene_tests::differential_test {
 namespace {
 
 constexpr std::uint64_t scenes_per_family = 30;
@@ -89,4 +89,4 @@ TEST(DifferentialFamilies, have_contacts) {
 }
 
 }  // namespace
-}  // namespace kinesphere::testing
+}  // namespace kinesphere::scene_tests::differential_test

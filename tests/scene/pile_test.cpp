@@ -9,7 +9,7 @@
 #include "lab/detector_table.hpp"
 #include "lab/scene/make_scene.hpp"
 
-namespace kinesphere::testing {
+namespace kinesphere::scene_tests::pile_test {
 namespace {
 
 SceneParameters pile() {
@@ -112,4 +112,4 @@ TEST(Pile, WrongParametersAreNamed) {
 }
 
 }  // namespace
-}  // namespace kinesphere::testing
+}  // namespace kinesphere::scene_tests::pile_test

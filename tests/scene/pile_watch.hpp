@@ -11,7 +11,7 @@
 #include "lab/scene/scene.hpp"
 #include "lab/simulation/simulate.hpp"
 
-namespace kinesphere::testing {
+namespace kinesphere::scene_tests {
 
 /// How the heap stands at one time.
 struct PileFrame {
@@ -124,4 +124,4 @@ class PileWatch {
   std::uint64_t guards_ = 0;
 };
 
-}  // namespace kinesphere::testing
+}  // namespace kinesphere::scene_tests

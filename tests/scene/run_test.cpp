@@ -19,7 +19,7 @@
 #include "lab/truth/oracle.hpp"
 #include "support/expect_error.hpp"
 
-namespace kinesphere {
+namespace kinesphere::run_test {
 namespace {
 
 /// As crowded as the scene itself, with fewer bodies and for a shorter time.
@@ -138,4 +138,4 @@ TEST(RunScenesWithoutAWay, AreRefused) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::run_test

@@ -16,11 +16,11 @@
 #include "lab/truth/oracle.hpp"
 #include "scene/differential_scenes.hpp"
 
-namespace kinesphere {
+namespace kinesphere::true_contacts_test {
 namespace {
 
-using testing::differential_scene;
-using testing::Family;
+using scene_tests::differential_scene;
+using scene_tests::Family;
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 using Spans = std::map<Pair, std::vector<NearSpan>>;
@@ -239,4 +239,4 @@ TEST(Comparison, notices_contacts_of_bodies_that_are_far_from_each_other) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::true_contacts_test

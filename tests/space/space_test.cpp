@@ -8,7 +8,7 @@
 
 #include "kinesphere/random.hpp"
 
-namespace kinesphere {
+namespace kinesphere::space_test {
 namespace {
 
 const Box box{{-3, 10, 0}, {1, 17, 2}};
@@ -159,4 +159,4 @@ TEST(Space, APlaneHasNoThirdAxis) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::space_test

@@ -6,11 +6,6 @@
 #include "stream/player.hpp"
 
 namespace kinesphere::stream {
-namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
 
 /// The world goes on as the restored one, or has a twin from now on that must do the same to the last bit.
 void Player::restore(const Operation& operation) {

@@ -9,7 +9,7 @@
 #include "stream/any_snapshot.hpp"
 #include "stream/player.hpp"
 
-namespace kinesphere::stream {
+namespace kinesphere::stream::corpus_test {
 namespace {
 
 /// The files of one corpus, by name.
@@ -47,4 +47,4 @@ TEST(Corpus, OfSnapshotsIsRefusedOrHarmless) {
 }
 
 }  // namespace
-}  // namespace kinesphere::stream
+}  // namespace kinesphere::stream::corpus_test

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <set>
 #include <string>
@@ -13,6 +14,9 @@
 #include "stream/told_contacts.hpp"
 
 namespace kinesphere::stream {
+
+/// What no call may be given.
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 class Player {
  public:

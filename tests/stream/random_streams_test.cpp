@@ -6,7 +6,7 @@
 
 #include "stream/player.hpp"
 
-namespace kinesphere::stream {
+namespace kinesphere::stream::random_streams_test {
 namespace {
 
 /// Each shard is a test of its own, so that they run side by side.
@@ -52,4 +52,4 @@ TEST(Crowds, ThatOnceFailed) {
 }
 
 }  // namespace
-}  // namespace kinesphere::stream
+}  // namespace kinesphere::stream::random_streams_test

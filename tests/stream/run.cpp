@@ -15,8 +15,6 @@
 namespace kinesphere::stream {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 /// A loop that has had so many events goes no further than to the end of their instant.
 constexpr std::size_t most_events = 300;
 

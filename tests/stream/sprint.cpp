@@ -12,7 +12,7 @@
 namespace kinesphere::stream {
 namespace {
 
-constexpr int most_events = 20000;
+constexpr int most_events_of_a_sprint = 20000;
 
 void require_clean(const World& world) {
   if (const auto finding = world.audit())
@@ -21,7 +21,7 @@ void require_clean(const World& world) {
 
 /// False if the probe's answers went out of range.
 bool goes_on(World& world, double until, Probe probe) {
-  for (int count = 0; count < most_events; ++count) {
+  for (int count = 0; count < most_events_of_a_sprint; ++count) {
     const auto event = world.advance(until, probe);
     if (!event) {
       require(event.error().code == ErrorCode::out_of_range, "a sprint is refused for a wrong reason");

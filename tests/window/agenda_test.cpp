@@ -11,7 +11,7 @@
 #include "kinesphere/random.hpp"
 #include "support/bound_cases.hpp"
 
-namespace kinesphere {
+namespace kinesphere::agenda_test {
 namespace {
 
 constexpr std::uint64_t seed = 4201;
@@ -285,4 +285,4 @@ TEST(PairTimes, FindTheFirstTimeOfAPair) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::agenda_test

@@ -11,7 +11,7 @@
 #include "support/bound_cases.hpp"
 #include "support/true_balls.hpp"
 
-namespace kinesphere {
+namespace kinesphere::capsule_search_test {
 namespace {
 
 constexpr std::uint64_t seed = 4101;
@@ -268,4 +268,4 @@ TEST(CapsuleSearch, FindsThoseThatAFastOneMeets) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::capsule_search_test

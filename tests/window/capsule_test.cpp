@@ -11,7 +11,7 @@
 #include "support/true_balls.hpp"
 #include "window/windows.hpp"
 
-namespace kinesphere {
+namespace kinesphere::capsule_test {
 namespace {
 
 constexpr std::uint64_t seed = 4001;
@@ -143,4 +143,4 @@ TEST(Capsule, IsEverywhereWhereASearchCouldNotComputeWithItsNumbers) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::capsule_test

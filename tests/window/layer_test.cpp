@@ -16,7 +16,7 @@
 #include "support/bound_cases.hpp"
 #include "support/true_balls.hpp"
 
-namespace kinesphere {
+namespace kinesphere::layer_test {
 namespace {
 
 constexpr std::uint64_t seed = 4401;
@@ -489,4 +489,4 @@ TEST(Layer, GetsUntidyWhereManyHaveEnteredOrLeft) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::layer_test

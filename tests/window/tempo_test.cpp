@@ -13,7 +13,7 @@
 #include "number/infinity.hpp"
 #include "support/bound_cases.hpp"
 
-namespace kinesphere {
+namespace kinesphere::tempo_test {
 namespace {
 
 constexpr std::uint64_t seed = 4301;
@@ -577,4 +577,4 @@ TEST(Tempo, GoesOnAsBeforeAfterItWasBytes) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::tempo_test

@@ -16,7 +16,7 @@
 #include "support/bound_cases.hpp"
 #include "support/true_balls.hpp"
 
-namespace kinesphere {
+namespace kinesphere::windows_test {
 namespace {
 
 constexpr std::uint64_t seed = 4501;
@@ -603,4 +603,4 @@ TEST(Windows, StartAlikeInWhateverOrderBodiesWereKicked) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::windows_test

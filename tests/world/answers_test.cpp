@@ -7,7 +7,7 @@
 #include "support/expect_error.hpp"
 #include "world/crowd.hpp"
 
-namespace kinesphere {
+namespace kinesphere::answers_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -363,4 +363,4 @@ TEST(Answers, DoNotProbeDisabledBodies) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::answers_test

@@ -9,7 +9,7 @@
 #include "support/playground.hpp"
 #include "support/sealed_snapshot.hpp"
 
-namespace kinesphere {
+namespace kinesphere::audit_test {
 namespace {
 
 TEST(Audit, TakesACertificateForWhatItIsThoughALaterOneIsShorter) {
@@ -121,4 +121,4 @@ TEST(Audit, FindsASensorDistanceThatNoEventHasToldOf) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::audit_test

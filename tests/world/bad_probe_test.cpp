@@ -7,7 +7,7 @@
 
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::bad_probe_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -328,4 +328,4 @@ TEST(Probe, ThatThrowsLeavesAWorldThatGoesOn) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::bad_probe_test

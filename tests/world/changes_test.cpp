@@ -5,7 +5,7 @@
 #include "number/infinity.hpp"
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::changes_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -329,4 +329,4 @@ TEST(WrongChange, NamesEachNumberThatIsWrong) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::changes_test

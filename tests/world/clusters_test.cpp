@@ -4,7 +4,7 @@
 
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::clusters_test {
 namespace {
 
 constexpr double harbour_distance = 1e6;
@@ -100,4 +100,4 @@ TEST(Clusters, are_told_the_same_events_again) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::clusters_test

@@ -7,7 +7,7 @@
 
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::contact_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -290,4 +290,4 @@ TEST(ContactPairs, GrazingWithinTheToleranceMayOrMayNotCountButNeverStalls) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::contact_test

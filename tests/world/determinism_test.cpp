@@ -8,7 +8,7 @@
 #include "kinesphere/response.hpp"
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::determinism_test {
 namespace {
 
 std::vector<std::pair<BodyDefinition, Vec3>> crowd() {
@@ -120,4 +120,4 @@ TEST(OrderOfAdding, ChangesNoContact) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::determinism_test

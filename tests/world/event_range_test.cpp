@@ -7,7 +7,7 @@
 #include "kinesphere/motion/ballistic.hpp"
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::event_range_test {
 namespace {
 
 static_assert(std::input_iterator<EventRange::Iterator>);
@@ -99,4 +99,4 @@ TEST(EventRange, ThrowsWhatAdvanceRefuses) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::event_range_test

@@ -6,7 +6,7 @@
 
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::failed_advance_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -159,4 +159,4 @@ TEST(FailedAdvance, LeavesAWorldThatIsCleanAndCanBeRestored) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::failed_advance_test

@@ -8,7 +8,7 @@
 
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::far_period_test {
 namespace {
 
 constexpr double eps = 1e-6;
@@ -132,4 +132,4 @@ INSTANTIATE_TEST_SUITE_P(Places, FarPeriod,
                                          Place{-2000000.0, 40.24}, Place{1000000.5, 30.3}));
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::far_period_test

@@ -5,7 +5,7 @@
 
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::filter_test {
 namespace {
 
 TEST(Filter, FollowsGroupsFirstAndThenMasks) {
@@ -214,4 +214,4 @@ TEST(PairFilter, OfOneWorldMayAskAnother) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::filter_test

@@ -4,7 +4,7 @@
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::foreign_id_test {
 namespace {
 
 TEST(ForeignId, IsRefusedByEveryCallThatTakesOne) {
@@ -104,4 +104,4 @@ TEST(ForeignId, IsNoneOfARestoredWorldWhichSavesWithoutItsTag) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::foreign_id_test

@@ -6,7 +6,7 @@
 #include "kinesphere/response.hpp"
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::impacts_test {
 namespace {
 
 constexpr WorldDefinition impacts{.contacts = ContactMode::impacts};
@@ -281,4 +281,4 @@ TEST(Impacts, BodiesThatRestInContactWithoutForceCostNothing) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::impacts_test

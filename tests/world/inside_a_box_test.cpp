@@ -4,7 +4,7 @@
 
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::inside_a_box_test {
 namespace {
 
 struct Visit {
@@ -50,4 +50,4 @@ INSTANTIATE_TEST_SUITE_P(Of, VisitInABox,
                                          Visit{1e-6, 0, 1494, 2}));
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::inside_a_box_test

@@ -11,7 +11,7 @@
 #include "support/expect_error.hpp"
 #include "world/crowd.hpp"
 
-namespace kinesphere {
+namespace kinesphere::inspection_test {
 namespace {
 
 struct BusyCrowd : Crowd {
@@ -206,4 +206,4 @@ TEST(WrongCalls, AProbeMayLookInsideButNotSwitchTimingOn) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::inspection_test

@@ -13,7 +13,7 @@
 #include "support/playground.hpp"
 #include "world/bouncing_world.hpp"
 
-namespace kinesphere {
+namespace kinesphere::island_chains_test {
 namespace {
 
 /// Rows of balls at rest, the first of which is hit from behind; each is lighter than the one before, so that
@@ -140,4 +140,4 @@ TEST(IslandsOfRows, GoOnAfterAMoverThrewAsItWentBack) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::island_chains_test

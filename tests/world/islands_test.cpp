@@ -13,7 +13,7 @@
 #include "support/playground.hpp"
 #include "world/bouncing_world.hpp"
 
-namespace kinesphere {
+namespace kinesphere::islands_test {
 namespace {
 
 struct Kind {
@@ -244,4 +244,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& kind) { return kind.param.name; });
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::islands_test

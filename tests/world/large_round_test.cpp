@@ -9,7 +9,7 @@
 #include "kinesphere/random.hpp"
 #include "kinesphere/world.hpp"
 
-namespace kinesphere {
+namespace kinesphere::large_round_test {
 namespace {
 
 TEST(LargeRound, finds_every_pair_that_touches_at_the_start) {
@@ -135,4 +135,4 @@ TEST(FirstBoxes, leave_room_for_a_part_of_the_distance_between_bodies) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::large_round_test

@@ -10,7 +10,7 @@
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::lent_probe_test {
 namespace {
 
 void stand_still(std::span<const BodyId> ids, double, std::span<State> states) {
@@ -118,4 +118,4 @@ TEST(LentProbe, ThatIsEmptyIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::lent_probe_test

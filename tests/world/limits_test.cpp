@@ -13,7 +13,7 @@
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::limits_test {
 namespace {
 
 constexpr double tolerance = 1e-6;
@@ -268,4 +268,4 @@ TEST(Limits, WhereTimesAreTooCoarseForTheBodiesTimeGoesOn) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::limits_test

@@ -7,7 +7,7 @@
 #include "number/infinity.hpp"
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::many_distances_test {
 namespace {
 
 Sensor sensor_of(int count, double first, double step) {
@@ -118,4 +118,4 @@ TEST(ManyDistances, MayChangeAtAnyTime) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::many_distances_test

@@ -7,7 +7,7 @@
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::moved_world_test {
 namespace {
 
 const auto idle_probe = [](std::span<const BodyId>, double, std::span<State>) {};
@@ -164,4 +164,4 @@ TEST(WorldInItsOwnProbe, MayGoAfterTheProbeHasThrown) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::moved_world_test

@@ -8,7 +8,7 @@
 #include "support/needles.hpp"
 #include "world/surroundings.hpp"
 
-namespace kinesphere {
+namespace kinesphere::needle_test {
 namespace {
 
 constexpr std::uint64_t seed = 1403;
@@ -94,4 +94,4 @@ TEST(NeedleFlight, OfAMillionProbes) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::needle_test

@@ -9,7 +9,7 @@
 #include "support/expect_error.hpp"
 #include "world/periodic_world.hpp"
 
-namespace kinesphere {
+namespace kinesphere::periodic_test {
 namespace {
 
 constexpr double eps = PeriodicWorld::eps;
@@ -529,4 +529,4 @@ TEST(WrongPeriodic, IsRefused) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::periodic_test

@@ -8,7 +8,7 @@
 #include "number/infinity.hpp"
 #include "world/surroundings.hpp"
 
-namespace kinesphere {
+namespace kinesphere::phantom_impacts_test {
 namespace {
 
 constexpr std::uint64_t seed = 1404;
@@ -174,4 +174,4 @@ TEST(PhantomImpacts, ApproachesThatDoNotEndAreToldInTime) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::phantom_impacts_test

@@ -10,7 +10,7 @@
 #include "number/infinity.hpp"
 #include "support/exact_shapes.hpp"
 
-namespace kinesphere {
+namespace kinesphere::plain_gap_test {
 namespace {
 
 Vec3 any_vector(Random& random, double size) { return size * random.point_in_ball(); }
@@ -100,4 +100,4 @@ TEST(PlainGap, OfAShapeHoldsTheExactOne) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::plain_gap_test

@@ -6,7 +6,7 @@
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::plane_test {
 namespace {
 
 constexpr double eps = 1e-6;
@@ -191,4 +191,4 @@ TEST(WrongPlane, IsRefused) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::plane_test

@@ -5,7 +5,7 @@
 
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::probes_test {
 namespace {
 
 /// Two at rest that could be within 1 of each other when both bounds have grown by 4.5; both began at time 0.
@@ -44,4 +44,4 @@ INSTANTIATE_TEST_SUITE_P(Distances, TwoAtRest,
                          testing::Values(std::vector<double>{1.0}, std::vector<double>{1.0, 50.0}));
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::probes_test

@@ -6,7 +6,7 @@
 
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::promise_test {
 namespace {
 
 /// Deterministic noise within the errors, different for each report.
@@ -259,4 +259,4 @@ TEST(BrokenPromise, FaithfulReportsWithRoundingAreNone) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::promise_test

@@ -9,7 +9,7 @@
 #include "number/infinity.hpp"
 #include "world/crowd.hpp"
 
-namespace kinesphere {
+namespace kinesphere::queries_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -258,8 +258,8 @@ TEST(Nearest, OfFewGivesAll) {
 }
 
 template <class T>
-void expect_error(const Result<T>& result, ErrorCode code, const std::string& argument,
-                  const std::string& call) {
+void expect_refusal(const Result<T>& result, ErrorCode code, const std::string& argument,
+                    const std::string& call) {
   ASSERT_FALSE(result) << argument;
   EXPECT_EQ(result.error().code, code) << result.error().message;
   EXPECT_EQ(result.error().argument, argument) << result.error().message;
@@ -272,35 +272,36 @@ TEST(WrongQueries, AreRefused) {
   ASSERT_FALSE(p.advance(1.0));
   const auto check = [&](ErrorCode code, double bad) {
     const Vec3 v{0, bad, 0};
-    expect_error(p.world.overlapping(v, 1.0), code, "centre", "overlapping");
-    expect_error(p.world.overlapping(v, 1.0, p.probe()), code, "centre", "overlapping");
-    expect_error(p.world.overlapping({}, bad), code, "radius", "overlapping");
-    expect_error(p.world.overlapping(Box{{}, v}), code, "box", "overlapping");
-    expect_error(p.world.overlapping(Box{{}, v}, p.probe()), code, "box", "overlapping");
-    expect_error(p.world.nearest(v, 1), code, "point", "nearest");
-    expect_error(p.world.nearest(v, 1, p.probe()), code, "point", "nearest");
-    expect_error(p.world.ray_cast(v, {1, 0, 0}, 1.0), code, "origin", "ray_cast");
-    expect_error(p.world.ray_cast({}, {1, 0, 0}, bad), code, "length", "ray_cast");
-    expect_error(p.world.ray_cast({}, {1, 0, 0}, bad, p.probe()), code, "length", "ray_cast");
-    expect_error(p.world.ray_cast({}, v, 1.0), code, "direction", "ray_cast");
-    expect_error(p.world.ray_cast({}, v, 1.0, p.probe()), code, "direction", "ray_cast");
-    expect_error(p.world.sphere_cast(v, 1.0, {1, 0, 0}, 1.0), code, "origin", "sphere_cast");
-    expect_error(p.world.sphere_cast({}, 1.0, v, 1.0), code, "direction", "sphere_cast");
-    expect_error(p.world.sphere_cast({}, 1.0, {1, 0, 0}, bad), code, "length", "sphere_cast");
-    expect_error(p.world.sphere_cast({}, bad, {1, 0, 0}, 1.0), code, "radius", "sphere_cast");
-    expect_error(p.world.sphere_cast({}, bad, {1, 0, 0}, 1.0, p.probe()), code, "radius", "sphere_cast");
+    expect_refusal(p.world.overlapping(v, 1.0), code, "centre", "overlapping");
+    expect_refusal(p.world.overlapping(v, 1.0, p.probe()), code, "centre", "overlapping");
+    expect_refusal(p.world.overlapping({}, bad), code, "radius", "overlapping");
+    expect_refusal(p.world.overlapping(Box{{}, v}), code, "box", "overlapping");
+    expect_refusal(p.world.overlapping(Box{{}, v}, p.probe()), code, "box", "overlapping");
+    expect_refusal(p.world.nearest(v, 1), code, "point", "nearest");
+    expect_refusal(p.world.nearest(v, 1, p.probe()), code, "point", "nearest");
+    expect_refusal(p.world.ray_cast(v, {1, 0, 0}, 1.0), code, "origin", "ray_cast");
+    expect_refusal(p.world.ray_cast({}, {1, 0, 0}, bad), code, "length", "ray_cast");
+    expect_refusal(p.world.ray_cast({}, {1, 0, 0}, bad, p.probe()), code, "length", "ray_cast");
+    expect_refusal(p.world.ray_cast({}, v, 1.0), code, "direction", "ray_cast");
+    expect_refusal(p.world.ray_cast({}, v, 1.0, p.probe()), code, "direction", "ray_cast");
+    expect_refusal(p.world.sphere_cast(v, 1.0, {1, 0, 0}, 1.0), code, "origin", "sphere_cast");
+    expect_refusal(p.world.sphere_cast({}, 1.0, v, 1.0), code, "direction", "sphere_cast");
+    expect_refusal(p.world.sphere_cast({}, 1.0, {1, 0, 0}, bad), code, "length", "sphere_cast");
+    expect_refusal(p.world.sphere_cast({}, bad, {1, 0, 0}, 1.0), code, "radius", "sphere_cast");
+    expect_refusal(p.world.sphere_cast({}, bad, {1, 0, 0}, 1.0, p.probe()), code, "radius", "sphere_cast");
   };
   for (const double bad : {nan, infinity, -infinity}) check(ErrorCode::not_finite, bad);
   for (const double bad : {1e200, -1e200}) check(ErrorCode::out_of_range, bad);
-  expect_error(p.world.ray_cast({}, {0, 0, 0}, 1.0), ErrorCode::out_of_range, "direction", "ray_cast");
-  expect_error(p.world.overlapping(Box{{1, 0, 0}, {0, 1, 1}}), ErrorCode::out_of_range, "box", "overlapping");
-  expect_error(p.world.overlapping({}, -1.0), ErrorCode::out_of_range, "radius", "overlapping");
-  expect_error(p.world.ray_cast({}, {1, 0, 0}, -1.0), ErrorCode::out_of_range, "length", "ray_cast");
-  expect_error(p.world.sphere_cast({}, -1.0, {1, 0, 0}, 1.0), ErrorCode::out_of_range, "radius",
-               "sphere_cast");
-  expect_error(p.world.sphere_cast({}, 1.0, {}, 1.0), ErrorCode::out_of_range, "direction", "sphere_cast");
+  expect_refusal(p.world.ray_cast({}, {0, 0, 0}, 1.0), ErrorCode::out_of_range, "direction", "ray_cast");
+  expect_refusal(p.world.overlapping(Box{{1, 0, 0}, {0, 1, 1}}), ErrorCode::out_of_range, "box",
+                 "overlapping");
+  expect_refusal(p.world.overlapping({}, -1.0), ErrorCode::out_of_range, "radius", "overlapping");
+  expect_refusal(p.world.ray_cast({}, {1, 0, 0}, -1.0), ErrorCode::out_of_range, "length", "ray_cast");
+  expect_refusal(p.world.sphere_cast({}, -1.0, {1, 0, 0}, 1.0), ErrorCode::out_of_range, "radius",
+                 "sphere_cast");
+  expect_refusal(p.world.sphere_cast({}, 1.0, {}, 1.0), ErrorCode::out_of_range, "direction", "sphere_cast");
   EXPECT_EQ(p.world.counters().probes, 0u);
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::queries_test

@@ -6,7 +6,7 @@
 
 #include "world/surroundings.hpp"
 
-namespace kinesphere {
+namespace kinesphere::random_surroundings_test {
 namespace {
 
 constexpr double eps = 1e-5;
@@ -198,4 +198,4 @@ INSTANTIATE_TEST_SUITE_P(, RandomSurroundings,
                                          Kind{ContactMode::impacts, 6}));
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::random_surroundings_test

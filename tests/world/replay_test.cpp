@@ -12,7 +12,7 @@
 #include "support/expect_error.hpp"
 #include "world/bustle.hpp"
 
-namespace kinesphere {
+namespace kinesphere::replay_test {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -352,4 +352,4 @@ TEST(WrongCalls, OfRecording) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::replay_test

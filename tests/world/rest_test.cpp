@@ -9,7 +9,7 @@
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::rest_test {
 namespace {
 
 constexpr double limit = 10.0;
@@ -379,4 +379,4 @@ TEST(Rest, InAThousandScenesIsWhatTheExactGapsTell) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::rest_test

@@ -7,7 +7,7 @@
 #include "kinesphere/response.hpp"
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::resting_test {
 namespace {
 
 constexpr double g = 10.0;
@@ -241,4 +241,4 @@ TEST(Jammed, IsNotWhatManyHitAtOnce) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::resting_test

@@ -7,7 +7,7 @@
 #include "kinesphere/response.hpp"
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::rollback_test {
 namespace {
 
 constexpr double frame = 1.0 / 60.0;
@@ -121,4 +121,4 @@ TEST(Rollback, OfThreeHundredBodiesComesToTheSameEnd) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::rollback_test

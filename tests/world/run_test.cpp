@@ -12,7 +12,7 @@
 #include "support/playground.hpp"
 #include "world/bouncing_world.hpp"
 
-namespace kinesphere {
+namespace kinesphere::run_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -474,4 +474,4 @@ TEST(WorldInItsOwnRunDeathTest, StopsTheProgramWhenItGoes) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::run_test

@@ -10,7 +10,7 @@
 #include "kinesphere/response.hpp"
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::second_process_test {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -133,4 +133,4 @@ TEST(SecondProcess, ASavedWorldGoesOnTheSameThere) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::second_process_test

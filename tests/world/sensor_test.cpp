@@ -10,7 +10,7 @@
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::sensor_test {
 namespace {
 
 constexpr double eps = 1e-6;  // the default contact tolerance
@@ -379,4 +379,4 @@ TEST_P(SensingCrowd, AgreesWithTheTruthAtEveryStop) {
 INSTANTIATE_TEST_SUITE_P(Seeds, SensingCrowd, testing::Range<std::uint64_t>(1, 9));
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::sensor_test

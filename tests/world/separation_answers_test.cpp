@@ -8,7 +8,7 @@
 #include "support/expect_error.hpp"
 #include "world/crowd.hpp"
 
-namespace kinesphere {
+namespace kinesphere::separation_answers_test {
 namespace {
 
 constexpr double rounding_room = 1e-10;
@@ -178,4 +178,4 @@ TEST(SafeSeparation, WrongDistancesAreRefused) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::separation_answers_test

@@ -3,7 +3,7 @@
 
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::set_velocity_test {
 namespace {
 
 TEST(Kick, OfABodyNotProbedForLongAsksFirst) {
@@ -158,4 +158,4 @@ TEST(Kick, IsExemptFromTheVelocityPromise) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::set_velocity_test

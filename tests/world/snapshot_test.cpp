@@ -9,7 +9,7 @@
 #include "support/playground.hpp"
 #include "support/sealed_snapshot.hpp"
 
-namespace kinesphere {
+namespace kinesphere::snapshot_test {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -408,4 +408,4 @@ TEST(WrongCalls, AProbeMayNeitherSaveNorClone) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::snapshot_test

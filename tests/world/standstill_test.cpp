@@ -3,7 +3,7 @@
 
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::standstill_test {
 namespace {
 
 struct Standstill {
@@ -84,4 +84,4 @@ TEST(Standstill, OfBouncersDeepInEachOtherDoesNotStopTime) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::standstill_test

@@ -7,7 +7,7 @@
 #include "support/expect_error.hpp"
 #include "world/surroundings.hpp"
 
-namespace kinesphere {
+namespace kinesphere::surroundings_test {
 namespace {
 
 constexpr double eps = 1e-6;
@@ -584,4 +584,4 @@ TEST(Surroundings, ManyBallsOnOneFloorCostNoMoreEach) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::surroundings_test

@@ -4,7 +4,7 @@
 #include "kinesphere/recording.hpp"
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::together_again_test {
 namespace {
 
 /// A half-space comes with a normal that the world makes as long as doubles allow: doing that twice may
@@ -78,4 +78,4 @@ TEST(Audit, AcceptsFactsFromBeforeTheLastSensorWentAway) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::together_again_test

@@ -5,7 +5,7 @@
 #include "number/infinity.hpp"
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::together_test {
 namespace {
 
 /// Four unit spheres in a row, 0 and 1 flying at each other, 2 disabled beside 1, 3 filtered from 0 and 1.
@@ -62,4 +62,4 @@ TEST_F(Together, SnapshotsKeepThem) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::together_test

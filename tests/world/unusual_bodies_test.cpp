@@ -6,7 +6,7 @@
 
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::unusual_bodies_test {
 namespace {
 
 TEST(UnusualBodies, ThrownBallMeetsItsTargetWithFewProbes) {
@@ -223,4 +223,4 @@ TEST(UnusualBodies, ProbeMayBeAPlainFunction) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::unusual_bodies_test

@@ -9,7 +9,7 @@
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::wrong_calls_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -252,4 +252,4 @@ TEST(WrongIds, UnknownAndStaleAreToldApart) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::wrong_calls_test

@@ -6,7 +6,7 @@
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::wrong_sensors_and_shapes_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -87,4 +87,4 @@ TEST(WrongBounce, IsRefusedWhereTheVelocityIsSet) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::wrong_sensors_and_shapes_test

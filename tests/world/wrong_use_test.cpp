@@ -9,7 +9,7 @@
 #include "kinesphere/kinesphere.hpp"
 #include "support/expect_error.hpp"
 
-namespace kinesphere {
+namespace kinesphere::wrong_use_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -293,4 +293,4 @@ TEST_F(WrongUse, 45_StoppingARecordingThatWasNeverStarted) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::wrong_use_test

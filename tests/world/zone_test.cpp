@@ -7,7 +7,7 @@
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::zone_test {
 namespace {
 
 TEST(Zone, IsOneLineAndTellsWhoComesAndGoes) {
@@ -145,4 +145,4 @@ TEST(SensorEvent, OfWallsAndBrokenPromisesHasUserDataToo) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::zone_test

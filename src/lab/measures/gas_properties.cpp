@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
 #include <string_view>
 #include <vector>
 
@@ -10,8 +10,6 @@
 
 namespace kinesphere {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// What has come together up to `time`.
 struct Mark {
@@ -96,7 +94,8 @@ GasProperties properties_of(const Scene& scene, const Gauge& gauge, const GasBlo
   }
   const Vec3 size = scene.world.box->upper - scene.world.box->lower;
   GasProperties properties;
-  properties.packing = number * pi / 6.0 * diameter * diameter * diameter / (size.x * size.y * size.z);
+  properties.packing =
+      number * std::numbers::pi / 6.0 * diameter * diameter * diameter / (size.x * size.y * size.z);
   properties.collision_rate = estimate_of(rates);
   properties.compressibility = estimate_of(compressibilities);
   properties.contacts = gauge.marks[end].contacts - gauge.marks[first].contacts;
@@ -154,7 +153,7 @@ double hard_sphere_compressibility(double packing) {
 }
 
 double hard_sphere_collision_rate(double packing) {
-  return 6.0 * (hard_sphere_compressibility(packing) - 1.0) / std::sqrt(pi);
+  return 6.0 * (hard_sphere_compressibility(packing) - 1.0) / std::sqrt(std::numbers::pi);
 }
 
 Result<GasProperties> measure_gas(const Scene& scene, const DetectorMaker& make, const GasBlocks& blocks) {

@@ -158,7 +158,7 @@ double BoundDetector::wall_outlook(std::uint32_t number, double horizon) {
 /// Holds fresh reports against the contact rule.
 template <class Partner>
 double BoundDetector::judge(const Outlook<Partner>& outlook, Event current, const Promise& promise) {
-  Verdict verdict = outlook.judge(current, promise);
+  Judgement verdict = outlook.judge(current, promise);
   if (verdict.change == ContactRule::Change::begin && book_.is_jammed(current))
     verdict = outlook.put_off(current, promise);
   if (verdict.is_news()) {

@@ -7,11 +7,10 @@
 #include <utility>
 
 #include "motion/checks.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Trajectory straight_lines(const Track& track) {
   Trajectory result;

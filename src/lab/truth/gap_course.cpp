@@ -29,7 +29,7 @@ Coefficients to_bernstein(const Coefficients& power) {
 }
 
 /// The motion of one piece, s = t - begin, with what is needed to find where the gap meets a level.
-struct Piece {
+struct CoursePiece {
   double begin, end;
   std::array<Vec3, 4> centre;  ///< power coefficients of the position difference (pair) or position (wall)
   bool is_pair;
@@ -87,7 +87,7 @@ struct Piece {
 /// Finds the first root of one piece for one level.
 class RootSearch {
  public:
-  RootSearch(const Piece& piece, LevelCrossing crossing, double level)
+  RootSearch(const CoursePiece& piece, LevelCrossing crossing, double level)
       : piece_(piece), level_(level), sign_(crossing == LevelCrossing::falls_to ? 1.0 : -1.0) {}
 
   /// The first s in [0, end - begin] at which the level is reached.
@@ -133,7 +133,7 @@ class RootSearch {
     }
   }
 
-  const Piece& piece_;
+  const CoursePiece& piece_;
   double level_;
   double sign_;
 };
@@ -142,7 +142,7 @@ class RootSearch {
 /// known are left out, and parts where the squared distance is monotone or convex are not divided further.
 class LeastSearch {
  public:
-  void visit(const Piece& piece) {
+  void visit(const CoursePiece& piece) {
     piece_ = &piece;
     const double duration = piece.end - piece.begin;
     offer(0.0);
@@ -188,7 +188,7 @@ class LeastSearch {
     }
   }
 
-  const Piece* piece_ = nullptr;
+  const CoursePiece* piece_ = nullptr;
   GapCourse::Least least_{0.0, std::numeric_limits<double>::infinity()};
 };
 
@@ -225,7 +225,7 @@ void GapCourse::for_each_piece(double from, double to, const Visit& visit) const
     const Segment& a = (*a_)[ia];
     const double a_end = ia + 1 < a_->size() ? a.end : to;
     double end = std::min(a_end, to);
-    Piece piece{begin, end, position_from(a, begin), b_ != nullptr, wall_, radius_};
+    CoursePiece piece{begin, end, position_from(a, begin), b_ != nullptr, wall_, radius_};
     if (b_ != nullptr) {
       const Segment& b = (*b_)[ib];
       const double b_end = ib + 1 < b_->size() ? b.end : to;
@@ -243,7 +243,7 @@ void GapCourse::for_each_piece(double from, double to, const Visit& visit) const
 std::optional<double> GapCourse::first_time(LevelCrossing crossing, double level, double from,
                                             double to) const {
   std::optional<double> time;
-  for_each_piece(from, to, [&](const Piece& piece) {
+  for_each_piece(from, to, [&](const CoursePiece& piece) {
     if (const auto s = RootSearch(piece, crossing, level).first())
       time = std::min(piece.begin + *s, piece.end);
     return time.has_value();
@@ -254,7 +254,7 @@ std::optional<double> GapCourse::first_time(LevelCrossing crossing, double level
 GapCourse::Least GapCourse::least(double from, double to) const {
   assert(b_ != nullptr);
   LeastSearch search;
-  for_each_piece(from, to, [&](const Piece& piece) {
+  for_each_piece(from, to, [&](const CoursePiece& piece) {
     search.visit(piece);
     return false;
   });

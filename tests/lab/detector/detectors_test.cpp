@@ -17,7 +17,7 @@
 #include "lab/truth/oracle.hpp"
 #include "support/playground.hpp"
 
-namespace kinesphere {
+namespace kinesphere::detectors_test {
 namespace {
 
 DetectorMaker fixed_step(double step) {
@@ -250,4 +250,4 @@ TEST(AllDetectors, HeadOnBounceOnceAndGoOn) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::detectors_test

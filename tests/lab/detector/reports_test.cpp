@@ -9,7 +9,7 @@
 #include "kinesphere/motion/ballistic.hpp"
 #include "lab/detector_table.hpp"
 
-namespace kinesphere {
+namespace kinesphere::reports_test {
 namespace {
 
 /// Two bodies far apart, at rest; the first jumps, or answers nonsense, from time 1 on.
@@ -85,4 +85,4 @@ INSTANTIATE_TEST_SUITE_P(Detectors, Reports, ::testing::Values("world", "paper",
                          [](const auto& detector) { return detector.param; });
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::reports_test

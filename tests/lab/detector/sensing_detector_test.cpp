@@ -8,7 +8,7 @@
 #include "lab/detector/detector.hpp"
 #include "support/expect_error.hpp"
 
-namespace kinesphere {
+namespace kinesphere::sensing_detector_test {
 namespace {
 
 /// Two that fly towards each other with a closing speed of 2.
@@ -49,4 +49,4 @@ TEST(SensingDetector, RefusesWhatWorldsRefuse) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::sensing_detector_test

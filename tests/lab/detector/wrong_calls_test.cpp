@@ -8,7 +8,7 @@
 #include "kinesphere/motion/ballistic.hpp"
 #include "lab/detector_table.hpp"
 
-namespace kinesphere {
+namespace kinesphere::wrong_calls_test {
 namespace {
 
 class WrongCalls : public ::testing::TestWithParam<DetectorEntry> {
@@ -103,4 +103,4 @@ TEST(DetectorTable, RefusesWrongNamesAndSettings) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::wrong_calls_test

@@ -12,7 +12,7 @@
 #include "archive/archive.hpp"
 #include "kinesphere/random.hpp"
 
-namespace kinesphere {
+namespace kinesphere::box_block_test {
 namespace {
 
 constexpr std::uint64_t seed = 3101;
@@ -175,4 +175,4 @@ TEST(StepBox, has_an_extent_across_the_end_of_its_numbers) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::box_block_test

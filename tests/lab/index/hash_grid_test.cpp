@@ -12,7 +12,7 @@
 #include "kinesphere/random.hpp"
 #include "support/mirrored_grid.hpp"
 
-namespace kinesphere {
+namespace kinesphere::hash_grid_test {
 namespace {
 
 constexpr std::uint64_t seed = 3001;
@@ -308,4 +308,4 @@ RC_GTEST_PROP(HashGridProperty, answers_like_a_plain_list, (const Actions& actio
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::hash_grid_test

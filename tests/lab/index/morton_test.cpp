@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace kinesphere {
+namespace kinesphere::morton_test {
 namespace {
 
 TEST(Morton, a_coordinate_takes_every_third_bit) {
@@ -29,4 +29,4 @@ TEST(Morton, takes_points_at_any_distance) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::morton_test

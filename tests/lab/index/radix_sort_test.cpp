@@ -8,7 +8,7 @@
 
 #include "kinesphere/random.hpp"
 
-namespace kinesphere {
+namespace kinesphere::radix_sort_test {
 namespace {
 
 constexpr std::uint64_t seed = 2811;
@@ -37,4 +37,4 @@ TEST(RadixSort, orders_by_high_halves_and_keeps_the_order_of_equal_ones) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::radix_sort_test

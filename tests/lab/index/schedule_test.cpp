@@ -18,7 +18,7 @@
 #include "kinesphere/random.hpp"
 #include "number/infinity.hpp"
 
-namespace kinesphere {
+namespace kinesphere::schedule_test {
 namespace {
 
 constexpr std::uint64_t seed = 1001;
@@ -351,4 +351,4 @@ TEST(TreeSchedule, that_cannot_have_come_about_is_not_sound) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::schedule_test

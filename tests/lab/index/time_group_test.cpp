@@ -9,7 +9,7 @@
 #include "kinesphere/random.hpp"
 #include "number/infinity.hpp"
 
-namespace kinesphere {
+namespace kinesphere::time_group_test {
 namespace {
 
 constexpr std::uint64_t seed = 1002;
@@ -58,4 +58,4 @@ TEST(TimeGroup, FindsTheFirstOfEqualsAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::time_group_test

@@ -17,7 +17,7 @@
 #include "lab/truth/oracle.hpp"
 #include "support/expect_error.hpp"
 
-namespace kinesphere {
+namespace kinesphere::gas_properties_test {
 namespace {
 
 SceneParameters small_gas() {
@@ -195,4 +195,4 @@ TEST(GasProperties, RefuseWhatIsNoGas) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::gas_properties_test

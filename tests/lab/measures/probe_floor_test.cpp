@@ -15,7 +15,7 @@
 #include "lab/truth/gap_course.hpp"
 #include "support/expect_error.hpp"
 
-namespace kinesphere {
+namespace kinesphere::probe_floor_test {
 namespace {
 
 /// Bodies of radius 1 that fly straight on, though their limit would let them do otherwise.
@@ -201,4 +201,4 @@ TEST(ProbeFloor, RefusesWhatItCannotCount) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::probe_floor_test

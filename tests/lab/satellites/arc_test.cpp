@@ -11,7 +11,7 @@
 #include "lab/satellites/monitor_satellites.hpp"
 #include "lab/satellites/satellite_motion.hpp"
 
-namespace kinesphere {
+namespace kinesphere::arc_test {
 namespace {
 
 /// On ellipses with perigees from 200 km up, of eccentricities up to 0.8.
@@ -117,4 +117,4 @@ TEST(SatelliteMotion, RefusesWhatIsNoOrbit) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::arc_test

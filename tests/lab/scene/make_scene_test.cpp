@@ -9,7 +9,7 @@
 #include "lab/scene/scene.hpp"
 #include "lab/simulation/simulate.hpp"
 
-namespace kinesphere {
+namespace kinesphere::make_scene_test {
 namespace {
 
 SceneParameters built_in(const std::string& name) {
@@ -63,4 +63,4 @@ TEST(PeriodicScene, IsRunWithoutEverMeetingAWall) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::make_scene_test

@@ -9,7 +9,7 @@
 #include "lab/scene/make_scene.hpp"
 #include "lab/scene/relaxation.hpp"
 
-namespace kinesphere {
+namespace kinesphere::placement_test {
 namespace {
 
 constexpr Box box{{-50, -50, -50}, {50, 50, 50}};
@@ -110,4 +110,4 @@ TEST(Placement, the_fullest_scene_of_the_paper_is_made) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::placement_test

@@ -15,7 +15,7 @@
 #include "number/infinity.hpp"
 #include "support/expect_error.hpp"
 
-namespace kinesphere {
+namespace kinesphere::wrong_calls_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -125,4 +125,4 @@ TEST(WrongScene, ThatBouncesIsNotCompared) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::wrong_calls_test

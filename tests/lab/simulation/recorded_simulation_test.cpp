@@ -14,7 +14,7 @@
 #include "lab/truth/oracle.hpp"
 #include "support/expect_error.hpp"
 
-namespace kinesphere {
+namespace kinesphere::recorded_simulation_test {
 namespace {
 
 /// Bodies fly through each other; each is there for a while.
@@ -71,4 +71,4 @@ TEST(RecordedSimulation, IsRefusedWhereItCannotBe) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::recorded_simulation_test

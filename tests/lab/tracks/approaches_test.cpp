@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace kinesphere {
+namespace kinesphere::approaches_test {
 namespace {
 
 Event event(EventKind kind, double time, std::uint32_t first, std::uint32_t second) {
@@ -58,4 +58,4 @@ TEST(Approaches, KnowWhenATrackBeginsOrEndsClose) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::approaches_test

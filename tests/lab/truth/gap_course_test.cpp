@@ -8,7 +8,7 @@
 #include "lab/truth/gap_course.hpp"
 #include "lab/truth/pair_table.hpp"
 
-namespace kinesphere {
+namespace kinesphere::gap_course_test {
 namespace {
 
 Trajectory still(const Vec3& position) { return {{.begin = -1e9, .end = 1e9, .position = position}}; }
@@ -222,4 +222,4 @@ TEST(PairTable, HasOneValueForEachPairAndKeepsItWhenItGrows) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::gap_course_test

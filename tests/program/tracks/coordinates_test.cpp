@@ -8,7 +8,7 @@
 
 #include "program/support.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::coordinates_test {
 namespace {
 
 TEST(Coordinates, KeepTheZeroOfWhatIsNearIt) {
@@ -134,4 +134,4 @@ TEST_F(ProjectionTest, UtmIsGeographicToo) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::coordinates_test

@@ -5,7 +5,7 @@
 #include "program/support.hpp"
 #include "tracks/track_file.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::damaged_tables_test {
 namespace {
 
 constexpr std::string_view healthy[] = {
@@ -75,4 +75,4 @@ TEST(DamagedTables, AreReadOrRefusedByName) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::damaged_tables_test

@@ -20,7 +20,7 @@
 #include "tracks/track_file.hpp"
 #include "tracks/track_scene.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::shapes_test {
 namespace {
 
 constexpr std::uint64_t seed = 2005;
@@ -344,4 +344,4 @@ INSTANTIATE_TEST_SUITE_P(All, Shapes,
                          });
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::shapes_test

@@ -4,7 +4,7 @@
 #include "number_text.hpp"
 #include "program/support.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::text_table_test {
 namespace {
 
 using Fields = std::vector<std::string>;
@@ -100,4 +100,4 @@ TEST(TextTable, NumbersAreWholeFieldsAndFinite) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::text_table_test

@@ -4,7 +4,7 @@
 #include "tracks/time_scale.hpp"
 #include "tracks/time_text.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::time_test {
 namespace {
 
 std::int64_t date_seconds(std::string_view text) {
@@ -119,4 +119,4 @@ TEST(TimeScale, RoundsToTheDecimalsThatAreAskedFor) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::time_test

@@ -8,7 +8,7 @@
 #include "input_file.hpp"
 #include "program/support.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::track_file_test {
 namespace {
 
 using TrackFileTest = FolderTest;
@@ -410,4 +410,4 @@ INSTANTIATE_TEST_SUITE_P(All, RealRecording,
                          });
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::track_file_test

@@ -11,7 +11,7 @@
 #include "tracks/reading_summary.hpp"
 #include "tracks/track_file.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::track_scene_test {
 namespace {
 
 Recording parse(const std::string& text, const TrackOptions& options = {}) {
@@ -112,4 +112,4 @@ TEST(TrackScene, WarnsOfWhatWasLeftOut) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::track_scene_test

@@ -1,7 +1,7 @@
 // `kinesphere tracks` as people call it: far origins, pipes, warnings, questions.
 #include "program/support.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::tracks_program_test {
 namespace {
 
 class TracksProgram : public ProgramTest {};
@@ -74,4 +74,4 @@ TEST_F(TracksProgram, LinesOrCurves) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::tracks_program_test

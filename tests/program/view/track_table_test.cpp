@@ -9,7 +9,7 @@
 #include "kinesphere/random.hpp"
 #include "program/support.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::track_table_test {
 namespace {
 
 /// A mantissa of random bits, and sizes from 2^-300 to 2^300.
@@ -77,4 +77,4 @@ TEST(TrackTable, RefusesCurvesThatOverflow) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::track_table_test

@@ -11,7 +11,7 @@
 #include "watch/separations.hpp"
 #include "watch/watcher.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::damaged_streams_test {
 namespace {
 
 const std::map<StreamFormat, std::string> samples{
@@ -142,4 +142,4 @@ INSTANTIATE_TEST_SUITE_P(OfEachFormat, DamagedStream,
                          [](const auto& test) { return std::string(name_of(test.param)); });
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::damaged_streams_test

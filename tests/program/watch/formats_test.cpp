@@ -11,7 +11,7 @@
 #include "watch/measures.hpp"
 #include "watch/report_format.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::formats_test {
 namespace {
 
 /// Keeps what it takes.
@@ -350,4 +350,4 @@ TEST(StreamFormats, AreRecognised) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::formats_test

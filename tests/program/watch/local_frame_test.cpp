@@ -12,7 +12,7 @@
 #include <GeographicLib/Geodesic.hpp>
 #include <GeographicLib/GeodesicLine.hpp>
 
-namespace kinesphere::program {
+namespace kinesphere::program::local_frame_test {
 namespace {
 
 using GeographicLib::Geodesic;
@@ -194,6 +194,6 @@ TEST(LocalFrame, KnowsThatThereIsRoomAtTheTop) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::local_frame_test
 
 #endif

@@ -6,7 +6,7 @@
 #include "program/support.hpp"
 #include "watch/separations.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::measures_test {
 namespace {
 
 TEST(Measures, HaveUnits) {
@@ -47,4 +47,4 @@ TEST(Separations, AreShapesWithLengths) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::measures_test

@@ -15,7 +15,7 @@
 #include "program/watch/live_watch.hpp"
 #include "program/watch/nats_broker.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::nats_test {
 namespace {
 
 constexpr std::uint64_t shares = 8;
@@ -368,6 +368,6 @@ TEST_F(WatchNats, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::nats_test
 
 #endif

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace kinesphere::program {
+namespace kinesphere::program::record_cutter_test {
 namespace {
 
 struct Cut {
@@ -77,4 +77,4 @@ TEST(RecordCutter, GoesOnBehindDocumentsThatAreCutOff) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::record_cutter_test

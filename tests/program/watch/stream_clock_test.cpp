@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace kinesphere::program {
+namespace kinesphere::program::stream_clock_test {
 namespace {
 
 using Source = StreamClock::Source;
@@ -63,4 +63,4 @@ TEST(StreamClock, BelievesTwoArrivalsThatDiffer) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::stream_clock_test

@@ -15,7 +15,7 @@
 #include <httplib.h>
 #endif
 
-namespace kinesphere::program {
+namespace kinesphere::program::watch_program_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -591,4 +591,4 @@ TEST_F(WatchProgram, ServesItsMapAndNothingElseOfTheFolder) {
 #endif
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::watch_program_test

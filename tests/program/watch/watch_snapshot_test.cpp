@@ -10,7 +10,7 @@
 #include "program/watch/live_watch.hpp"
 #include "watch/watch_snapshot.hpp"
 
-namespace kinesphere::program {
+namespace kinesphere::program::watch_snapshot_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -367,4 +367,4 @@ TEST_F(WatchRestart, SharesTellTogetherWhatOneTells) {
 }
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::watch_snapshot_test

@@ -18,7 +18,7 @@
 #ifdef KINESPHERE_WITH_GEOGRAPHICLIB
 #include <GeographicLib/Geodesic.hpp>
 
-namespace kinesphere::program {
+namespace kinesphere::program::watcher_test {
 namespace {
 
 using GeographicLib::Geodesic;
@@ -190,6 +190,6 @@ INSTANTIATE_TEST_SUITE_P(Everywhere, FlightsOverTheEarth,
                                          Place{78.0, 20.0, 4500e3}, Place{86.0, 20.0, 500e3}));
 
 }  // namespace
-}  // namespace kinesphere::program
+}  // namespace kinesphere::program::watcher_test
 
 #endif

@@ -12,8 +12,6 @@
 namespace kinesphere {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 /// e^-x for x >= 0, to 1e-7, by the same operations on every machine.
 double exp_minus(double x) {
   const double y = x / 1024.0;
@@ -93,7 +91,8 @@ CostModel::CostModel(const std::vector<MovingSphere>& spheres, const Box& extent
   double least_side = std::max(widest, largest / 1024.0);
   if (!(least_side > 0.0)) least_side = 1.0;
   double filled = 0.0;
-  for (const MovingSphere& s : sorted) filled += 4.0 / 3.0 * pi * s.radius * s.radius * s.radius;
+  for (const MovingSphere& s : sorted)
+    filled += 4.0 / 3.0 * std::numbers::pi * s.radius * s.radius * s.radius;
   for (int axis = 0; axis < 3; ++axis) sides_[axis] = std::max(size[axis], least_side);
   // Hard spheres crowd around each other (Carnahan and Starling 1969).
   const double packing = std::min(filled / (sides_.x * sides_.y * sides_.z), 0.5);
@@ -152,7 +151,7 @@ double CostModel::meeting_rate(double radius, double growth_speed, double speed,
   for (const Level& level : levels) {
     const double reach_squared = radius * radius + 2.0 * radius * level.radius + level.radius_squared;
     const double relative_speed = std::sqrt(speed * speed + level.speed_squared);
-    rate += level.bodies * 4.0 * pi * reach_squared *
+    rate += level.bodies * 4.0 * std::numbers::pi * reach_squared *
             closing_speed(relative_speed, growth_speed + level.growth_speed);
   }
   return rate * contact_density_ / volume_within(infinity);

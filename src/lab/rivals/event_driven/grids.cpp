@@ -10,7 +10,7 @@ namespace {
 
 constexpr int significant_bits = 10;
 
-double rounded_up(double edge) {
+double edge_rounded_up(double edge) {
   int exponent = 0;
   const double fraction = std::frexp(edge, &exponent);
   return std::ldexp(std::ceil(std::ldexp(fraction, significant_bits)), exponent - significant_bits);
@@ -21,7 +21,7 @@ std::int64_t cells_to_a_side(int level) { return std::int64_t{1} << (Grids::coar
 
 }  // namespace
 
-Grids::Grids(double finest_edge) : finest_edge_(rounded_up(finest_edge)) {}
+Grids::Grids(double finest_edge) : finest_edge_(edge_rounded_up(finest_edge)) {}
 
 double Grids::edge(int level) const { return finest_edge_ * static_cast<double>(std::int64_t{1} << level); }
 

@@ -11,7 +11,7 @@
 
 #include "kinesphere/random.hpp"
 
-namespace kinesphere {
+namespace kinesphere::cell_test {
 
 void showValue(const Cell& cell, std::ostream& out) {
   out << "level " << cell.level << " (" << cell.index[0] << ", " << cell.index[1] << ", " << cell.index[2]
@@ -126,4 +126,4 @@ TEST(Intersect, is_to_have_a_finest_cell_in_common) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::cell_test

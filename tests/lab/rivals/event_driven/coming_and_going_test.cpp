@@ -14,7 +14,7 @@
 #include "lab/detector/detector.hpp"
 #include "lab/rivals/rivals.hpp"
 
-namespace kinesphere {
+namespace kinesphere::coming_and_going_test {
 namespace {
 
 constexpr std::uint64_t seed = 3107;
@@ -148,4 +148,4 @@ TEST(ComingAndGoing, is_followed_by_the_ballistic_one) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::coming_and_going_test

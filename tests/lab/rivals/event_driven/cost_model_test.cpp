@@ -14,7 +14,7 @@
 #include "lab/scene/scene.hpp"
 #include "lab/simulation/simulate.hpp"
 
-namespace kinesphere {
+namespace kinesphere::cost_model_test {
 namespace {
 
 const Box box{{0, 0, 0}, {200, 200, 200}};
@@ -218,4 +218,4 @@ TEST_P(CostModelOfScene, chooses_cells_that_are_within_a_quarter_of_the_best) {
 INSTANTIATE_TEST_SUITE_P(Bodies, CostModelOfScene, testing::Values(100, 400));
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::cost_model_test

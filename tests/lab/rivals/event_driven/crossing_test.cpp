@@ -10,7 +10,7 @@
 #include "number/infinity.hpp"
 #include "support/bound_cases.hpp"
 
-namespace kinesphere {
+namespace kinesphere::crossing_test {
 namespace {
 
 constexpr std::uint64_t seed = 3105;
@@ -142,4 +142,4 @@ TEST(Outgrowing, comes_when_the_diameter_reaches_the_edge) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::crossing_test

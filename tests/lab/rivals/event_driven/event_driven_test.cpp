@@ -16,7 +16,7 @@
 #include "lab/scene/scene.hpp"
 #include "lab/simulation/simulate.hpp"
 
-namespace kinesphere {
+namespace kinesphere::event_driven_test {
 namespace {
 
 DetectorMaker paper(const PaperOptions& options = {}) {
@@ -265,4 +265,4 @@ TEST(EventDriven, takes_bodies_far_away_and_in_a_hurry) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::event_driven_test

@@ -11,7 +11,7 @@
 
 #include "kinesphere/random.hpp"
 
-namespace kinesphere {
+namespace kinesphere::event_tree_test {
 namespace {
 
 constexpr std::uint64_t seed = 3104;
@@ -140,4 +140,4 @@ TEST(EventTree, holds_a_pair_under_both_bodies) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::event_tree_test

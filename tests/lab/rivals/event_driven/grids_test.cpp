@@ -8,7 +8,7 @@
 #include "kinesphere/random.hpp"
 #include "number/infinity.hpp"
 
-namespace kinesphere {
+namespace kinesphere::grids_test {
 namespace {
 
 constexpr std::uint64_t seed = 3102;
@@ -90,4 +90,4 @@ TEST(Grids, put_a_sphere_where_it_is_at_most_half_as_wide_as_the_cells) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::grids_test

@@ -10,7 +10,7 @@
 
 #include "kinesphere/random.hpp"
 
-namespace kinesphere {
+namespace kinesphere::subspace_tree_test {
 namespace {
 
 constexpr std::uint64_t seed = 3103;
@@ -116,4 +116,4 @@ TEST(SubspaceTree, finds_the_finest_in_the_coarsest_and_the_reverse) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::subspace_tree_test

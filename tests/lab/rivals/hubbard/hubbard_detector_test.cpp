@@ -9,7 +9,7 @@
 #include "lab/detector/detector.hpp"
 #include "lab/rivals/rivals.hpp"
 
-namespace kinesphere {
+namespace kinesphere::hubbard_detector_test {
 namespace {
 
 /// Spheres of radius 1 that promise an acceleration, and move straight on.
@@ -136,4 +136,4 @@ TEST(HubbardDetector, a_world_without_bodies_has_no_rebuilds_to_wait_for) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::hubbard_detector_test

@@ -5,7 +5,7 @@
 
 #include "kinesphere/random.hpp"
 
-namespace kinesphere {
+namespace kinesphere::hypertrapezoid_test {
 namespace {
 
 Bound random_bound(Random& random) {
@@ -89,4 +89,4 @@ TEST(Hypertrapezoid, where_numbers_overflow_it_is_everywhere) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::hypertrapezoid_test

@@ -11,7 +11,7 @@
 #include "kinesphere/random.hpp"
 #include "number/infinity.hpp"
 
-namespace kinesphere {
+namespace kinesphere::space_time_sweep_test {
 namespace {
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
@@ -196,4 +196,4 @@ TEST(SpaceTimeSweep, faces_that_meet_on_all_axes_at_once_count) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::space_time_sweep_test

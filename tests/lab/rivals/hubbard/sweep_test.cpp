@@ -11,7 +11,7 @@
 
 #include "kinesphere/random.hpp"
 
-namespace kinesphere {
+namespace kinesphere::sweep_test {
 namespace {
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
@@ -165,4 +165,4 @@ TEST(Sweep, order_is_right_up_to_the_promised_error) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::sweep_test
