@@ -129,8 +129,8 @@ std::vector<std::uint32_t> Island::bodies_in(const Box& box) const {
   std::vector<std::uint32_t> numbers;
   for (const std::uint32_t number : dirty_)
     if (bodies()[number].dirty) numbers.push_back(number);
-  Windows::Scratch scratch;
-  for (const std::uint32_t number : tables_->windows.in_box(box, time_, scratch))
+  NeighbourSearch search;
+  for (const std::uint32_t number : search.in_box(tables_->windows, box, time_))
     if (!bodies()[number].dirty) numbers.push_back(number);
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());

@@ -42,8 +42,8 @@ std::optional<BodyId> World::Engine::certain_overlap(BodyId id, const Extent& ex
                                                      const BodyDefinition& definition) const {
   std::optional<BodyId> found;
   const Box box = box_now(bodies(), extent, time());
-  Windows::Scratch scratch;
-  for (const std::uint32_t other : windows().in_box(box, time(), scratch)) {
+  NeighbourSearch search;
+  for (const std::uint32_t other : search.in_box(windows(), box, time())) {
     const Body& body = bodies()[other];
     const bool certain =
         other != id.index && !(extent.fixed && body.is_fixed()) &&
@@ -66,12 +66,12 @@ std::optional<std::pair<std::size_t, std::size_t>> World::Engine::first_overlap(
   std::vector<Windows::Starter> starters;
   starters.reserve(added.size());
   for (std::uint32_t number = 0; number < added.size(); ++number)
-    starters.push_back({number, Windows::level_of(ball_of(number), Windows::endless()), Windows::endless()});
+    starters.push_back({number, SizeLevels::level_of(ball_of(number), Window::endless()), Window::endless()});
   Shift alone;
   windows.start(starters, time(), ball_of, alone);
   std::optional<std::pair<std::size_t, std::size_t>> least;
-  Windows::Scratch scratch;
-  for (const auto& [a, b] : windows.near_started(0, windows.started(), time(), ball_of, scratch)) {
+  NeighbourSearch search;
+  for (const auto& [a, b] : search.near_started(windows, 0, windows.started(), time(), ball_of)) {
     const auto [first, second] = std::minmax({a, b});
     if (least && std::tie(least->second, least->first) <= std::tie(second, first)) continue;
     if (certainly_overlap(bodies(), time(), {bound_now(added[first])}, {bound_now(added[second])}) &&
