@@ -31,7 +31,7 @@ struct Parcel {
   Body body{};
   Home home{};
   Filter filter{};
-  ContactBook::Kept contacts{};
+  KeptContacts contacts{};
   /// Where it is registered, if it is. `enters`: with a new capsule, from now on. `starts`: with all others
   /// whose windows start now.
   bool is_registered = false;
