@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "archive/fields.hpp"
+#include "contact/kept_contacts.hpp"
 #include "engine/tables.hpp"
 #include "window/agenda.hpp"
 

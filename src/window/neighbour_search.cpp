@@ -28,7 +28,7 @@ bool NeighbourSearch::add_searches(const Space& space, const WindowLayer& layer,
   const auto add = [&](const Vec3& shift) {
     RoomyBound image = bound;
     image.moved.centre += shift;
-    layer.layer.add_search(layer.query(image, now, end), searches_);
+    layer.capsules.add_search(layer.query(image, now, end), searches_);
     images_.push_back({k, shift != Vec3{}});
   };
   if (!space.repeats()) {
@@ -47,14 +47,14 @@ std::vector<std::uint32_t>& NeighbourSearch::near(const Windows& windows, std::u
   numbers_.clear();
   for (const WindowLayer& layer : windows.layers()) {
     if (layer.is_empty()) continue;
-    const CapsuleTable& table = layer.layer.table();
+    const CapsuleTable& table = layer.capsules.table();
     const auto note = [&](std::uint32_t place) {
       const std::uint32_t other = table.number_at(place);
       if (other != number && other != CapsuleTable::nobody) numbers_.push_back(other);
     };
     clear_searches();
     if (add_searches(windows.space(), layer, 0, bound, now, end)) {
-      layer.layer.make(searches_);
+      layer.capsules.make(searches_);
       searches_.for_each_found([&](std::uint32_t, std::uint32_t place) { note(place); });
     } else {
       for (std::uint32_t place = 0; place < table.places(); ++place) note(place);
@@ -72,11 +72,11 @@ std::span<const std::uint32_t> NeighbourSearch::in_box(const Windows& windows, c
     windows.space().for_each_image(box, layer.widest(), [&](const Box& image, const Vec3&) {
       Bound ball{.time = now, .position = 0.5 * (image.lower + image.upper)};
       ball.radius = 0.5 * norm(image.upper - image.lower);
-      layer.layer.add_search(layer.query({MovedBound(ball, now), 0.0}, now, end), searches_);
+      layer.capsules.add_search(layer.query({MovedBound(ball, now), 0.0}, now, end), searches_);
     });
-    layer.layer.make(searches_);
+    layer.capsules.make(searches_);
     searches_.for_each_found([&](std::uint32_t, std::uint32_t place) {
-      const std::uint32_t number = layer.layer.table().number_at(place);
+      const std::uint32_t number = layer.capsules.table().number_at(place);
       if (number != CapsuleTable::nobody) numbers_.push_back(number);
     });
   }
@@ -95,20 +95,20 @@ NeighbourSearch::Started NeighbourSearch::started_at(std::span<const WindowLayer
                                                      std::size_t most) {
   const auto holds = [&k](const WindowLayer& layer) {
     if (!layer.fresh) return false;
-    const std::size_t places = layer.layer.table().places();
+    const std::size_t places = layer.capsules.table().places();
     if (k < places) return true;
     k -= places;
     return false;
   };
   const auto found = std::find_if(layers.begin(), layers.end(), holds);
   assert(found != layers.end());
-  const std::size_t behind = found->layer.table().places() - k;
+  const std::size_t behind = found->capsules.table().places() - k;
   return {*found, static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(std::min(behind, most))};
 }
 
 /// Those behind them in their own layer.
 void NeighbourSearch::search_behind(const Started& some) {
-  const Layer& layer = some.own.layer;
+  const Layer& layer = some.own.capsules;
   clear_searches();
   for (std::uint32_t k = 0; k < some.count; ++k) layer.add_search_behind(some.place + k, searches_);
   layer.make(searches_);
@@ -124,19 +124,19 @@ void NeighbourSearch::search_other_layers(const Windows& windows, const Started&
     if (other.is_empty() || (other.fresh && other.is_before(some.own)) ||
         (is_own && !windows.space().repeats()))
       continue;
-    const CapsuleTable& table = other.layer.table();
+    const CapsuleTable& table = other.capsules.table();
     const auto note = [&](const ImageSearch& image, std::uint32_t place) {
       if (is_own && (!image.shifted || place <= some.place + image.k)) return;
       const std::uint32_t number = table.number_at(place);
       if (number != CapsuleTable::nobody)
-        pairs_.push_back({some.own.layer.table().number_at(some.place + image.k), number});
+        pairs_.push_back({some.own.capsules.table().number_at(some.place + image.k), number});
     };
     clear_searches();
     for (std::uint32_t k = 0; k < some.count; ++k) {
       if (add_searches(windows.space(), other, k, bounds_[k], now, some.own.window.end)) continue;
       for (std::uint32_t place = 0; place < table.places(); ++place) note({k, true}, place);
     }
-    other.layer.make(searches_);
+    other.capsules.make(searches_);
     searches_.for_each_found([&](std::uint32_t query, std::uint32_t place) { note(images_[query], place); });
   }
 }

@@ -40,7 +40,7 @@ class NeighbourSearch {
       if (beyond_their_layer) {
         bounds_.clear();
         for (std::uint32_t place = some.place; place < some.place + some.count; ++place)
-          bounds_.push_back(bound_of(some.own.layer.table().number_at(place)));
+          bounds_.push_back(bound_of(some.own.capsules.table().number_at(place)));
         search_other_layers(windows, some, now);
       }
       k += some.count;

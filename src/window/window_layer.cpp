@@ -12,19 +12,21 @@ void WindowLayer::open(const Vec3& base, double origin, float coarseness) {
     frame.origin = origin;
     frame.per_time = 1.0 / (window.end - origin);
   }
-  layer.clear(frame);
-  layer.set_coarseness(coarseness);
+  capsules.clear(frame);
+  capsules.set_coarseness(coarseness);
   has_frame = true;
 }
 
 Capsule WindowLayer::capsule(const RoomyBound& bound, double now) const {
-  return capsule_of(bound.moved, now, duration_until(window.end, now), bound.room, layer.frame());
+  return capsule_of(bound.moved, now, duration_until(window.end, now), bound.room, capsules.frame());
 }
 
-float WindowLayer::time(double now) const { return window.end < infinity ? layer.frame().time(now) : 0.0f; }
+float WindowLayer::time(double now) const {
+  return window.end < infinity ? capsules.frame().time(now) : 0.0f;
+}
 
 CapsuleQuery WindowLayer::query(const RoomyBound& bound, double now, double end) const {
-  CapsuleFrame frame = layer.frame();
+  CapsuleFrame frame = capsules.frame();
   float from = 0.0f;
   float to = 0.0f;
   if (end < infinity && window.end == infinity) {
@@ -41,8 +43,8 @@ CapsuleQuery WindowLayer::query(const RoomyBound& bound, double now, double end)
 }
 
 Box WindowLayer::box_at(std::uint32_t place, double now) const {
-  const CapsuleFrame& frame = layer.frame();
-  const Capsule capsule = layer.table().capsule_at(place);
+  const CapsuleFrame& frame = capsules.frame();
+  const Capsule capsule = capsules.table().capsule_at(place);
   const double from = time(now);
   const double to = window.end < infinity ? 1.0 : 0.0;
   Box box;
@@ -58,7 +60,8 @@ Box WindowLayer::box_at(std::uint32_t place, double now) const {
 }
 
 bool WindowLayer::is_sound() const {
-  return layer.is_sound() && SizeLevels::is_level(level) && ((window.is_sound() && has_frame) || is_empty());
+  return capsules.is_sound() && SizeLevels::is_level(level) &&
+         ((window.is_sound() && has_frame) || is_empty());
 }
 
 }  // namespace kinesphere

@@ -18,7 +18,7 @@ struct WindowLayer {
   int level = 0;
   bool has_frame = false;  ///< without one it is empty
   bool fresh = false;      ///< all in it have started since windows ended
-  Layer layer{};
+  Layer capsules{};
   std::uint64_t changes = 0;  ///< since it was last sorted as windows started
 
   bool is_of(const Window& its_window, int its_level) const {
@@ -29,7 +29,7 @@ struct WindowLayer {
     return std::tie(window.tier, level, window.end) <
            std::tie(other.window.tier, other.level, other.window.end);
   }
-  bool is_empty() const { return layer.size() == 0; }
+  bool is_empty() const { return capsules.size() == 0; }
 
   /// Gives an empty layer a frame: lengths from `base`, times from `origin` until the window ends.
   void open(const Vec3& base, double origin, float coarseness);
@@ -40,14 +40,14 @@ struct WindowLayer {
   /// Whom this bound may touch from now on until `end` or until the window ends.
   CapsuleQuery query(const RoomyBound& bound, double now, double end) const;
   /// No capsule is wider (length).
-  double widest() const { return layer.widest() / layer.frame().per_length; }
+  double widest() const { return capsules.widest() / capsules.frame().per_length; }
   /// Contains the body from `now` on until the window ends.
   Box box_at(std::uint32_t place, double now) const;
   /// Calls visit(box, number of bodies) for each cell that holds any.
   template <class Visit>
   void for_each_cell(Visit visit) const {
-    const CapsuleFrame& frame = layer.frame();
-    layer.for_each_cell([&](const Box& box, std::size_t bodies) {
+    const CapsuleFrame& frame = capsules.frame();
+    capsules.for_each_cell([&](const Box& box, std::size_t bodies) {
       visit(Box{frame.base + box.lower / frame.per_length, frame.base + box.upper / frame.per_length},
             bodies);
     });
@@ -55,15 +55,15 @@ struct WindowLayer {
 
   void grow(const Layer::Growth& growth) {
     changes += growth.replaced;
-    layer.grow(growth);
+    capsules.grow(growth);
   }
 
   /// For one that was read.
   bool is_sound() const;
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [its_window, size, is_framed, is_fresh, capsules, entered] = self;
-    archive(its_window, size, is_framed, is_fresh, capsules, entered);
+    auto& [its_window, size, is_framed, is_fresh, sorted, entered] = self;
+    archive(its_window, size, is_framed, is_fresh, sorted, entered);
   }
 };
 

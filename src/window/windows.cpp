@@ -11,14 +11,14 @@ Box Windows::box_of(std::uint32_t number, double now) const {
 
 std::size_t Windows::size() const {
   std::size_t all = 0;
-  for (const WindowLayer& layer : layers_) all += layer.layer.size();
+  for (const WindowLayer& layer : layers_) all += layer.capsules.size();
   return all;
 }
 
 std::size_t Windows::moving() const {
   std::size_t all = 0;
   for (const WindowLayer& layer : layers_)
-    if (layer.window.end < infinity) all += layer.layer.size();
+    if (layer.window.end < infinity) all += layer.capsules.size();
   return all;
 }
 
@@ -45,7 +45,7 @@ std::uint32_t Windows::layer_for(const Window& window, int level) {
     layers_.emplace_back();
   }
   WindowLayer& layer = layers_[free];
-  layer = {.window = window, .level = level, .layer = std::move(layer.layer)};
+  layer = {.window = window, .level = level, .capsules = std::move(layer.capsules)};
   return free;
 }
 
@@ -56,7 +56,8 @@ void Windows::open(WindowLayer& layer, double origin) {
 
 void Windows::add(std::uint32_t number, std::uint32_t layer, const RoomyBound& bound, double now) {
   WindowLayer& to = layers_[layer];
-  registrations_[number] = {to.window.end, layer, to.layer.add(number, to.capsule(bound, now), to.time(now))};
+  registrations_[number] = {to.window.end, layer,
+                            to.capsules.add(number, to.capsule(bound, now), to.time(now))};
 }
 
 Windows::Entry Windows::prepare(std::uint32_t number, const RoomyBound& bound, double now,
@@ -67,7 +68,7 @@ Windows::Entry Windows::prepare(std::uint32_t number, const RoomyBound& bound, d
   const WindowLayer& layer = layers_[here.layer];
   if (!layer.is_of(window, entry.level)) return entry;
   entry.capsule = layer.capsule(bound, now);
-  const auto overhang = layer.layer.overhang_at(here.place, entry.capsule, layer.time(now));
+  const auto overhang = layer.capsules.overhang_at(here.place, entry.capsule, layer.time(now));
   if (!overhang) return entry;
   entry.layer = here.layer;
   entry.place = here.place;
@@ -78,7 +79,7 @@ Windows::Entry Windows::prepare(std::uint32_t number, const RoomyBound& bound, d
 /// Several threads may do that at the same time, for different bodies.
 void Windows::replace(const Entry& entry, double now, Layer::Growth& growth) {
   WindowLayer& layer = layers_[entry.layer];
-  layer.layer.replace(entry.place, entry.capsule, layer.time(now), entry.overhang, growth);
+  layer.capsules.replace(entry.place, entry.capsule, layer.time(now), entry.overhang, growth);
 }
 
 /// As the body is of the same size for the same window, whenever in it the body enters, and as a layer has
@@ -113,24 +114,24 @@ void Windows::leave(std::uint32_t number) {
 
 void Windows::take_out(std::uint32_t number) {
   Registration& here = registrations_[number];
-  layers_[here.layer].layer.remove(here.place);
+  layers_[here.layer].capsules.remove(here.place);
   here.layer = none;
 }
 
 void Windows::sort(WindowLayer& layer, Shift& shift) {
-  layer.layer.sort(
+  layer.capsules.sort(
       shift, [this](std::uint32_t number, std::uint32_t place) { registrations_[number].place = place; });
 }
 
 void Windows::tidy(Shift& shift) {
   for (WindowLayer& layer : layers_)
-    if (layer.layer.is_untidy()) sort(layer, shift);
+    if (layer.capsules.is_untidy()) sort(layer, shift);
 }
 
 std::optional<std::string> Windows::check(std::uint32_t number) const {
   const Registration& here = registrations_[number];
   if (here.layer >= layers_.size()) return "is in a layer that is not there";
-  const CapsuleTable& table = layers_[here.layer].layer.table();
+  const CapsuleTable& table = layers_[here.layer].capsules.table();
   if (here.place >= table.places() || table.number_at(here.place) != number)
     return "is not where its layer has it";
   if (here.end != layers_[here.layer].window.end) return "is not in the window of its layer";

@@ -20,7 +20,7 @@ void Windows::for_each_ended(double now, bool all, Visit visit) const {
   const auto has_ended = [=](double end) { return all ? end < infinity : end <= now; };
   std::size_t most = 0;
   for (const WindowLayer& layer : layers_)
-    if (has_ended(layer.window.end)) most += layer.layer.size();
+    if (has_ended(layer.window.end)) most += layer.capsules.size();
   constexpr std::size_t few_of_all = 16;
   if (few_of_all * most >= registrations_.size()) {
     for (std::uint32_t number = 0; number < registrations_.size(); ++number)
@@ -29,7 +29,7 @@ void Windows::for_each_ended(double now, bool all, Visit visit) const {
   }
   for (const WindowLayer& layer : layers_) {
     if (!has_ended(layer.window.end)) continue;
-    const CapsuleTable& table = layer.layer.table();
+    const CapsuleTable& table = layer.capsules.table();
     for (std::uint32_t place = 0; place < table.places(); ++place) {
       const std::uint32_t number = table.number_at(place);
       if (number != CapsuleTable::nobody) visit(number);
@@ -52,7 +52,7 @@ void Windows::end_windows(double now, bool all) {
     const bool has_ended = all ? layer.window.end < infinity : layer.window.end <= now;
     layer.fresh = false;
     if (has_ended || layer.is_empty()) {
-      layer.layer.clear({});
+      layer.capsules.clear({});
       layer.window.end = -infinity;
     } else {
       next_end_ = std::min(next_end_, layer.window.end);
@@ -70,7 +70,7 @@ std::vector<int> Windows::held_tiers() const {
 std::size_t Windows::started() const {
   std::size_t all = 0;
   for (const WindowLayer& layer : layers_)
-    if (layer.fresh) all += layer.layer.table().places();
+    if (layer.fresh) all += layer.capsules.table().places();
   return all;
 }
 
@@ -108,11 +108,11 @@ void Windows::finish_start(const std::vector<UnsortedCapsules>& unsorted, Shift&
     WindowLayer& layer = layers_[k];
     if (layer.fresh) {
       sort_to_start(layer, [&] {
-        layer.layer.fill(unsorted[k], shift, [&](std::uint32_t number, std::uint32_t place) {
+        layer.capsules.fill(unsorted[k], shift, [&](std::uint32_t number, std::uint32_t place) {
           registrations_[number].place = place;
         });
       });
-    } else if (layer.changes > least_changes + layer.layer.size() / 2) {
+    } else if (layer.changes > least_changes + layer.capsules.size() / 2) {
       sort_to_start(layer, [&] { sort(layer, shift); });
     }
   }
@@ -122,10 +122,10 @@ void Windows::finish_start(const std::vector<UnsortedCapsules>& unsorted, Shift&
 template <class Sort>
 void Windows::sort_to_start(WindowLayer& layer, Sort sort_layer) {
   const float before = levels_.coarseness(layer.window.tier, layer.level);
-  layer.layer.set_coarseness(before);
+  layer.capsules.set_coarseness(before);
   sort_layer();
   layer.changes = 0;
-  const float after = layer.layer.coarseness();
+  const float after = layer.capsules.coarseness();
   if (after != before) levels_.set_coarseness(layer.window.tier, layer.level, after);
 }
 
@@ -136,10 +136,11 @@ void Windows::merge_levels(const Sizes& sizes) {
   std::size_t all = 0;
   for (const WindowLayer& layer : layers_) {
     if (!layer.fresh || layer.is_empty()) continue;
-    all += layer.layer.size();
-    const double unit = 1.0 / layer.layer.frame().per_length;
+    all += layer.capsules.size();
+    const double unit = SizeLevels::unit_of(layer.level);
     const double units = flat ? unit * unit : unit * unit * unit;
-    volume = std::max(volume, static_cast<double>(layer.layer.size()) * units / layer.layer.density(flat));
+    volume =
+        std::max(volume, static_cast<double>(layer.capsules.size()) * units / layer.capsules.density(flat));
   }
   if (2 * all >= size()) levels_.merge(sizes, volume, flat);
 }

@@ -462,7 +462,8 @@ TEST(Windows, SearchesLookAtFewOfMany) {
     const std::size_t found = search.near_started(windows, 0, many, 0.0, bound_of).size();
     CapsuleSearches searches;
     for (const WindowLayer& layer : windows.layers())
-      for (const RoomyBound& bound : bounds) layer.layer.add_search(layer.query(bound, 0.0, 1.0), searches);
+      for (const RoomyBound& bound : bounds)
+        layer.capsules.add_search(layer.query(bound, 0.0, 1.0), searches);
     std::size_t looked_at = 0;
     for (const auto& run : searches.runs) looked_at += run.end - run.begin;
     EXPECT_LT(looked_at, std::size_t{many} * many / 10) << mixed;
