@@ -25,7 +25,7 @@ class CapsuleSpread {
   float widest() const { return widest_; }
   /// The widest of all, however large.
   float largest() const { return largest_; }
-  /// The middle of one of those that are too large may be elsewhere.
+  /// A middle that is too large for whole numbers of cells may lie beyond lower() and upper().
   bool is_exceeded() const { return exceeded_; }
   /// The longest edge of the box around the middles, but no less than the widest.
   float extent() const;
@@ -38,10 +38,11 @@ class CapsuleSpread {
   bool exceeded_ = false;
 };
 
-/// Those with coordinates in [i, i + 1) times the edge are cell i of an axis. Where the axis is folded, it
-/// shares its capsules with all cells i + k count; else all capsules are in `count` cells from the first on.
-/// Cells are cubes cut into slices along x: rows of cells are read as a whole, so that thin slices cost
-/// nothing, and less is read of rows that are not needed as a whole. Lengths are in units of a frame.
+/// Divides space into cells, which have indices. Those with coordinates in [i, i + 1) times the edge are cell
+/// i of an axis. Where the axis is folded, cell i shares its index, and so its capsules, with all cells
+/// i + k count; else all capsules are in `count` cells from the first on. Cells are cubes cut into slices
+/// along x: rows of cells are read as a whole, so that thin slices cost nothing, and less is read of rows
+/// that are not needed as a whole. Lengths are in units of a frame.
 class Grid {
  public:
   using Cell = std::array<std::int32_t, 3>;
@@ -56,7 +57,7 @@ class Grid {
 
   Grid() = default;
   /// For so many capsules: cubes as wide as the widest, times `coarseness`, over the box that holds all
-  /// middles; folded where a capsule is outside of that, or where there would be far more cells than
+  /// middles; folded where a middle may lie beyond that, or where there would be far more cells than
   /// capsules. Few capsules get one cell.
   Grid(const CapsuleSpread& spread, std::size_t capsules, float coarseness);
 
@@ -68,7 +69,8 @@ class Grid {
   std::size_t cells_in_a_row() const { return std::size_t(count_[0]); }
   /// In which the middle is.
   Cell cell_around(const Corners& corners) const;
-  /// Of a cell that is not beyond the grid, less than cells(): those along x follow each other.
+  /// Less than cells(); those along x follow each other. Where an axis is not folded, of one of its `count`
+  /// cells.
   std::uint32_t index_of(const Cell& cell) const;
   /// Of the cells with this index the one that is nearest to another.
   Cell nearest_image(std::uint32_t index, const Cell& to) const;
@@ -85,7 +87,7 @@ class Grid {
   bool wraps(const CellRange& range) const {
     return end_of(range, 0) > along(0) || end_of(range, 1) > along(1) || end_of(range, 2) > along(2);
   }
-  /// Calls visit(first, last) for cells that follow each other, first <= index < last, until that was all.
+  /// Calls visit(first, last) for each piece of a row, cells with first <= index < last.
   template <class Visit>
   void for_each_row(const CellRange& range, Visit visit) const {
     const std::uint32_t begin = range.begin[0];

@@ -61,8 +61,7 @@ CapsuleSpread Layer::spread_of(const UnsortedCapsules& all, Shift& shift) {
   return spread;
 }
 
-/// Cells coarse enough to hold some each. Counts how many are in each cell, starts_[cell], and tells in which
-/// cell each is.
+/// Makes cells coarse enough to hold some each, and counts by them.
 void Layer::choose_grid(const UnsortedCapsules& all, const CapsuleSpread& spread,
                         std::vector<std::uint32_t>& cells, Shift& shift) {
   const std::size_t count = cells.size();

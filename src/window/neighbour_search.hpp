@@ -1,6 +1,7 @@
 // Searches for the neighbours of bodies in all layers, and in all images where space repeats.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -20,8 +21,8 @@ struct BodyPair {
 /// same windows at the same time.
 class NeighbourSearch {
  public:
-  /// The bodies other than `number` whose registered capsule may touch that which it would have from now
-  /// until `end`, before their windows end. The list may be changed.
+  /// The bodies other than `number` whose registered capsule may touch, before their windows end, that which
+  /// `number` would have from now until `end`. The list may be changed.
   std::vector<std::uint32_t>& near(const Windows& windows, std::uint32_t number, const RoomyBound& bound,
                                    double now, double end);
 

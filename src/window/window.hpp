@@ -22,7 +22,7 @@ struct Window {
   static constexpr Window endless() { return {std::numeric_limits<int>::max(), infinity}; }
   /// The longest window, no longer than 2^tier, whose tier is none of these: a layer in which others are
   /// already would have to be sorted anew. Windows that are 8, 64, ... times shorter are tried. Where there
-  /// is none, it ends now.
+  /// is none, the window returned ends now.
   static Window free_at(double now, int tier, std::span<const int> held);
 
   /// Of one that ends.
