@@ -3,6 +3,33 @@
 #include <algorithm>
 
 namespace kinesphere {
+namespace {
+
+/// Brings the event up to date with the two as they are now.
+void describe_now(Event& event, const Sphere& first, const Sphere& second, const Space& space,
+                  const std::optional<Box>& box) {
+  if (event.wall != Wall::none) {
+    describe(event, first, *box);
+  } else {
+    describe(event, first, second, space);
+  }
+}
+
+bool still_begins(const ContactBook& book, const Event& now, const Sphere& first, const Sphere& second) {
+  const ContactRule& rule = book.rule_of({.within = false, .sensed = is_of_sensor(now.kind)});
+  return rule.decide(false, now.gap - now.distance, now.approach_speed, approach_error(now, first, second)) ==
+         ContactRule::Change::begin;
+}
+
+}  // namespace
+
+/// What the sensor_enter of the same two and the same distance told.
+Senses Instant::senses_told(const ContactBook& book, const Event& leave) {
+  for (const Crossing& crossing :
+       book.crossings_of(book.number_of(leave.first), book.number_of(leave.second)))
+    if (crossing.distance == leave.distance) return crossing.senses;
+  return Senses::neither;
+}
 
 void Instant::end(ContactBook& book, const Event& contact) {
   book.set_touching(contact, false);
@@ -23,8 +50,8 @@ bool Instant::take_effect(ContactBook& book, Event& event, const Sphere& first, 
   if (event.kind == EventKind::zeno_guard) guards_told_.insert(event);
   if (event.kind == EventKind::zeno_guard || event.kind == EventKind::bound_violation) return true;
   const bool begins_now = begins(event.kind);
-  book.describe_now(event, first, second, box);
-  if (begins_now && !book.still_begins(event, first, second)) return false;
+  describe_now(event, first, second, book.space(), box);
+  if (begins_now && !still_begins(book, event, first, second)) return false;
   if (begins_now && !is_of_sensor(event.kind)) book.note_contact(event);
   book.set_touching(event, begins_now);
   changed_.emplace_back(book.number_of(first.id), book.number_of(second.id));

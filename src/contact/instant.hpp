@@ -45,7 +45,7 @@ class Instant {
   template <class SphereNow, class Ends>
   void end_contacts(ContactBook& book, std::uint32_t body, double time, SphereNow sphere,
                     const std::optional<Box>& box, Ends ends) {
-    for (const Event& event : book.ends_of(body, time, sphere, box))
+    for (const Event& event : ends_of(book, body, time, sphere, box))
       if (ends(event)) end(book, event);
   }
   /// The body is about to go, and all its contacts end.
@@ -72,7 +72,7 @@ class Instant {
       if (is_there(event->first) && (alone || is_there(event->second))) {
         const Sphere first = sphere(book.number_of(event->first));
         if (event->kind == EventKind::sensor_enter) event->senses = senses_in(*event);
-        if (event->kind == EventKind::sensor_leave) event->senses = book.senses_of(*event);
+        if (event->kind == EventKind::sensor_leave) event->senses = senses_told(book, *event);
         if (take_effect(book, *event, first, alone ? first : sphere(book.number_of(event->second)), box))
           return event;
       } else if (!begins(event->kind) && event->kind != EventKind::zeno_guard) {
@@ -107,6 +107,28 @@ class Instant {
                 const std::function<bool(BodyId)>& is_known) const;
 
  private:
+  /// The ends of all contacts and crossings of the body, if they were to end now. `sphere(number)` gives a
+  /// body as it is.
+  template <class SphereNow>
+  static std::vector<Event> ends_of(const ContactBook& book, std::uint32_t body, double time,
+                                    SphereNow sphere, const std::optional<Box>& box) {
+    const auto end_with = [&](EventKind kind, std::uint32_t partner) {
+      return contact_event(kind, time, sphere(body), sphere(partner), book.space());
+    };
+    std::vector<Event> found;
+    for (const std::uint32_t partner : book.partners_of(body))
+      found.push_back(end_with(EventKind::contact_end, partner));
+    for (const Wall wall : walls)
+      if (book.touches_wall(body, wall))
+        found.push_back(wall_event(EventKind::wall_end, time, sphere(body), *box, wall));
+    for (const Crossing& crossing : book.crossings_of(body)) {
+      found.push_back(end_with(EventKind::sensor_leave, crossing.partner));
+      found.back().distance = crossing.distance;
+      found.back().senses = crossing.senses;
+    }
+    return found;
+  }
+  static Senses senses_told(const ContactBook& book, const Event& leave);
   void end(ContactBook& book, const Event& contact);
   bool take_effect(ContactBook& book, Event& event, const Sphere& first, const Sphere& second,
                    const std::optional<Box>& box);

@@ -46,7 +46,7 @@ Parcel DistributedWorld::Domain::pack(std::uint32_t number) const {
   parcel.body = body;
   parcel.home = home;
   parcel.filter = bodies().filters.of(number);
-  parcel.contacts = tables_.book.keep(number);
+  parcel.contacts = KeptContacts::of(tables_.book, number);
   const Windows& windows = tables_.windows;
   parcel.is_registered = windows.contains(number);
   if (parcel.is_registered) {
@@ -84,12 +84,12 @@ Parcel DistributedWorld::Domain::pack_as_it_began(std::uint32_t number) {
       if (!before && body.index == name_of(number)) before = departure;
     const As as(motion_, entries_[number].in_motion, before);
     const Bodies::Kept now = bodies().keep(number);
-    const ContactBook::Kept contacts = tables_.book.keep(number);
+    const KeptContacts contacts = KeptContacts::of(tables_.book, number);
     bodies().put_back(number, kept->body);
-    tables_.book.put_back(number, kept->contacts);
+    kept->contacts.put_back(tables_.book, number);
     parcel = pack(number);
     bodies().put_back(number, now);
-    tables_.book.put_back(number, contacts);
+    contacts.put_back(tables_.book, number);
   }
   if (group != nullptr) {
     for (const Event& event : group->pending)
@@ -215,7 +215,7 @@ Result<std::uint32_t> DistributedWorld::Domain::install(Parcel& parcel) {
   }
   entries_[number].owner = parcel.owner;
   entries_[number].in_motion = *in_motion;
-  tables_.book.put_back_alone(number, parcel.contacts);
+  parcel.contacts.put_back_alone(tables_.book, number);
   if (body.dirty) {
     body.dirty = false;
     everybody_.unsettled().add(bodies(), number);

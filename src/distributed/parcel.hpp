@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "archive/fields.hpp"
+#include "contact/kept_contacts.hpp"
 #include "engine/tables.hpp"
 #include "window/agenda.hpp"
 
@@ -31,7 +32,7 @@ struct Parcel {
   Body body{};
   Home home{};
   Filter filter{};
-  ContactBook::Kept contacts{};
+  KeptContacts contacts{};
   /// Where it is registered, if it is. `enters`: with a new capsule, from now on. `starts`: with all others
   /// whose windows start now.
   bool is_registered = false;

@@ -247,7 +247,7 @@ Result<void> DistributedWorld::Domain::receive(std::vector<ByteWriter>& writers,
     if (!parcel.starts) continue;
     const std::uint32_t number = *find(parcel.name);
     const RoomyBound bound = roomy_bound(bodies(), number, time());
-    starters.push_back({number, Windows::level_of(bound, parcel.window()), parcel.window()});
+    starters.push_back({number, SizeLevels::level_of(bound, parcel.window()), parcel.window()});
   }
   return {};
 }
@@ -332,12 +332,12 @@ bool DistributedWorld::Domain::is_held(std::uint32_t number, int by) const {
 /// Those that are registered and may come into one of the boxes before their windows end.
 std::vector<std::uint32_t> DistributedWorld::Domain::own_bodies_in(std::span<const Box> boxes) const {
   std::vector<std::uint32_t> found;
-  Windows::Scratch scratch;
+  NeighbourSearch search;
   for (const Box& box : boxes) {
     Bound ball{.time = time(), .position = 0.5 * (box.lower + box.upper)};
     ball.radius = 0.5 * norm(box.upper - box.lower);
     const RoomyBound bound{MovedBound(ball, time()), 0.0};
-    for (const std::uint32_t number : tables_.windows.near(no_body.index, bound, time(), infinity, scratch))
+    for (const std::uint32_t number : search.near(tables_.windows, no_body.index, bound, time(), infinity))
       if (is_own(number) && meet(box, box_of(number), bodies().space())) found.push_back(number);
   }
   std::sort(found.begin(), found.end());

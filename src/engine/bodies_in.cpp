@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "window/neighbour_search.hpp"
+
 namespace kinesphere {
 
 /// A capsule holds its body until its window ends, which is not past; only a change or a broken promise
@@ -11,8 +13,8 @@ std::vector<std::uint32_t> bodies_in(const Box& box, const Tables& tables, const
   std::vector<std::uint32_t> numbers;
   for (const std::uint32_t number : unsettled.numbers())
     if (tables.bodies[number].dirty) numbers.push_back(number);
-  Windows::Scratch scratch;
-  for (const std::uint32_t number : tables.windows.in_box(box, now, scratch))
+  NeighbourSearch search;
+  for (const std::uint32_t number : search.in_box(tables.windows, box, now))
     if (!tables.bodies[number].dirty) numbers.push_back(number);
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());

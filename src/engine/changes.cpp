@@ -38,7 +38,7 @@ void World::Changes::appear(std::uint32_t number, const Bound& bound) {
   everybody_.void_facts(number);
   if (bodies().definition().allow_overlap) return;
   // Others that are added before then have to find it.
-  const Window window = body.is_fixed() ? Windows::endless() : Windows::window_at(time(), Windows::shortest);
+  const Window window = body.is_fixed() ? Window::endless() : Window::at(time(), Window::shortest);
   if (bodies().space().repeats()) tables_.bodies.bring_home(number, time(), 0.0);
   windows.enter(number, roomy_bound(bodies(), number, time()), time(), window);
   windows.tidy();

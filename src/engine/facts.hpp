@@ -11,13 +11,14 @@
 #include "engine/beside.hpp"
 #include "engine/tables.hpp"
 #include "window/agenda.hpp"
+#include "window/neighbour_search.hpp"
 
 namespace kinesphere {
 
 /// The hot pairs that searches have found, and what they have cost. One for each thread.
 struct alignas(128) FoundPairs {
   std::vector<HotPair> hot;
-  Windows::Scratch scratch;
+  NeighbourSearch search;
   std::uint64_t searches = 0;
   std::uint64_t candidates = 0;
   std::uint64_t near = 0;   ///< of them, those that may meet before a window ends

@@ -174,7 +174,7 @@ void Islands::keep(const Group& group) {
   for (const std::uint32_t number : groups_.members_of(group)) {
     const std::uint32_t place = sea_.places[number].kept;
     if (std::exchange(sea_.is_kept[place], std::uint8_t{1}) == 0)
-      sea_.kept[place] = {tables_.bodies.keep(number), tables_.book.keep(number)};
+      sea_.kept[place] = {tables_.bodies.keep(number), KeptContacts::of(tables_.book, number)};
   }
 }
 
@@ -196,7 +196,7 @@ void Islands::take_back(Group& group) {
     Sea::Place& place = sea_.places[number];
     Kept& before = sea_.kept[place.kept];
     tables_.bodies.put_back(number, before.body);
-    tables_.book.put_back(number, before.contacts);
+    before.contacts.put_back(tables_.book, number);
     before.since = {};
     place.kick = Sea::none;
   }
@@ -329,7 +329,7 @@ void Islands::finish(const Group& group, bool is_counted, std::vector<const Told
   for (const Told& one : attempts_.told_by(group)) told.push_back(&one);
   if (!tables_.bodies.shapes.any()) return;
   for (const std::uint32_t number : members_of(group))
-    tables_.book.tell_fixed(number, sea_.kept[sea_.places[number].kept].contacts);
+    sea_.kept[sea_.places[number].kept].contacts.tell_fixed(tables_.book, number);
 }
 
 void Islands::finish(std::vector<const Told*>& told) {

@@ -4,7 +4,7 @@
 
 #include "engine/facts.hpp"
 #include "engine/room.hpp"
-#include "window/windows.hpp"
+#include "window/neighbour_search.hpp"
 
 namespace kinesphere {
 namespace {
@@ -41,12 +41,12 @@ std::vector<Meeting> meetings(const Tables& tables, std::span<const GroupKick> k
     for (std::size_t k = from; k < to; ++k) {
       const auto number = static_cast<std::uint32_t>(k);
       const Window& window = kicks[k].kick->window;
-      starters[k] = {number, Windows::level_of(bound_at_begin(number), window), window};
+      starters[k] = {number, SizeLevels::level_of(bound_at_begin(number), window), window};
     }
   });
   Windows windows(bodies.space());
   windows.start(starters, begin, bound_at_begin, shift);
-  std::vector<Windows::Scratch> scratch(shift.count());
+  std::vector<NeighbourSearch> searches(shift.count());
   std::vector<std::vector<Meeting>> meeting(shift.count());
   const auto compare = [&](std::uint32_t a, std::uint32_t b, std::size_t worker) {
     if (kicks[a].own == kicks[b].own) return;
@@ -57,14 +57,14 @@ std::vector<Meeting> meetings(const Tables& tables, std::span<const GroupKick> k
     if (until < infinity) meeting[worker].push_back({a, b, until, earlier.since.kick < later.time});
   };
   shift.for_each(fresh, kicks_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
-    for (const auto& [a, b] : windows.near_started(from, to, begin, bound_at_begin, scratch[worker]))
+    for (const auto& [a, b] : searches[worker].near_started(windows, from, to, begin, bound_at_begin))
       compare(a, b, worker);
   });
   shift.for_each(
       kicks.size() - fresh, kicks_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
         for (auto k = static_cast<std::uint32_t>(fresh + from); k < fresh + to; ++k) {
           const double end = kicks[k].kick->window.end;
-          for (const std::uint32_t other : windows.near(k, bound_at_begin(k), begin, end, scratch[worker]))
+          for (const std::uint32_t other : searches[worker].near(windows, k, bound_at_begin(k), begin, end))
             compare(k, other, worker);
         }
       });

@@ -26,8 +26,8 @@ std::optional<BodyId> Overlaps::of_body(BodyId id, const Extent& extent,
                                         const BodyDefinition& definition) const {
   std::optional<BodyId> found;
   const Box box = box_now(bodies_, extent, now_);
-  Windows::Scratch scratch;
-  for (const std::uint32_t other : windows_.in_box(box, now_, scratch)) {
+  NeighbourSearch search;
+  for (const std::uint32_t other : search.in_box(windows_, box, now_)) {
     const Body& body = bodies_[other];
     const bool certain =
         other != id.index && !(extent.fixed && body.is_fixed()) &&
@@ -50,12 +50,12 @@ std::optional<std::pair<std::size_t, std::size_t>> Overlaps::first_among(
   std::vector<Windows::Starter> starters;
   starters.reserve(added.size());
   for (std::uint32_t number = 0; number < added.size(); ++number)
-    starters.push_back({number, Windows::level_of(ball_of(number), Windows::endless()), Windows::endless()});
+    starters.push_back({number, SizeLevels::level_of(ball_of(number), Window::endless()), Window::endless()});
   Shift alone;
   windows.start(starters, now_, ball_of, alone);
   std::optional<std::pair<std::size_t, std::size_t>> least;
-  Windows::Scratch scratch;
-  for (const auto& [a, b] : windows.near_started(0, windows.started(), now_, ball_of, scratch)) {
+  NeighbourSearch search;
+  for (const auto& [a, b] : search.near_started(windows, 0, windows.started(), now_, ball_of)) {
     const auto [first, second] = std::minmax({a, b});
     if (least && std::tie(least->second, least->first) <= std::tie(second, first)) continue;
     if (certainly_overlap(bodies_, now_, {bound_now(added[first], now_)}, {bound_now(added[second], now_)}) &&

@@ -45,10 +45,10 @@ double Pacing::longest_in_period(std::uint32_t number, double length, double rel
 /// Of the longest window up to this tier, from now on, that is short enough for a space that repeats.
 int Pacing::tier_in_space(std::uint32_t number, int tier) const {
   if (!bodies().space().repeats()) return tier;
-  tier = Windows::window_at(time_, tier).tier;
+  tier = Window::at(time_, tier).tier;
   const double release_gap = tables_.book.rule().release_gap();
   while (power_of_two(tier) > longest_in_period(number, power_of_two(tier), release_gap)) {
-    const int shorter = Windows::window_at(time_, tier - 1).tier;
+    const int shorter = Window::at(time_, tier - 1).tier;
     if (shorter == tier) break;
     tier = shorter;
   }
@@ -57,7 +57,7 @@ int Pacing::tier_in_space(std::uint32_t number, int tier) const {
 
 Window Pacing::next_window(std::uint32_t number, const std::optional<Window>& present) const {
   const Body& body = bodies()[number];
-  if (body.is_fixed() || body.stands_still()) return Windows::endless();
+  if (body.is_fixed() || body.stands_still()) return Window::endless();
   const Window window = window_for(number);
   if (!present || body.arrived) return window;
   const bool suits = present->tier >= window.tier - 2 * Tempo::powers_between_tiers &&
@@ -68,7 +68,7 @@ Window Pacing::next_window(std::uint32_t number, const std::optional<Window>& pr
 
 Window Pacing::longer_window(std::uint32_t number, const Window& ended) const {
   const int suits = tables_.tempo.tier_for(pace_of(MovedBound(bodies()[number].bound, time_)));
-  return Windows::window_at(time_, tier_in_space(number, std::max(suits, ended.tier + 1)));
+  return Window::at(time_, tier_in_space(number, std::max(suits, ended.tier + 1)));
 }
 
 bool Pacing::needs_report(std::uint32_t number) const {
@@ -76,7 +76,7 @@ bool Pacing::needs_report(std::uint32_t number) const {
   if (body.fresh(time_)) return false;
   const Bound& bound = body.bound;
   const Pace pace = pace_of(MovedBound(bound, time_));
-  const Window window = Windows::window_at(time_, tier_for(number, pace));
+  const Window window = Window::at(time_, tier_for(number, pace));
   const double s = window.end - bound.time;
   const auto growth_after = [&bound](double time) {
     return (bound.growth_speed + 0.5 * bound.growth_acceleration * time) * time;

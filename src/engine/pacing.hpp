@@ -17,7 +17,7 @@ class Pacing {
     return tier_in_space(number, tables_.tempo.tier_for(pace));
   }
   Window window_for(std::uint32_t number) const {
-    return Windows::window_at(time_, tier_for(number, pace_of(MovedBound(bodies()[number].bound, time_))));
+    return Window::at(time_, tier_for(number, pace_of(MovedBound(bodies()[number].bound, time_))));
   }
   /// The window in which a body is to be from now on that is in this one, if it is in any: there, unless that
   /// lasts longer than the one that suits it, or is far shorter.

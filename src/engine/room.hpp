@@ -8,7 +8,8 @@
 #include "bound/encounter.hpp"
 #include "engine/bodies.hpp"
 #include "engine/extent.hpp"
-#include "window/windows.hpp"
+#include "window/roomy_bound.hpp"
+#include "window/tempo.hpp"
 
 namespace kinesphere {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "contact/contact_book.hpp"
+#include "contact/kept_contacts.hpp"
 #include "engine/bodies.hpp"
 #include "number/infinity.hpp"
 
@@ -22,7 +22,7 @@ struct Since {
 /// A body as it was when the part began.
 struct Kept {
   Bodies::Kept body{};
-  ContactBook::Kept contacts{};
+  KeptContacts contacts{};
   Since since{};
 };
 

@@ -93,9 +93,9 @@ void Island::enter(std::uint32_t number, const Window& window) {
 /// The bodies whose capsules may touch the body's new one; some of them need not.
 std::span<const std::uint32_t> Island::near(std::uint32_t number) {
   const RoomyBound bound = roomy_bound(bodies(), number, time_);
-  const auto found = tables_->windows.near(number, bound, time_, facts().end_of(number), found_.scratch);
-  if (!beside_) return found;
-  std::vector<std::uint32_t>& numbers = found_.scratch.numbers;
+  std::vector<std::uint32_t>& numbers =
+      found_.search.near(tables_->windows, number, bound, time_, facts().end_of(number));
+  if (!beside_) return numbers;
   std::erase_if(numbers, [&](std::uint32_t other) { return beside_->last_kick(other) != nullptr; });
   beside_->for_each_kicked([&](std::uint32_t other) {
     if (other != number) numbers.push_back(other);

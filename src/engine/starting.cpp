@@ -9,13 +9,13 @@ namespace {
 /// So many are worth the while of a thread.
 constexpr std::size_t bodies_at_once = 256;
 
-/// Windows::free_window(), of which most bodies ask for the same one.
+/// Window::free_at(), of which most bodies ask for the same one.
 class FreeWindows {
  public:
   FreeWindows(std::span<const int> held, double now) : held_(held), now_(now) {}
 
   const Window& of(int tier) {
-    if (!found_ || tier != asked_) found_ = Windows::free_window(now_, tier, held_);
+    if (!found_ || tier != asked_) found_ = Window::free_at(now_, tier, held_);
     asked_ = tier;
     return *found_;
   }
@@ -76,7 +76,7 @@ std::vector<Windows::Starter> Starting::choose_windows(std::span<const std::uint
         starters[k] = {number, 0, window};
         if (window.end == now) continue;
         if (bodies().space().repeats()) bodies().bring_home(number, now, window.end - now);
-        starters[k].level = Windows::level_of(bound, window);
+        starters[k].level = SizeLevels::level_of(bound, window);
         rounds[part].note(pace, 2.0 * (bound.moved.radius + bound.room), window.tier);
       }
     }
@@ -115,7 +115,7 @@ std::uint64_t Starting::find_pairs(const std::vector<std::uint8_t>* others) {
         FoundPairs& found = found_[worker];
         const auto bound_of = [&](std::uint32_t number) { return roomy_bound(bodies(), number, now); };
         found.searches += to - from;
-        for (const auto& [a, b] : windows.near_started(from, to, now, bound_of, found.scratch)) {
+        for (const auto& [a, b] : found.search.near_started(windows, from, to, now, bound_of)) {
           const std::uint64_t before = found.near;
           facts.find_hot_pair(a, b, found);
           if (found.near != before && !is_counted(a, b)) ++uncounted[worker];

@@ -31,7 +31,7 @@ class Starting {
   /// Of bodies whose windows end, probes those for whom a larger capsule would cost more.
   Result<void> refresh(std::span<const std::uint32_t> ending);
   /// The windows that suit bodies which are in none, other than those of the tiers `held`
-  /// (Windows::free_window). For some there may be no window: they are dirty then.
+  /// (Window::free_at). For some there may be no window: they are dirty then.
   std::vector<Windows::Starter> choose_windows(std::span<const std::uint32_t> numbers,
                                                std::span<const int> held, Tempo::Round& round);
   /// They get capsules, and all pairs that may change before a window ends become hot. Returns how many pairs

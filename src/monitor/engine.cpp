@@ -111,7 +111,7 @@ Result<void> Monitor::Engine::start_windows(const Poll* poll) {
       track.placed |= 1u << hypothesis.slot;
       const std::uint32_t place = place_of(number, hypothesis);
       bounds_[place] = roomy_bound(number, hypothesis, next.end);
-      starters.push_back({place, Windows::level_of(*bounds_[place], next), next});
+      starters.push_back({place, SizeLevels::level_of(*bounds_[place], next), next});
     }
   }
   Shift alone;
@@ -122,7 +122,7 @@ Result<void> Monitor::Engine::start_windows(const Poll* poll) {
   constexpr std::size_t at_once = 256;
   for (std::size_t from = 0; from < started; from += at_once)
     for (const auto& [a, b] :
-         windows_.near_started(from, std::min(started, from + at_once), time_, bound_of, scratch_))
+         search_.near_started(windows_, from, std::min(started, from + at_once), time_, bound_of))
       find_pair(track_at(a), track_at(b));
   return {};
 }

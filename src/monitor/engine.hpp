@@ -19,7 +19,7 @@
 #include "monitor/track_table.hpp"
 #include "parallel/crew.hpp"
 #include "window/agenda.hpp"
-#include "window/windows.hpp"
+#include "window/neighbour_search.hpp"
 
 namespace kinesphere {
 
@@ -101,7 +101,7 @@ class Monitor::Engine {
   }
   static std::uint32_t track_at(std::uint32_t place) { return place / Knowledge::slots; }
   RoomyBound roomy_bound(std::uint32_t number, const Hypothesis& hypothesis, double end) const;
-  Window window() const { return Windows::window_at(time_, tier_); }
+  Window window() const { return Window::at(time_, tier_); }
 
   MonitorDefinition definition_;
   Levels levels_;
@@ -115,7 +115,7 @@ class Monitor::Engine {
   std::deque<MonitorEvent> events_;  ///< of the present time, that have not been told yet
   bool asking_ = false;
   std::vector<HotPair> read_pairs_;  ///< of a snapshot, on their way into the agenda
-  Windows::Scratch scratch_;
+  NeighbourSearch search_;
   std::vector<std::optional<RoomyBound>> bounds_;  ///< of those that start, by place
 };
 

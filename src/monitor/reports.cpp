@@ -123,7 +123,7 @@ void Monitor::Engine::place(std::uint32_t number) {
     windows_.enter(at, bound, time_, now);
     ++counters_.searches;
     // Finding a pair does not search.
-    for (const std::uint32_t near : windows_.near(at, bound, time_, now.end, scratch_))
+    for (const std::uint32_t near : search_.near(windows_, at, bound, time_, now.end))
       find_pair(number, track_at(near));
   }
   judge_open_pairs(number);

@@ -15,7 +15,7 @@ namespace {
 /// Raise the version when the fields change, or when the engine would go on from the same fields in another
 /// way.
 constexpr Envelope monitor_envelope{{'K', 'i', 'n', 'M', 'o', 'n', '\r', '\n'},
-                                    3,
+                                    4,
                                     "monitor",
                                     "Monitor::restore",
                                     "snapshot",

@@ -182,16 +182,16 @@ void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t
     const bool fixed = body(number).is_fixed();
     if (fixed || (horizon < infinity &&
                   engine_.bodies().space().is_narrow(swept_box(guarded(number), now_, horizon)))) {
-      const Window window = fixed ? Windows::endless() : Window{0, horizon};
-      starters.push_back({number, Windows::level_of(bound_of(number), window), window});
+      const Window window = fixed ? Window::endless() : Window{0, horizon};
+      starters.push_back({number, SizeLevels::level_of(bound_of(number), window), window});
     } else {
       anywhere.push_back(number);
     }
   }
   Shift alone;
   windows.start(starters, now_, bound_of, alone);
-  Windows::Scratch scratch;
-  for (const auto& [a, b] : windows.near_started(0, windows.started(), now_, bound_of, scratch))
+  NeighbourSearch search;
+  for (const auto& [a, b] : search.near_started(windows, 0, windows.started(), now_, bound_of))
     consider(a, b, hot, first);
   for (const std::uint32_t number : anywhere)
     for (const std::uint32_t other : numbers)

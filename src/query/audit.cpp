@@ -145,7 +145,8 @@ class World::Engine::Audit {
       const bool senses = engine_.bodies().may_meet(a, b) &&
                           engine_.bodies().sensors.senses(sensing_of(engine_.bodies(), a),
                                                           sensing_of(engine_.bodies(), b), crossing.distance);
-      if (!engine_.book().is_within(b, a, crossing.distance))
+      const Crossings::List back = engine_.book().crossings_of(b);
+      if (!std::binary_search(back.begin(), back.end(), Crossing{a, crossing.distance}))
         find("sensor", pair(a, b) + " sense each other on one side only");
       if (!senses) find("sensor", pair(a, b) + " are within a distance that neither senses");
     }

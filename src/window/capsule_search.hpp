@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "window/capsule.hpp"
 
@@ -58,5 +59,28 @@ void for_each_near(std::span<const Run> runs, const std::uint64_t* words, Visit 
       for (std::uint64_t bits = *words++; bits != 0; bits &= bits - 1)
         visit(run.query, first + static_cast<std::uint32_t>(std::countr_zero(bits)));
 }
+
+/// Searches of one table that are made at once: a processor works on several at the same time.
+struct CapsuleSearches {
+  std::vector<CapsuleQuery> queries;
+  std::vector<Run> runs;
+  std::vector<std::uint64_t> words;  ///< what they have found
+
+  void clear() {
+    queries.clear();
+    runs.clear();
+  }
+  void make(const CapsuleColumns& table) {
+    std::size_t all = 0;
+    for (const Run& run : runs) all += words_for(run);
+    if (words.size() < all) words.resize(all);
+    near_capsules(table, queries, runs, words.data());
+  }
+  /// Calls visit(query, place).
+  template <class Visit>
+  void for_each_found(Visit visit) const {
+    for_each_near(runs, words.data(), visit);
+  }
+};
 
 }  // namespace kinesphere

@@ -34,7 +34,7 @@ Memory World::Engine::memory() const {
   memory.pairs = everybody_.agenda().bytes();
   memory.bodies = heap_bytes(bodies());
   memory.contacts = heap_bytes(book());
-  memory.windows = windows().bytes();
+  memory.windows = heap_bytes(windows());
   memory.other = sizeof *this + everybody_.bytes() - memory.pairs;
   for (const FoundPairs& found : found_) memory.other += heap_bytes(found.hot);
   return memory;
@@ -48,9 +48,8 @@ Memory World::memory() const {
 
 std::vector<CellView> World::cells() const {
   std::vector<CellView> all;
-  engine("cells").windows().for_each_cell([&](const Box& box, std::size_t bodies) {
-    all.push_back({box, bodies});
-  });
+  for (const WindowLayer& layer : engine("cells").windows().layers())
+    layer.for_each_cell([&](const Box& box, std::size_t bodies) { all.push_back({box, bodies}); });
   return all;
 }
 

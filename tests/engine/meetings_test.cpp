@@ -39,7 +39,7 @@ struct Kicked {
       const auto group = static_cast<std::uint32_t>(random.uniform() * bodies);
       for (int kick = random.uniform() < 0.2 ? 2 : 1; kick > 0; --kick) {
         const double time = begin + random.uniform() * 0.2;
-        const Window window = Windows::window_at(begin, random.uniform() < 0.7 ? -1 : -4);
+        const Window window = Window::at(begin, random.uniform() < 0.7 ? -1 : -4);
         if (!(time < window.end)) continue;
         Bound bound{.time = time, .velocity = 4.0 * random.point_in_ball()};
         for (int axis = 0; axis < 3; ++axis) bound.position[axis] = edge * random.uniform();
@@ -142,13 +142,13 @@ TEST(Meetings, AreUnknownOfKicksAtOneInstantAndInEndlessWindows) {
     const GroupKick of_groups[] = {{0, &kicks[0]}, {1, &kicks[1]}};
     return meetings(tables, of_groups, 2, begin, alone);
   };
-  const Window window = Windows::window_at(begin, 0);
+  const Window window = Window::at(begin, 0);
   ASSERT_EQ(meeting_of(begin + 0.1, window).size(), 1u);
   EXPECT_GT(meeting_of(begin + 0.1, window)[0].until, begin + 0.1);
   ASSERT_EQ(meeting_of(begin, window).size(), 1u);
   EXPECT_EQ(meeting_of(begin, window)[0].until, Meeting::unknown);
-  ASSERT_EQ(meeting_of(begin + 0.1, Windows::endless()).size(), 1u);
-  EXPECT_EQ(meeting_of(begin + 0.1, Windows::endless())[0].until, Meeting::unknown);
+  ASSERT_EQ(meeting_of(begin + 0.1, Window::endless()).size(), 1u);
+  EXPECT_EQ(meeting_of(begin + 0.1, Window::endless())[0].until, Meeting::unknown);
 }
 
 TEST(Meetings, NobodyMeetsWhereNobodyIsKicked) {

@@ -9,7 +9,7 @@
 #include "number/infinity.hpp"
 #include "support/bound_cases.hpp"
 #include "support/true_balls.hpp"
-#include "window/windows.hpp"
+#include "window/window.hpp"
 
 namespace kinesphere::capsule_test {
 namespace {
@@ -53,7 +53,7 @@ Case draw(Random& random, const Kind& kind) {
   const double time = std::ldexp(1.0, tier);
   const auto part = [&] { return log_uniform(random, -4, 0) * 0.5; };
   c.now = (random.uniform() - 0.5) * std::ldexp(time, kind.origin);
-  const Window window = Windows::window_at(c.now, tier);
+  const Window window = Window::at(c.now, tier);
   c.frame = {.base = std::ldexp(length, kind.origin) * random.point_in_ball(),
              .origin = window.end - std::ldexp(1.0, window.tier),
              .per_length = 1.0 / length,

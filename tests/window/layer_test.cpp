@@ -140,17 +140,17 @@ class Mirrored {
     bound.position += layer.frame().base;
     bound.time = now;
     Entry& entry = bodies_.at(number);
-    const Capsule before = layer.capsule_at(entry.place);
+    const Capsule before = layer.table().capsule_at(entry.place);
     const Capsule after = capsule(bound);
     const float from = layer.frame().time(now);
     if (const auto overhang = layer.overhang_at(entry.place, after, from)) {
       Layer::Growth growth;
       layer.replace(entry.place, after, from, *overhang, growth);
       layer.grow(growth);
-      EXPECT_EQ(layer.capsule_at(entry.place), after);
+      EXPECT_EQ(layer.table().capsule_at(entry.place), after);
       entry.bound = bound;
     } else {
-      EXPECT_EQ(layer.capsule_at(entry.place), before);
+      EXPECT_EQ(layer.table().capsule_at(entry.place), before);
     }
   }
   void remove(std::uint32_t number) {
@@ -159,12 +159,13 @@ class Mirrored {
   }
   void sort() {
     std::set<std::uint32_t> told;
-    layer.sort([&](std::uint32_t number, std::uint32_t place) {
+    Shift alone;
+    layer.sort(alone, [&](std::uint32_t number, std::uint32_t place) {
       EXPECT_TRUE(told.insert(number).second);
       bodies_.at(number).place = place;
     });
     EXPECT_EQ(told.size(), bodies_.size());
-    EXPECT_EQ(layer.places(), bodies_.size());
+    EXPECT_EQ(layer.table().places(), bodies_.size());
     EXPECT_FALSE(layer.is_untidy());
   }
   std::size_t size() const { return bodies_.size(); }
@@ -177,8 +178,9 @@ class Mirrored {
     if (!layer.is_sound()) return testing::AssertionFailure() << "not sound";
     if (layer.size() != bodies_.size()) return testing::AssertionFailure() << "size";
     for (const auto& [number, entry] : bodies_) {
-      if (layer.number_at(entry.place) != number) return testing::AssertionFailure() << "place of " << number;
-      if (!within_widest(layer.capsule_at(entry.place)))
+      if (layer.table().number_at(entry.place) != number)
+        return testing::AssertionFailure() << "place of " << number;
+      if (!within_widest(layer.table().capsule_at(entry.place)))
         return testing::AssertionFailure() << number << " is wider than the widest";
     }
     return testing::AssertionSuccess();
@@ -209,7 +211,8 @@ class Mirrored {
   testing::AssertionResult same_pairs() {
     std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
     searches_.clear();
-    for (std::uint32_t place = 0; place < layer.places(); ++place) layer.add_search_behind(place, searches_);
+    for (std::uint32_t place = 0; place < layer.table().places(); ++place)
+      layer.add_search_behind(place, searches_);
     layer.make(searches_);
     bool found_before = false, found_twice = false;
     searches_.for_each_found([&](std::uint32_t place, std::uint32_t other) {
@@ -218,8 +221,8 @@ class Mirrored {
     });
     if (found_before) return testing::AssertionFailure() << "found one before it";
     if (found_twice) return testing::AssertionFailure() << "found twice";
-    for (std::uint32_t place = 0; place < layer.places(); ++place) {
-      const auto plain = plain_search({layer.capsule_at(place), 0.0f, 1.0f});
+    for (std::uint32_t place = 0; place < layer.table().places(); ++place) {
+      const auto plain = plain_search({layer.table().capsule_at(place), 0.0f, 1.0f});
       for (auto at = pairs.lower_bound({place, 0}); at != pairs.end() && at->first == place; ++at)
         if (!plain.contains(at->second)) return testing::AssertionFailure() << "found what is apart";
     }
@@ -237,9 +240,10 @@ class Mirrored {
   testing::AssertionResult same_cells() const {
     std::size_t count = 0;
     bool is_box = true;
-    layer.for_each_cell([&](const Vec3& lower, const Vec3& upper, std::size_t bodies) {
+    layer.for_each_cell([&](const Box& box, std::size_t bodies) {
       count += bodies;
-      is_box = is_box && bodies > 0 && lower.x < upper.x && lower.y < upper.y && lower.z < upper.z;
+      is_box = is_box && bodies > 0 && box.lower.x < box.upper.x && box.lower.y < box.upper.y &&
+               box.lower.z < box.upper.z;
     });
     if (count != bodies_.size()) return testing::AssertionFailure() << "counted " << count;
     if (!is_box) return testing::AssertionFailure() << "no box, or nobody in it";
@@ -271,11 +275,11 @@ class Mirrored {
     return widest <= layer.widest() * 1.05f;
   }
   std::set<std::uint32_t> plain_search(const CapsuleQuery& query) const {
-    const auto places = static_cast<std::uint32_t>(layer.places());
+    const auto places = static_cast<std::uint32_t>(layer.table().places());
     std::array<std::vector<float>, 7> columns;
     for (std::vector<float>& column : columns) column.resize(places + capsule_lanes);
     for (std::uint32_t place = 0; place < places; ++place) {
-      const Capsule capsule = layer.capsule_at(place);
+      const Capsule capsule = layer.table().capsule_at(place);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         columns[axis][place] = capsule.centre[axis];
         columns[axis + 3][place] = capsule.velocity[axis];
@@ -303,7 +307,7 @@ class Mirrored {
 
   std::map<std::uint32_t, Entry> bodies_;
   std::uint32_t next_number_ = 0;
-  Layer::Searches searches_;
+  CapsuleSearches searches_;
 };
 
 CapsuleFrame draw_frame(Random& random) {
@@ -418,9 +422,9 @@ TEST(Layer, LooksAtFewOfMany) {
     mirrored.add(outlier);
     for (int k = 1; k < bodies; ++k) mirrored.add(crowds[crowd].draw(random));
     mirrored.sort();
-    Layer::Searches searches;
-    for (std::uint32_t place = 0; place < mirrored.layer.places(); ++place)
-      mirrored.layer.add_search({mirrored.layer.capsule_at(place), 0.0f, 1.0f}, searches);
+    CapsuleSearches searches;
+    for (std::uint32_t place = 0; place < mirrored.layer.table().places(); ++place)
+      mirrored.layer.add_search({mirrored.layer.table().capsule_at(place), 0.0f, 1.0f}, searches);
     std::size_t all = 0;
     for (const kinesphere::Run& run : searches.runs) all += run.end - run.begin;
     return static_cast<double>(all) / (double{bodies} * bodies);
@@ -438,19 +442,20 @@ Layer sorted_crowd(std::uint32_t bodies) {
     const Bound bound = crowds.front().draw(random);
     layer.add(number, capsule_of(MovedBound(bound, 0.0), 0.0, 1.0, 0.0, {}), 0.0f);
   }
-  layer.sort([](std::uint32_t, std::uint32_t) {});
+  Shift alone;
+  layer.sort(alone, [](std::uint32_t, std::uint32_t) {});
   return layer;
 }
 
 TEST(Layer, RefusesACapsuleThatWouldMakeSearchesSlow) {
   Layer layer = sorted_crowd(1000);
-  const Capsule before = layer.capsule_at(5);
+  const Capsule before = layer.table().capsule_at(5);
   for (const Capsule& capsule :
        {Capsule{{100.0f, 0.0f, 0.0f}, {}, 0.1f}, Capsule{before.centre, {}, 100.0f},
         Capsule{before.centre, {0.0f, 100.0f, 0.0f}, 0.1f}, Capsule{{NAN, 0.0f, 0.0f}, {}, 0.1f},
         Capsule{{}, {}, std::numeric_limits<float>::infinity()}}) {
     EXPECT_FALSE(layer.overhang_at(5, capsule, 0.0f));
-    EXPECT_EQ(layer.capsule_at(5), before);
+    EXPECT_EQ(layer.table().capsule_at(5), before);
   }
   EXPECT_TRUE(layer.overhang_at(5, {before.centre, before.velocity, 0.25f * before.radius}, 0.0f));
 }
@@ -460,14 +465,15 @@ TEST(Layer, IsEmptyAfterClear) {
   layer.remove(3);
   layer.clear({.per_length = 4.0});
   EXPECT_EQ(layer.size(), 0u);
-  EXPECT_EQ(layer.places(), 0u);
+  EXPECT_EQ(layer.table().places(), 0u);
   EXPECT_EQ(layer.widest(), 0.0f);
   EXPECT_EQ(layer.frame().per_length, 4.0);
   EXPECT_TRUE(layer.is_sound());
-  Layer::Searches searches;
+  CapsuleSearches searches;
   layer.add_search({{}, 0.0f, 1.0f}, searches);
   EXPECT_TRUE(searches.runs.empty());
-  layer.sort([](std::uint32_t, std::uint32_t) { FAIL(); });
+  Shift alone;
+  layer.sort(alone, [](std::uint32_t, std::uint32_t) { FAIL(); });
   EXPECT_TRUE(layer.is_sound());
   layer.add_search({{}, 0.0f, 1.0f}, searches);
   layer.make(searches);
@@ -479,13 +485,14 @@ TEST(Layer, GetsUntidyWhereManyHaveEnteredOrLeft) {
   for (std::uint32_t number = 0; number < 1000; ++number)
     layer.add(number, {{static_cast<float>(number), 0.0f, 0.0f}, {}, 1.0f}, 0.0f);
   EXPECT_TRUE(layer.is_untidy());
-  layer.sort([](std::uint32_t, std::uint32_t) {});
+  Shift alone;
+  layer.sort(alone, [](std::uint32_t, std::uint32_t) {});
   EXPECT_FALSE(layer.is_untidy());
   EXPECT_NEAR(layer.density(false) * 8.0, 1.0 / 2.0, 0.45) << "one of width 2 for each unit of a row";
   for (std::uint32_t place = 0; place < 700; ++place) layer.remove(place);
   EXPECT_TRUE(layer.is_untidy());
-  layer.sort([](std::uint32_t, std::uint32_t) {});
-  EXPECT_EQ(layer.places(), 300u);
+  layer.sort(alone, [](std::uint32_t, std::uint32_t) {});
+  EXPECT_EQ(layer.table().places(), 300u);
 }
 
 }  // namespace

@@ -15,6 +15,8 @@
 #include "number/powers.hpp"
 #include "support/bound_cases.hpp"
 #include "support/true_balls.hpp"
+#include "window/neighbour_search.hpp"
+#include "window/tempo.hpp"
 
 namespace kinesphere::windows_test {
 namespace {
@@ -123,7 +125,8 @@ class Playground {
     EXPECT_FALSE(registered > 0 && windows_.is_sound(registered - 1)) << "more are registered than there are";
     EXPECT_EQ(windows_.moving(), moving);
     std::size_t in_cells = 0;
-    windows_.for_each_cell([&](const Box&, std::size_t count) { in_cells += count; });
+    for (const WindowLayer& layer : windows_.layers())
+      layer.for_each_cell([&](const Box&, std::size_t count) { in_cells += count; });
     EXPECT_EQ(in_cells, registered);
     if (registered == 0) {
       EXPECT_EQ(windows_.least_width(), infinity);
@@ -185,12 +188,12 @@ class Playground {
   }
   /// As in the engine: where space repeats, no body's capsule is as wide as half a period.
   Window window_to_start(std::uint32_t number) const {
-    if (stands(bounds_[number])) return Windows::endless();
+    if (stands(bounds_[number])) return Window::endless();
     const double speed = norm(bounds_[number].velocity_at(now_)) + bounds_[number].growth_speed;
     const int tier = std::clamp(exponent_of(kind_.unit / speed), -70, 2);
-    Window window = Windows::window_at(now_, tier + static_cast<int>(number % 3));
+    Window window = Window::at(now_, tier + static_cast<int>(number % 3));
     while (space_.repeats() && width(number, window.end - now_) > 0.9 * half_edge * kind_.unit)
-      window = Windows::window_at(now_, window.tier - 1);
+      window = Window::at(now_, window.tier - 1);
     return window;
   }
   void bring_home(std::uint32_t number, double duration) {
@@ -232,7 +235,7 @@ class Playground {
   }
   void expect_near(std::uint32_t number) {
     if (!registered_[number]) return;
-    const auto found = windows_.near(number, roomy(number), now_, windows_.end_of(number), scratch_);
+    const auto found = search_.near(windows_, number, roomy(number), now_, windows_.end_of(number));
     const std::set<std::uint32_t> near(found.begin(), found.end());
     EXPECT_TRUE(space_.repeats() || near.size() == found.size()) << "found twice";
     EXPECT_FALSE(near.contains(number));
@@ -268,9 +271,9 @@ class Playground {
       registered_[number] = false;
       const Window suits = window_to_start(number);
       if (suits.end == infinity) continue;
-      const Window window = Windows::free_window(now_, suits.tier, windows_.held_tiers());
+      const Window window = Window::free_at(now_, suits.tier, windows_.held_tiers());
       bring_home(number, window.end - now_);
-      starters.push_back({number, Windows::level_of(roomy(number), window), window});
+      starters.push_back({number, SizeLevels::level_of(roomy(number), window), window});
       registered_[number] = true;
       started.insert(number);
     }
@@ -287,7 +290,7 @@ class Playground {
     // In two parts, as two threads do.
     const std::size_t part = started.size() / 3;
     for (const auto& [from, to] : {std::pair(std::size_t{0}, part), std::pair(part, started.size())}) {
-      for (const auto& [number, other] : windows_.near_started(from, to, now_, bound_of, scratch_)) {
+      for (const auto& [number, other] : search_.near_started(windows_, from, to, now_, bound_of)) {
         ASSERT_TRUE(started.contains(number));
         ASSERT_TRUE(other < kind_.bodies && registered_[other]);
         ++pairs[std::minmax(number, other)];
@@ -330,7 +333,7 @@ class Playground {
     Vec3 middle = kind_.place + kind_.unit * Vec3{centre(), centre(), centre()};
     if (space_.is_flat()) middle.z = 0.0;
     const Box box{middle - size, middle + size};
-    const auto found = windows_.in_box(box, now_, scratch_);
+    const auto found = search_.in_box(windows_, box, now_);
     const std::set<std::uint32_t> numbers(found.begin(), found.end());
     for (std::uint32_t number = 0; number < kind_.bodies; ++number) {
       if (!registered_[number]) {
@@ -362,7 +365,7 @@ class Playground {
     ByteWriter writer;
     writer(windows_);
     Windows back(space_);
-    back.enter(3, roomy(3), now_, Windows::endless());  // what was there before is forgotten
+    back.enter(3, roomy(3), now_, Window::endless());  // what was there before is forgotten
     ByteReader reader(writer.bytes());
     reader(back);
     ASSERT_FALSE(reader.failed());
@@ -373,9 +376,9 @@ class Playground {
     ASSERT_EQ(again.bytes(), writer.bytes());
     for (std::uint32_t number = 0; number < kind_.bodies; ++number) {
       if (!registered_[number]) continue;
-      Windows::Scratch scratch;
-      const auto here = windows_.near(number, roomy(number), now_, windows_.end_of(number), scratch_);
-      const auto there = back.near(number, roomy(number), now_, back.end_of(number), scratch);
+      NeighbourSearch search;
+      const auto& here = search_.near(windows_, number, roomy(number), now_, windows_.end_of(number));
+      const auto& there = search.near(back, number, roomy(number), now_, back.end_of(number));
       ASSERT_TRUE(std::equal(here.begin(), here.end(), there.begin(), there.end()));
     }
     windows_ = back;
@@ -385,7 +388,7 @@ class Playground {
   Random& random_;
   Space space_;
   Windows windows_;
-  Windows::Scratch scratch_;
+  NeighbourSearch search_;
   double now_;
   double room_ = 0.0;
   std::vector<Vec3> shifts_;
@@ -416,45 +419,22 @@ TEST_P(WindowsOf, OverlookNobody) {
 std::string kind_name(const testing::TestParamInfo<Kind>& info) { return info.param.name; }
 INSTANTIATE_TEST_SUITE_P(Windows, WindowsOf, testing::ValuesIn(kinds), kind_name);
 
-TEST(Windows, OfOneLengthBeginAndEndAtItsMultiples) {
-  Random random(seed);
-  for (int k = 0; k < 20000; ++k) {
-    const double size = log_uniform(random, -100, 100);
-    const double now = chance(random, 0.1) ? 0.0 : random.uniform(-1.0, 1.0) * size;
-    const int tier = static_cast<int>(random.bits() % 300) - 150;
-    const Window window = Windows::window_at(now, tier);
-    const double length = std::ldexp(1.0, window.tier);
-    ASSERT_GE(window.tier, tier) << "seed " << seed << ", case " << k;
-    if (std::ldexp(1.0, tier) > 0x1p-49 * std::abs(now)) {
-      ASSERT_EQ(window.tier, tier);
-    }
-    ASSERT_LT(now, window.end);
-    ASSERT_LE(window.end - length, now);
-    ASSERT_EQ(window.end / length, std::floor(window.end / length));
-    // Where it ends all shorter ones end.
-    const Window shorter = Windows::window_at(now, tier - 3);
-    ASSERT_LE(shorter.end, window.end);
-    ASSERT_EQ(Windows::window_at(now, Windows::shortest).tier, Windows::window_at(now, -310).tier);
-  }
-}
-
 /// One that is already in the windows that would suit others makes theirs shorter; where there are no shorter
 /// ones, there is none.
 TEST(Windows, AreFreeWhereNobodyIs) {
   const double now = 3.0;
   Windows windows{Space{WorldDefinition{}}};
   const RoomyBound bound{MovedBound(Bound{.time = now, .radius = 1.0}, now), 0.0};
-  const Window shortest = Windows::window_at(now, Windows::shortest);
+  const Window shortest = Window::at(now, Window::shortest);
   int tier = 5;
   for (std::uint32_t number = 0;; ++number) {
-    const Window free = Windows::free_window(now, 5, windows.held_tiers());
+    const Window free = Window::free_at(now, 5, windows.held_tiers());
     EXPECT_EQ(free.tier, std::max(tier, shortest.tier));
     if (free.end == now) break;
-    EXPECT_EQ(free.end, Windows::window_at(now, tier).end);
+    EXPECT_EQ(free.end, Window::at(now, tier).end);
     ASSERT_LT(number, 100u);
     windows.enter(number, bound, now, free);
-    EXPECT_EQ(Windows::free_window(now, 6, windows.held_tiers()).tier, 6)
-        << "nobody is in windows of that length";
+    EXPECT_EQ(Window::free_at(now, 6, windows.held_tiers()).tier, 6) << "nobody is in windows of that length";
     tier -= Tempo::powers_between_tiers;
   }
   EXPECT_LE(tier, shortest.tier);
@@ -472,20 +452,21 @@ TEST(Windows, SearchesLookAtFewOfMany) {
                         .velocity = random.point_in_ball(),
                         .radius = log_uniform(random, mixed ? -8 : -1, -1)};
       bounds.push_back({MovedBound(bound, 0.0), 0.0});
-      const Window window = Windows::window_at(0.0, 0);
-      starters.push_back({number, Windows::level_of(bounds.back(), window), window});
+      const Window window = Window::at(0.0, 0);
+      starters.push_back({number, SizeLevels::level_of(bounds.back(), window), window});
     }
     const auto bound_of = [&](std::uint32_t number) { return bounds[number]; };
     Shift alone;
     windows.start(starters, 0.0, bound_of, alone);
-    Windows::Scratch scratch;
-    std::size_t looked_at = 0, found = 0;
-    for (std::size_t k = 0; k < many; ++k) {
-      found += windows.near_started(k, k + 1, 0.0, bound_of, scratch).size();
-      // Of the last layer.
-      for (const auto& run : scratch.layer.runs) looked_at += run.end - run.begin;
-    }
-    EXPECT_LT(looked_at, std::size_t{many} * many / 20) << mixed;
+    NeighbourSearch search;
+    const std::size_t found = search.near_started(windows, 0, many, 0.0, bound_of).size();
+    CapsuleSearches searches;
+    for (const WindowLayer& layer : windows.layers())
+      for (const RoomyBound& bound : bounds)
+        layer.capsules.add_search(layer.query(bound, 0.0, 1.0), searches);
+    std::size_t looked_at = 0;
+    for (const auto& run : searches.runs) looked_at += run.end - run.begin;
+    EXPECT_LT(looked_at, std::size_t{many} * many / 10) << mixed;
     EXPECT_LT(found, std::size_t{many} * 20) << mixed;
     EXPECT_GT(found, 100u) << mixed;
   }
@@ -506,7 +487,7 @@ class KickedBodies {
   KickedBodies() {
     for (std::uint32_t number = 0; number < count; ++number) {
       bounds_.push_back(draw(number, 0.0));
-      if (stands(number)) windows_.enter(number, roomy(number, 0.0), 0.0, Windows::endless());
+      if (stands(number)) windows_.enter(number, roomy(number, 0.0), 0.0, Window::endless());
     }
     start(0.0, true);
   }
@@ -525,7 +506,7 @@ class KickedBodies {
   void tidy() { windows_.tidy(); }
   /// Whom a body finds that is kicked.
   std::set<std::uint32_t> near(std::uint32_t number, double time) {
-    const auto found = windows_.near(number, roomy(number, time), time, windows_.end_of(number), scratch_);
+    const auto found = search_.near(windows_, number, roomy(number, time), time, windows_.end_of(number));
     return {found.begin(), found.end()};
   }
   Found start(double time, bool all) {
@@ -539,13 +520,12 @@ class KickedBodies {
     std::vector<Windows::Starter> starters;
     for (const std::uint32_t number : round)
       starters.push_back(
-          {number, Windows::level_of(roomy(number, time), window(number, time)), window(number, time)});
+          {number, SizeLevels::level_of(roomy(number, time), window(number, time)), window(number, time)});
     const auto bound_now = [&](std::uint32_t number) { return roomy(number, time); };
     Shift alone;
     windows_.start(starters, time, bound_now, alone);
     Found found;
-    for (const auto& [number, other] :
-         windows_.near_started(0, windows_.started(), time, bound_now, scratch_))
+    for (const auto& [number, other] : search_.near_started(windows_, 0, windows_.started(), time, bound_now))
       found[std::min(number, other)].insert(std::max(number, other));
     return found;
   }
@@ -557,12 +537,12 @@ class KickedBodies {
     return {MovedBound(bounds_[number], time), 0.01};
   }
   static Window window(std::uint32_t number, double time) {
-    return stands(number) ? Windows::endless() : Windows::window_at(time, is_fast(number) ? -3 : 0);
+    return stands(number) ? Window::endless() : Window::at(time, is_fast(number) ? -3 : 0);
   }
 
   Random random_{seed};
   Windows windows_{Space{}};
-  Windows::Scratch scratch_;
+  NeighbourSearch search_;
   std::vector<Bound> bounds_;
 };
 

@@ -1,0 +1,84 @@
+#include "window/size_levels.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "number/powers.hpp"
+#include "window/layer.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// Levels differ by this many powers of two in the width of capsules.
+constexpr int powers_in_a_level = 3;
+constexpr int largest_level = 300;
+
+double largest_part(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+}  // namespace
+
+int SizeLevels::level_of(const RoomyBound& bound, const Window& window) {
+  const double duration = window.end < infinity ? power_of_two(window.tier) : 0.0;
+  const double width =
+      2.0 * (bound.moved.radius_after(duration) + bound.room) + largest_part(bound.moved.velocity) * duration;
+  const int power = std::clamp(exponent_of(width), -largest_level, largest_level);
+  return power >= 0 ? power / powers_in_a_level : -((powers_in_a_level - 1 - power) / powers_in_a_level);
+}
+
+double SizeLevels::unit_of(int level) { return power_of_two(powers_in_a_level * level); }
+
+bool SizeLevels::is_level(int level) { return -largest_level <= level && level <= largest_level; }
+
+int SizeLevels::level_to_start(int level) const {
+  for (const Merged& merged : merged_)
+    if (merged.level == level) return merged.into;
+  return level;
+}
+
+int SizeLevels::level_to_enter(int level) const {
+  for (const Merged& merged : merged_)
+    if (merged.level >= level) return merged.into;
+  return level;
+}
+
+/// Bodies are to share the layer of the next larger ones if searches there find few of them.
+void SizeLevels::merge(const std::map<int, std::size_t>& bodies, double volume, bool flat) {
+  constexpr double few = 48.0;
+  constexpr double units_searched = 10.0;
+  next_merged_.clear();
+  std::vector<int> together;
+  double density = 0.0;
+  for (auto at = bodies.begin(); at != bodies.end(); ++at) {
+    together.push_back(at->first);
+    density += static_cast<double>(at->second) / volume;
+    const auto next = std::next(at);
+    const double width = units_searched * unit_of(next == bodies.end() ? 0 : next->first);
+    const double found = density * (flat ? width * width : width * width * width);
+    if (next != bodies.end() && found < few) continue;
+    for (const int level : together) next_merged_.push_back({level, at->first});
+    together.clear();
+    density = 0.0;
+  }
+}
+
+float SizeLevels::coarseness(int tier, int level) const {
+  for (const Coarseness& known : coarse_)
+    if (known.tier == tier && known.level == level) return known.coarseness;
+  return 1.0f;
+}
+
+void SizeLevels::set_coarseness(int tier, int level, float coarseness) {
+  std::erase_if(coarse_, [=](const Coarseness& known) { return known.tier == tier && known.level == level; });
+  if (coarseness != 1.0f) coarse_.push_back({tier, level, coarseness});
+}
+
+bool SizeLevels::is_sound() const {
+  for (const std::vector<Merged>* levels : {&merged_, &next_merged_})
+    for (const Merged& merged : *levels)
+      if (!is_level(merged.level) || !is_level(merged.into)) return false;
+  return std::all_of(coarse_.begin(), coarse_.end(), [](const Coarseness& known) {
+    return known.coarseness >= 1.0f && known.coarseness <= Layer::coarsest;
+  });
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,79 @@
+// Sizes by levels: a level is about a factor of 8, few bodies share the layer of larger ones, and what layers
+// have turned out to need is remembered.
+#include "window/size_levels.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "archive/archive.hpp"
+#include "kinesphere/random.hpp"
+#include "support/bound_cases.hpp"
+
+namespace kinesphere {
+namespace {
+
+constexpr std::uint64_t seed = 4511;
+
+RoomyBound ball(double radius, const Vec3& velocity = {}) {
+  return {MovedBound(Bound{.velocity = velocity, .radius = radius}, 0.0), 0.0};
+}
+
+TEST(SizeLevels, AreThoseOfTheCapsuleForTheWholeWindow) {
+  Random random(seed);
+  for (int k = 0; k < 5000; ++k) {
+    const double radius = log_uniform(random, -60, 60);
+    const int level = SizeLevels::level_of(ball(radius), Window::endless());
+    ASSERT_GE(2.0 * radius, SizeLevels::unit_of(level)) << "seed " << seed << ", case " << k;
+    ASSERT_LT(2.0 * radius, SizeLevels::unit_of(level + 1)) << "seed " << seed << ", case " << k;
+    ASSERT_TRUE(SizeLevels::is_level(level));
+  }
+  const RoomyBound fast = ball(0.25, {0.0, -8.0, 1.0});
+  EXPECT_EQ(SizeLevels::level_of(fast, {0, 0.5}), 1) << "2^0 long, however little of it is left";
+  EXPECT_EQ(SizeLevels::level_of(fast, {6, 64.0}), 3);
+}
+
+TEST(SizeLevels, OfFewAreMergedIntoLargerOnesFromTheNextStartOn) {
+  for (const bool flat : {false, true}) {
+    SizeLevels levels;
+    // In a volume in which a search of level 0 finds few of level -2 and many of level -1.
+    const double searched = flat ? 100.0 : 1000.0;
+    levels.merge({{-2, 10}, {-1, 1000}, {0, 10}, {3, 5}}, 10.0 * searched, flat);
+    EXPECT_EQ(levels.level_to_start(-2), -2) << "not yet";
+    levels.use_merged();
+    EXPECT_EQ(levels.level_to_start(-2), -1);
+    EXPECT_EQ(levels.level_to_start(-1), -1);
+    EXPECT_EQ(levels.level_to_start(0), 0) << "the search of level 3 is so large that it finds many";
+    EXPECT_EQ(levels.level_to_start(3), 3);
+    EXPECT_EQ(levels.level_to_start(1), 1) << "of which nothing is known";
+    EXPECT_EQ(levels.level_to_enter(1), 3) << "with the next larger ones";
+    EXPECT_EQ(levels.level_to_enter(-5), -1);
+    EXPECT_EQ(levels.level_to_enter(4), 4);
+    EXPECT_TRUE(levels.is_sound());
+  }
+}
+
+TEST(SizeLevels, RememberHowCoarseCellsHaveToBe) {
+  SizeLevels levels;
+  EXPECT_EQ(levels.coarseness(2, 1), 1.0f);
+  levels.set_coarseness(2, 1, 4.0f);
+  levels.set_coarseness(2, 1, 8.0f);
+  EXPECT_EQ(levels.coarseness(2, 1), 8.0f);
+  EXPECT_EQ(levels.coarseness(2, 2), 1.0f);
+  EXPECT_EQ(levels.coarseness(1, 1), 1.0f);
+  EXPECT_TRUE(levels.is_sound());
+  ByteWriter writer;
+  writer(levels);
+  SizeLevels back;
+  ByteReader reader(writer.bytes());
+  reader(back);
+  EXPECT_FALSE(reader.failed());
+  EXPECT_EQ(back.coarseness(2, 1), 8.0f);
+  levels.set_coarseness(2, 1, 1.0f);
+  EXPECT_EQ(levels.coarseness(2, 1), 1.0f);
+  levels.set_coarseness(2, 1, 0.5f);
+  EXPECT_FALSE(levels.is_sound());
+}
+
+}  // namespace
+}  // namespace kinesphere
