@@ -73,6 +73,8 @@ TEST(Transit, KeepsLinksToBodiesThatAreNotThereYet) {
   other.install({one.transit.pack(b)});
   EXPECT_EQ(other.partners_of(70), std::vector<std::uint32_t>{60});
   EXPECT_EQ(other.partners_of(60), std::vector<std::uint32_t>{70});
+  EXPECT_EQ(other.transit.pack(*other.local.roster.find(70)).contacts.partners.all().size(), 1u)
+      << "the link dangles no longer";
   other.transit.drop(*other.local.roster.find(70));
   EXPECT_FALSE(other.local.roster.find(70));
   EXPECT_TRUE(other.partners_of(60).empty());
@@ -95,6 +97,22 @@ TEST(Transit, BringsHotPairsOfKnownBodiesOnce) {
   ASSERT_EQ(other.beginning.due.size(), 1u) << "that with an unknown body is left out";
   EXPECT_EQ(other.beginning.due[0].time, 1.5);
   EXPECT_FALSE(other.local.everybody.facts().is_void(other.beginning.due[0]));
+}
+
+TEST(Transit, RenewedCopyKeepsHotPairsUnlessTheyAreVoid) {
+  Rank one(0);
+  Rank other(1);
+  const std::uint32_t a = one.add(70, {});
+  other.install({one.transit.pack(a), one.transit.pack(one.add(60, {}))});
+  const HotPair pair =
+      other.local.everybody.facts().hot_pair(1.5, *other.local.roster.find(70), *other.local.roster.find(60));
+  Parcel renewed = one.transit.pack(a);
+  renewed.body.stamp = 30;  // stamps are a rank's own
+  other.install({renewed});
+  EXPECT_FALSE(other.local.everybody.facts().is_void(pair));
+  renewed.is_void = true;
+  other.install({renewed});
+  EXPECT_TRUE(other.local.everybody.facts().is_void(pair));
 }
 
 /// As a checkpoint is read: the third body comes later, from another rank, and needs to hear of the pair.
