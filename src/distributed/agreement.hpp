@@ -20,7 +20,7 @@ class Agreement {
   /// Collective. The same, but after an error the world cannot go on.
   Result<void> agree(const Result<void>& here);
 
-  /// An error of this rank, of which the others learn in the next agree_on_noted(). It keeps the first.
+  /// An error of this rank, of which the others learn in the next agree_on_noted(). Only the first is kept.
   void note(const Error& error);
   /// Collective.
   Result<void> agree_on_noted() { return agree(noted_ ? Result<void>(*noted_) : Result<void>()); }

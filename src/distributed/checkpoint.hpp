@@ -22,7 +22,7 @@
 
 namespace kinesphere {
 
-/// A part of one.
+/// A part of a checkpoint: what one rank has of the world.
 struct Checkpoint {
   /// The same in all parts of one checkpoint.
   struct Stamp {
@@ -41,11 +41,11 @@ struct Checkpoint {
   Stamp stamp{};
   std::uint64_t part = 0;
   WorldDefinition definition{};
-  // Of all ranks.
+  // The same in all parts, too.
   std::vector<std::byte> tempo{};
   SensorTable sensors{};
   double phase_end = infinity;
-  // Of one.
+  // Of this part.
   Kicks kicks{};
   Counters counters{};
   std::array<std::uint64_t, 2> hash{};

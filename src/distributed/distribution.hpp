@@ -12,7 +12,7 @@
 
 namespace kinesphere {
 
-/// All functions but drop_copies() and partitions() are collective.
+/// All functions but drop_copies() and partitions() are collective. Errors: those of Transit::exchange().
 class Distribution {
  public:
   Distribution(Communicator& communicator, LocalWorld& local, Transit& transit, KnownSpaces& known);

@@ -29,10 +29,10 @@ class PhasePart {
   /// rank's, in their order.
   std::vector<OrderedEvent> finish();
   /// Collective. Bodies that have changed go to those who have copies but have not run their island, and to
-  /// those to whose space they have been kicked.
+  /// those to whose space they have been kicked. Errors: those of Transit::exchange().
   Result<void> renew_copies();
 
-  /// In which ranks have told each other something.
+  /// How often ranks have told each other something.
   std::uint64_t rounds() const { return rounds_; }
 
  private:

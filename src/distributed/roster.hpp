@@ -21,7 +21,7 @@ class Roster {
     /// What it has taken since space was divided last, in looks at pairs and windows' starts.
     float cost = 0.0f;
     std::uint32_t place = 0;     ///< of a copy: where it stands in copies()
-    std::vector<int> holders{};  ///< other ranks that have a copy; of an own body
+    std::vector<int> holders{};  ///< of an own body: the other ranks that have a copy
   };
 
   explicit Roster(int rank) : rank_(rank) {}

@@ -30,8 +30,8 @@ class Transit {
   /// The body as it was when the part of the phase began, with events of it that waited to be told then; but
   /// for hot pairs.
   Parcel pack_as_it_began(std::uint32_t number, Islands& islands);
-  /// Adds their hot pairs to the parcels of these bodies, numbers[k] to parcels[k]. Cost: all hot pairs of
-  /// the rank.
+  /// Adds their hot pairs to the parcels of these bodies, numbers[k] to parcels[k]. Cost: O(hot
+  /// pairs of the rank).
   void add_due(std::vector<Parcel>& parcels, std::span<const std::uint32_t> numbers, Islands* islands);
   /// Adds those of the pairs that the body has a part in to its parcel.
   void add_due(Parcel& parcel, std::uint32_t number, std::span<const HotPair> pairs) const;
@@ -40,7 +40,7 @@ class Transit {
   /// which the pairs may be due at any time. Errors: those of Motion::read_body.
   Result<Beginning> install(std::vector<Parcel>& parcels, const Islands* islands);
   /// Collective, between parts. Sends the parcels that have been written to the outbox, and installs those
-  /// that come, which are returned.
+  /// that come, which are returned. Errors: those of Motion::read_body, on this rank alone.
   Result<std::vector<Parcel>> exchange(Communicator& communicator, Outbox& outbox);
   /// The body is not known here any more.
   void drop(std::uint32_t number);

@@ -50,6 +50,15 @@ void WindowStarts::begin_phase_of_arrivals() {
   local_.everybody.begin_phase(communicator_.least(end));
 }
 
+/// Its length depends on how many bodies of all ranks have been kicked since the last one started.
+void WindowStarts::start_main_window() {
+  const Kicks here = local_.everybody.take_kicks();
+  std::uint64_t kicks[] = {here.bodies, here.near};
+  communicator_.sum(kicks);
+  local_.tables.tempo.start_main(local_.time(), {kicks[0], kicks[1]});
+}
+
+/// What each rank has in its list, once, in ascending order.
 std::vector<int> WindowStarts::union_of(const std::vector<int>& held) {
   ByteWriter writer;
   writer(held);
@@ -79,12 +88,7 @@ Result<void> WindowStarts::start(Shift& shift, bool all, std::span<const std::ui
   const bool most = 2 * (sums[0] + sums[1]) > sums[2];
   if (auto probed = agreement_.agree(guarded([&] { return starting.refresh(numbers); })); !probed)
     return probed;
-  if (most) {
-    const Kicks here = everybody.take_kicks();
-    std::uint64_t kicks[] = {here.bodies, here.near};
-    communicator_.sum(kicks);
-    tempo.start_main(now, {kicks[0], kicks[1]});
-  }
+  if (most) start_main_window();
   windows.end_windows(now, all);
   std::erase_if(numbers, [this](std::uint32_t number) { return local_.bodies()[number].dirty; });
   if (communicator_.rank() == 0) ++everybody.counters().window_ends;

@@ -21,7 +21,8 @@ struct Arrivals {
   std::uint64_t moving = 0;
 };
 
-/// All functions are collective. Errors are the same on all ranks, and after one the world cannot go on.
+/// All functions are collective. Errors: those of probes, the same on all ranks, after which the world cannot
+/// go on; those of Transit::exchange().
 class WindowStarts {
  public:
   WindowStarts(Communicator& communicator, Agreement& agreement, LocalWorld& local,
@@ -32,6 +33,7 @@ class WindowStarts {
   /// windows end now. `joining`: bodies of this rank that have arrived, and get a window with the others.
   Result<void> start(Shift& shift, bool all, std::span<const std::uint32_t> joining);
 
+  /// What start_with() needs to know of all ranks.
   Arrivals count_arrivals();
   /// As World::Engine::start_with_arrivals(): where many have arrived, all windows start anew with them.
   /// Those that stand still, and few that have come, are left dirty.
@@ -41,6 +43,7 @@ class WindowStarts {
 
  private:
   void choose_tempo(std::span<const std::uint32_t> joining, Shift& shift);
+  void start_main_window();
   std::vector<int> union_of(const std::vector<int>& held);
 
   Communicator& communicator_;
