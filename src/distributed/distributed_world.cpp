@@ -64,7 +64,7 @@ Result<DistributedWorld> DistributedWorld::restore(std::span<const std::vector<s
 double DistributedWorld::time() const { return domain_->time(); }
 int DistributedWorld::rank() const { return domain_->communicator().rank(); }
 int DistributedWorld::ranks() const { return domain_->communicator().ranks(); }
-const WorldDefinition& DistributedWorld::definition() const { return domain_->tables().bodies.definition(); }
+const WorldDefinition& DistributedWorld::definition() const { return domain_->definition(); }
 
 std::uint64_t DistributedWorld::size() const { return domain_->communicator().sum(domain_->own_bodies()); }
 

@@ -47,4 +47,17 @@ bool KnownSpace::meets(const Box& box, const Space& space) const {
   return std::any_of(boxes_.begin(), boxes_.end(), [&](const Box& known) { return meet(known, box, space); });
 }
 
+bool KnownSpaces::cover(const Box& box) {
+  if (covers(box)) return false;
+  (*this)[here_].add(box);
+  return true;
+}
+
+std::vector<int> KnownSpaces::ranks_that_meet(const Box& box) const {
+  std::vector<int> ranks;
+  for (int rank = 0; rank < static_cast<int>(by_rank_.size()); ++rank)
+    if (rank != here_ && by_rank_[static_cast<std::size_t>(rank)].meets(box, space_)) ranks.push_back(rank);
+  return ranks;
+}
+
 }  // namespace kinesphere

@@ -2,6 +2,8 @@
 // ends, is known to the rank.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "kinesphere/vec3.hpp"
@@ -11,8 +13,8 @@ namespace kinesphere {
 
 class KnownSpace {
  public:
-  /// No more than this.
-  void begin(const Box& core) { boxes_.assign(1, core); }
+  /// These boxes and no others.
+  void assign(std::span<const Box> boxes) { boxes_.assign(boxes.begin(), boxes.end()); }
   void add(const Box& box) { boxes_.push_back(box); }
   /// Whether the whole box, or where space repeats an image of it, lies within one of the boxes.
   bool covers(const Box& box, const Space& space) const;
@@ -26,5 +28,25 @@ class KnownSpace {
 
 /// As KnownSpace::meets() has it.
 bool meet(const Box& a, const Box& b, const Space& space);
+
+/// The known space of all ranks: of this one, and of the others as far as they have told.
+class KnownSpaces {
+ public:
+  KnownSpaces(int ranks, int here, const Space& space)
+      : space_(space), here_(here), by_rank_(static_cast<std::size_t>(ranks)) {}
+
+  KnownSpace& operator[](int rank) { return by_rank_[static_cast<std::size_t>(rank)]; }
+  const KnownSpace& here() const { return by_rank_[static_cast<std::size_t>(here_)]; }
+  bool covers(const Box& box) const { return here().covers(box, space_); }
+  /// Makes the box known on this rank. False if it is already.
+  bool cover(const Box& box);
+  /// The other ranks whose known space a part of the box lies in, in ascending order.
+  std::vector<int> ranks_that_meet(const Box& box) const;
+
+ private:
+  const Space& space_;
+  int here_;
+  std::vector<KnownSpace> by_rank_;
+};
 
 }  // namespace kinesphere

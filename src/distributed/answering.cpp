@@ -1,0 +1,44 @@
+#include "distributed/answering.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "engine/validation.hpp"
+
+namespace kinesphere {
+
+void RankMover::states(std::span<const BodyId> ids, double time, std::span<State> states) {
+  for (std::size_t k = 0; k < ids.size(); ++k)
+    states[k] = motion_.state(roster_[ids[k].world].in_motion, time);
+}
+
+Departure RankMover::departure(BodyId body) const { return motion_.departure(roster_[body.world].in_motion); }
+
+void RankMover::depart(BodyId body, const Departure& departure) {
+  motion_.depart(roster_[body.world].in_motion, departure).value();
+}
+
+Result<Answer> RankAnswerer::answer(const Event& event) {
+  const Answer answer = respond_(event);
+  const auto check = [&](BodyId body, const std::optional<Vec3>& velocity,
+                         std::string_view argument) -> Result<void> {
+    if (!velocity) return {};
+    const std::string call =
+        "run: respond: " + std::string(argument) + " at " + std::string(name_of(event.kind));
+    if (body == no_body)
+      return Error{ErrorCode::unknown_body, std::string(argument), no_body,
+                   call + ": there is no such body in this event"};
+    auto valid = check_velocity(*velocity, body, definition_, call);
+    if (valid) return valid;
+    Error error = valid.error();
+    error.argument = argument;
+    return error;
+  };
+  auto valid = check(event.first, answer.first_velocity, "first_velocity");
+  if (valid) valid = check(event.second, answer.second_velocity, "second_velocity");
+  if (!valid) return valid.error();
+  return answer;
+}
+
+}  // namespace kinesphere

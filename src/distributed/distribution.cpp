@@ -1,0 +1,216 @@
+#include "distributed/distribution.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include "archive/archive.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// Known space reaches so many times the mean width of capsules beyond what is a rank's.
+constexpr double margin_in_widths = 2.0;
+/// Space is divided anew where a rank has so many times the work that it should have.
+constexpr double most_imbalance = 1.2;
+
+Box grown(Box box, double by) {
+  const Vec3 room{by, by, by};
+  return {box.lower - room, box.upper + room};
+}
+
+double width_of(const Box& box) {
+  const Vec3 size = box.upper - box.lower;
+  return std::max({size.x, size.y, size.z});
+}
+
+}  // namespace
+
+Distribution::Distribution(Communicator& communicator, LocalWorld& local, Transit& transit,
+                           KnownSpaces& known)
+    : communicator_(communicator),
+      local_(local),
+      transit_(transit),
+      known_(known),
+      partition_(communicator.ranks()) {
+  for (int rank = 0; rank < communicator.ranks(); ++rank)
+    known_[rank].assign(std::span(&partition_.region_of(rank), 1));
+}
+
+void Distribution::drop_copies(std::vector<std::uint32_t>& ending) {
+  std::erase_if(ending, [this](std::uint32_t number) {
+    const bool is_copy = !local_.roster.is_own(number);
+    if (is_copy) {
+      transit_.drop(number);
+    } else {
+      local_.roster[number].holders.clear();
+    }
+    return is_copy;
+  });
+}
+
+void Distribution::divide_space(std::span<const Windows::Starter> starters) {
+  if (communicator_.ranks() == 1) return;
+  double work = 0.0;
+  for (const Windows::Starter& starter : starters)
+    work += static_cast<double>(local_.roster[starter.number].cost);
+  const double most_of_all = -communicator_.least(-work);
+  double sum[] = {work};
+  communicator_.sum(sum);
+  const double mean = sum[0] / communicator_.ranks();
+  if (partitions_ > 0 && most_of_all <= most_imbalance * mean) return;
+  std::vector<Vec3> positions;
+  std::vector<double> costs;
+  for (const Windows::Starter& starter : starters) {
+    positions.push_back(local_.centre_of(local_.bodies()[starter.number]));
+    costs.push_back(static_cast<double>(std::exchange(local_.roster[starter.number].cost, 0.0f)));
+  }
+  partition_ = Partition::choose(communicator_, positions, costs);
+  ++partitions_;
+}
+
+/// The body with the window that starts for it now.
+Parcel Distribution::pack_to_start(const Windows::Starter& starter) const {
+  Parcel parcel = transit_.pack(starter.number);
+  parcel.starts = true;
+  parcel.tier = starter.window.tier;
+  parcel.end = starter.window.end;
+  return parcel;
+}
+
+Result<void> Distribution::migrate(std::vector<Windows::Starter>& starters) {
+  if (communicator_.ranks() == 1) return {};
+  Outbox outbox(communicator_.ranks());
+  std::erase_if(starters, [&](const Windows::Starter& starter) {
+    const int owner = partition_.owner_of(local_.centre_of(local_.bodies()[starter.number]));
+    if (owner == communicator_.rank()) return false;
+    Parcel parcel = pack_to_start(starter);
+    parcel.owner = owner;
+    outbox.add(owner, parcel);
+    transit_.drop(starter.number);
+    return true;
+  });
+  return exchange(outbox, starters);
+}
+
+/// Bodies that come and start with all others are added to `starters`.
+Result<void> Distribution::exchange(Outbox& outbox, std::vector<Windows::Starter>& starters) {
+  const auto parcels = transit_.exchange(communicator_, outbox);
+  if (!parcels) return parcels.error();
+  for (const Parcel& parcel : *parcels) {
+    if (!parcel.starts) continue;
+    const std::uint32_t number = *local_.roster.find(parcel.name);
+    const RoomyBound bound = roomy_bound(local_.bodies(), number, local_.time());
+    starters.push_back({number, SizeLevels::level_of(bound, parcel.window()), parcel.window()});
+  }
+  return {};
+}
+
+Result<void> Distribution::spread(std::vector<Windows::Starter>& starters, bool anew) {
+  if (communicator_.ranks() == 1) return {};
+  const int here = communicator_.rank();
+  std::vector<Box> ways;
+  ways.reserve(starters.size());
+  for (const Windows::Starter& starter : starters) ways.push_back(way_of(starter));
+  std::vector<std::uint32_t> others;  // own bodies whose windows go on
+  if (anew) {
+    for (std::uint32_t number = 0; number < local_.bodies().numbers(); ++number)
+      if (local_.tables.windows.contains(number) && local_.roster.is_own(number)) others.push_back(number);
+    known_[here].assign({});
+  }
+  const std::size_t told = known_.here().boxes().size();
+  if (anew) known_[here].add(core_of(ways, others));
+  for (const std::uint32_t number : others) known_.cover(local_.box_of(number));
+  for (const Box& way : ways) known_.cover(way);
+  const std::vector<std::vector<Box>> added = gather_boxes(std::span(known_.here().boxes()).subspan(told));
+  Outbox outbox(communicator_.ranks());
+  for (int to = 0; to < communicator_.ranks(); ++to) {
+    if (to == here) continue;
+    const std::vector<Box>& boxes = added[static_cast<std::size_t>(to)];
+    if (anew) known_[to].assign({});
+    for (const Box& box : boxes) known_[to].add(box);
+    send_copies(to, anew ? others : local_.own_bodies_in(boxes), outbox);
+  }
+  for (std::size_t k = 0; k < starters.size(); ++k) {
+    std::optional<Parcel> parcel;
+    for (const int to : known_.ranks_that_meet(ways[k])) {
+      if (!parcel) parcel = pack_to_start(starters[k]);
+      outbox.add(to, *parcel);
+      local_.roster.add_holder(starters[k].number, to);
+    }
+  }
+  return exchange(outbox, starters);
+}
+
+/// Around the way of the body until its window ends.
+Box Distribution::way_of(const Windows::Starter& starter) const {
+  const Bodies& bodies = local_.bodies();
+  const double now = local_.time();
+  const RoomyBound bound = room_for(bodies, starter.number, MovedBound(bodies[starter.number].bound, now));
+  return bodies.space().within(bound.box_of_way(starter.window.end - now));
+}
+
+/// This rank's part of space with a margin around it.
+Box Distribution::core_of(std::span<const Box> ways, std::span<const std::uint32_t> others) {
+  double widths[] = {0.0, static_cast<double>(ways.size() + others.size())};
+  for (const Box& way : ways) widths[0] += width_of(way);
+  for (const std::uint32_t number : others) widths[0] += width_of(local_.box_of(number));
+  communicator_.sum(widths);
+  Box core = partition_.region_of(communicator_.rank());
+  const Bodies& bodies = local_.bodies();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!bodies.space().repeats(axis) || core.upper[axis] < core.lower[axis]) continue;
+    core.lower[axis] = std::max(core.lower[axis], bodies.definition().box->lower[axis]);
+    core.upper[axis] = std::min(core.upper[axis], bodies.definition().box->upper[axis]);
+  }
+  return widths[1] > 0.0 ? grown(core, margin_in_widths * widths[0] / widths[1]) : core;
+}
+
+/// Those of all ranks, by rank.
+std::vector<std::vector<Box>> Distribution::gather_boxes(std::span<const Box> boxes) {
+  ByteWriter writer;
+  writer(std::vector<Box>(boxes.begin(), boxes.end()));
+  std::vector<std::vector<Box>> all;
+  for (const Communicator::Bytes& bytes : communicator_.gather(writer.bytes())) {
+    ByteReader reader(bytes);
+    reader(all.emplace_back());
+  }
+  return all;
+}
+
+/// Of the registered bodies, those that the rank has to know of and does not.
+void Distribution::send_copies(int to, std::span<const std::uint32_t> numbers, Outbox& outbox) {
+  std::vector<std::uint32_t> sent;
+  std::vector<Parcel> parcels;
+  for (const std::uint32_t number : numbers) {
+    if (local_.roster.is_held(number, to) ||
+        !known_[to].meets(local_.box_of(number), local_.bodies().space()))
+      continue;
+    local_.roster.add_holder(number, to);
+    sent.push_back(number);
+    parcels.push_back(transit_.pack(number));
+    parcels.back().enters = true;
+  }
+  transit_.add_due(parcels, sent, nullptr);
+  for (const Parcel& parcel : parcels) outbox.add(to, parcel);
+}
+
+Result<void> Distribution::deal_out(std::vector<Parcel> parcels) {
+  std::vector<Vec3> positions;
+  positions.reserve(parcels.size());
+  for (const Parcel& parcel : parcels) positions.push_back(local_.centre_of(parcel.body));
+  partition_ = Partition::choose(communicator_, positions, std::vector<double>(positions.size(), 1.0));
+  ++partitions_;
+  Outbox outbox(communicator_.ranks());
+  for (std::size_t k = 0; k < parcels.size(); ++k) {
+    parcels[k].owner = partition_.owner_of(positions[k]);
+    parcels[k].enters = true;
+    outbox.add(parcels[k].owner, parcels[k]);
+  }
+  parcels.clear();
+  const auto installed = transit_.exchange(communicator_, outbox);
+  return installed ? Result<void>() : installed.error();
+}
+
+}  // namespace kinesphere
