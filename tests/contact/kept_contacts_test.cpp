@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace kinesphere {
+namespace kinesphere::kept_contacts_test {
 namespace {
 
 /// Body 3 is fixed.
@@ -84,4 +84,4 @@ TEST_F(KeptContactsTest, TellFixedBodiesWhatHasChangedSideBySide) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::kept_contacts_test

@@ -7,7 +7,7 @@
 
 #include "archive/archive.hpp"
 
-namespace kinesphere {
+namespace kinesphere::recent_contacts_test {
 namespace {
 
 class RecentContactsTest : public ::testing::Test {
@@ -67,4 +67,4 @@ TEST_F(RecentContactsTest, GoOnAsBeforeWhenPutBackOrRead) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::recent_contacts_test

@@ -8,7 +8,7 @@
 
 #include "distributed/unique_names.hpp"
 
-namespace kinesphere {
+namespace kinesphere::agreement_test {
 namespace {
 
 Error error_of(int rank) {
@@ -86,4 +86,4 @@ TEST(UniqueNames, AreComparedOnAllRanks) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::agreement_test

@@ -55,7 +55,7 @@ TEST(DistributedCheckpoints, GoOnAsIfNothingHadBeen) {
   for (const char* name : {"paper1", "gas", "paper2"}) {
     SCOPED_TRACE(name);
     const Setting setting{.scene = scene_of(name, 300), .sensors = std::string(name) == "paper1"};
-    const Outcome one = alone(setting);
+    const RunOutcome one = alone(setting);
     Random random(5);
     for (int trial = 0; trial < 3; ++trial) {
       std::vector<OrderedEvent> told;
@@ -66,7 +66,7 @@ TEST(DistributedCheckpoints, GoOnAsIfNothingHadBeen) {
       ASSERT_TRUE(world) << world.error().message;
       EXPECT_EQ(world->time(), time);
       // Other ranks have other bodies now: only what all have told can be compared.
-      const Outcome rest = finish(setting, *world);
+      const RunOutcome rest = finish(setting, *world);
       std::vector<Event> events = merged(told);
       events.insert(events.end(), rest.events.begin(), rest.events.end());
       expect_same(one, {events, rest.counters, rest.hash});
@@ -77,7 +77,7 @@ TEST(DistributedCheckpoints, GoOnAsIfNothingHadBeen) {
 /// What one rank has saved, many go on with; and the other way round.
 TEST(DistributedCheckpoints, MayBeOfAnotherNumberOfRanks) {
   const Setting setting{.scene = scene_of("paper1", 250)};
-  const Outcome one = alone(setting);
+  const RunOutcome one = alone(setting);
   std::vector<OrderedEvent> told;
   std::vector<Part> parts = parts_at(setting, 0.5, told);
   // As if one rank had all.

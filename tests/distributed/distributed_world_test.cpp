@@ -34,7 +34,7 @@ SceneParameters parameters_of(const std::string& name, std::uint32_t bodies, dou
 Scene scene_of(const SceneParameters& parameters) { return make_scene(parameters).value(); }
 
 void expect_the_same_as_alone(const Setting& setting, std::size_t least_events) {
-  const Outcome one = alone(setting);
+  const RunOutcome one = alone(setting);
   EXPECT_GE(one.events.size(), least_events);
   expect_same(one, spread_out(setting));
 }
@@ -84,7 +84,7 @@ TEST(DistributedWorld, TellsOfDrones) {
 
 TEST(DistributedWorld, TellsOfBrokenPromises) {
   const Setting setting{.scene = scene_of(parameters_of("paper1", 250, 1.5)), .broken = 0.3};
-  const Outcome one = alone(setting);
+  const RunOutcome one = alone(setting);
   EXPECT_GE(one.counters.count(EventKind::bound_violation), 20u);
   expect_same(one, spread_out(setting));
 }
@@ -190,7 +190,7 @@ TEST(DistributedWorld, CanBeGivenMoreBodiesLater) {
   const auto late = [](std::uint32_t number) { return number % 10 == 7; };
   const Respond respond = [&](const Event& event) { return setting.answer(event); };
 
-  Outcome one;
+  RunOutcome one;
   EventHash hash;
   World world = World::create(setting.scene.world).value();
   BodyMap map;
@@ -241,7 +241,7 @@ TEST(DistributedWorldDifferential, AgreesWithTheOracle) {
       SCOPED_TRACE(std::string(scene_tests::name_of(family)) + " " + std::to_string(seed));
       Setting setting{.scene = scene_tests::differential_scene(family, seed)};
       setting.bringer = seed % 2 == 0 ? Bringer(in_turn) : Bringer(last_brings_all);
-      const Outcome outcome = spread_out(setting);
+      const RunOutcome outcome = spread_out(setting);
       const ContactComparison comparison = compare_with_oracle(setting.scene, outcome.events).value();
       EXPECT_TRUE(comparison.agrees()) << comparison.first_difference.value_or("");
       ++scenes;

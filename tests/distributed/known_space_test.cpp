@@ -7,7 +7,7 @@
 
 #include "kinesphere/world_definition.hpp"
 
-namespace kinesphere {
+namespace kinesphere::known_space_test {
 namespace {
 
 constexpr int here = 1;
@@ -55,4 +55,4 @@ TEST(KnownSpaces, KnowsImages) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::known_space_test

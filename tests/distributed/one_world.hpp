@@ -20,7 +20,7 @@
 
 namespace kinesphere {
 
-struct Outcome {
+struct RunOutcome {
   std::vector<Event> events;  ///< of all ranks, in order
   Counters counters{};
   std::uint64_t hash = 0;
@@ -70,13 +70,13 @@ struct Setting {
   }
 };
 
-inline Outcome alone(const Setting& setting) {
+inline RunOutcome alone(const Setting& setting) {
   const Scene& scene = setting.scene;
   const std::unique_ptr<Motion> motion = scene.motion->clone();
   World world = World::create(scene.world).value();
   if (setting.sensors) world.set_sensor(1, setting.sensor()).value();
   for (std::uint32_t k = 0; k < scene.bodies.size(); ++k) world.add(setting.body(k)).value();
-  Outcome outcome;
+  RunOutcome outcome;
   EventHash hash;
   const auto sink = [&](const Event& event) {
     outcome.events.push_back(event);
@@ -122,7 +122,8 @@ inline std::vector<Event> merged(const std::vector<OrderedEvent>& here) {
 }
 
 /// Goes on to the end of the scene; with the events that `told` has already.
-inline Outcome finish(const Setting& setting, DistributedWorld& world, std::vector<OrderedEvent> told = {}) {
+inline RunOutcome finish(const Setting& setting, DistributedWorld& world,
+                         std::vector<OrderedEvent> told = {}) {
   Workers workers = Workers::create(setting.threads).value();
   const auto sink = [&](const OrderedEvent& event) {
     if (!told.empty()) {
@@ -145,7 +146,7 @@ inline Outcome finish(const Setting& setting, DistributedWorld& world, std::vect
   return {merged(told), world.counters(), world.hash().value()};
 }
 
-inline Outcome spread_out(const Setting& setting) {
+inline RunOutcome spread_out(const Setting& setting) {
   const std::unique_ptr<Motion> motion = setting.scene.motion->clone();
   DistributedWorld world = spread(setting, *motion);
   return finish(setting, world);
@@ -158,7 +159,7 @@ inline std::vector<std::byte> bytes_of(const std::vector<Event>& events) {
   return writer.take();
 }
 
-inline void expect_same(const Outcome& one, const Outcome& other) {
+inline void expect_same(const RunOutcome& one, const RunOutcome& other) {
   ASSERT_EQ(one.events.size(), other.events.size());
   for (std::size_t k = 0; k < one.events.size(); ++k)
     ASSERT_EQ(bytes_of({one.events[k]}), bytes_of({other.events[k]}))

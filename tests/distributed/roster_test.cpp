@@ -11,7 +11,7 @@
 #include "distributed/dangling_links.hpp"
 #include "kinesphere/random.hpp"
 
-namespace kinesphere {
+namespace kinesphere::roster_test {
 namespace {
 
 constexpr int here = 2;
@@ -113,4 +113,4 @@ TEST(DanglingLinks, AreReplacedAndForgotten) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::roster_test

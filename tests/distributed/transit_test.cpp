@@ -8,7 +8,7 @@
 
 #include "kinesphere/motion/ballistic.hpp"
 
-namespace kinesphere {
+namespace kinesphere::transit_test {
 namespace {
 
 /// What one rank has, without the others.
@@ -137,4 +137,4 @@ TEST(Transit, KeepsLoosePairs) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::transit_test

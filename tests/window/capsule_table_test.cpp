@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace kinesphere {
+namespace kinesphere::capsule_table_test {
 namespace {
 
 Capsule capsule(float x) { return {{x, 2.0f * x, 3.0f}, {0.5f, -x, 0.0f}, 0.25f}; }
@@ -61,4 +61,4 @@ TEST(CapsuleTable, HolesAreNearNobody) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::capsule_table_test

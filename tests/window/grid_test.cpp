@@ -12,7 +12,7 @@
 #include "kinesphere/random.hpp"
 #include "support/bound_cases.hpp"
 
-namespace kinesphere {
+namespace kinesphere::grid_test {
 namespace {
 
 constexpr std::uint64_t seed = 4513;
@@ -136,4 +136,4 @@ TEST(Grid, CellsAreCubesCutAlongX) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::grid_test

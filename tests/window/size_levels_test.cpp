@@ -10,7 +10,7 @@
 #include "kinesphere/random.hpp"
 #include "support/bound_cases.hpp"
 
-namespace kinesphere {
+namespace kinesphere::size_levels_test {
 namespace {
 
 constexpr std::uint64_t seed = 4511;
@@ -76,4 +76,4 @@ TEST(SizeLevels, RememberHowCoarseCellsHaveToBe) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::size_levels_test

@@ -11,7 +11,7 @@
 #include "support/bound_cases.hpp"
 #include "window/tempo.hpp"
 
-namespace kinesphere {
+namespace kinesphere::window_test {
 namespace {
 
 constexpr std::uint64_t seed = 4507;
@@ -61,4 +61,4 @@ TEST(Window, ThatNeverEndsHasNoDuration) {
 }
 
 }  // namespace
-}  // namespace kinesphere
+}  // namespace kinesphere::window_test
