@@ -43,7 +43,7 @@ class alignas(128) Island {
  public:
   Island(Tables& tables, double time) : tables_(&tables), time_(time) {}
   /// The same with a copy of the other's tables.
-  Island(const Island& other, Tables& tables) : Island(other) { tables_ = &tables; }
+  Island(Island other, Tables& tables) : Island(std::move(other)) { tables_ = &tables; }
 
   double time() const { return time_; }
   /// Until somebody takes it away.

@@ -76,7 +76,7 @@ bool CapsuleTable::is_sound() const {
   const std::size_t filled = numbers_.empty() ? 0 : numbers_.size() + capsule_lanes;
   return std::all_of(columns_.begin(), columns_.end(),
                      [=](const std::vector<float>& column) { return column.size() >= filled; }) &&
-         std::count(numbers_.begin(), numbers_.end(), nobody) == std::ptrdiff_t{holes_};
+         static_cast<std::size_t>(std::count(numbers_.begin(), numbers_.end(), nobody)) == holes_;
 }
 
 }  // namespace kinesphere

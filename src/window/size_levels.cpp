@@ -43,7 +43,7 @@ int SizeLevels::level_to_enter(int level) const {
 
 /// Bodies are to share the layer of the next larger ones if searches there find few of them.
 void SizeLevels::merge(const std::map<int, std::size_t>& bodies, double volume, bool flat) {
-  constexpr double few = 48.0;
+  constexpr double few_found = 48.0;
   constexpr double units_searched = 10.0;
   next_merged_.clear();
   std::vector<int> together;
@@ -54,7 +54,7 @@ void SizeLevels::merge(const std::map<int, std::size_t>& bodies, double volume, 
     const auto next = std::next(at);
     const double width = units_searched * unit_of(next == bodies.end() ? 0 : next->first);
     const double found = density * (flat ? width * width : width * width * width);
-    if (next != bodies.end() && found < few) continue;
+    if (next != bodies.end() && found < few_found) continue;
     for (const int level : together) next_merged_.push_back({level, at->first});
     together.clear();
     density = 0.0;
