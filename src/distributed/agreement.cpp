@@ -36,8 +36,8 @@ Result<void> Agreement::agree(const Result<void>& here) {
   return agreed;
 }
 
-void Agreement::note(const Error& error) {
-  if (!noted_) noted_ = error;
+void Agreement::note(const Result<void>& here) {
+  if (!here && !noted_) noted_ = here.error();
 }
 
 Result<void> Agreement::check(std::string_view call) const {

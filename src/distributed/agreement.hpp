@@ -20,8 +20,9 @@ class Agreement {
   /// Collective. The same, but after an error the world cannot go on.
   Result<void> agree(const Result<void>& here);
 
-  /// An error of this rank, of which the others learn in the next agree_on_noted(). Only the first is kept.
-  void note(const Error& error);
+  /// An error of this rank, if it is one, of which the others learn in the next agree_on_noted(). Only the
+  /// first is kept.
+  void note(const Result<void>& here);
   /// Collective.
   Result<void> agree_on_noted() { return agree(noted_ ? Result<void>(*noted_) : Result<void>()); }
   bool has_noted() const { return noted_.has_value(); }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "archive/archive.hpp"
+#include "distributed/guarded.hpp"
 
 namespace kinesphere {
 namespace {
@@ -27,9 +28,10 @@ double width_of(const Box& box) {
 
 }  // namespace
 
-Distribution::Distribution(Communicator& communicator, LocalWorld& local, Transit& transit,
-                           KnownSpaces& known)
+Distribution::Distribution(Communicator& communicator, Agreement& agreement, LocalWorld& local,
+                           Transit& transit, KnownSpaces& known)
     : communicator_(communicator),
+      agreement_(agreement),
       local_(local),
       transit_(transit),
       known_(known),
@@ -82,21 +84,24 @@ Parcel Distribution::pack_to_start(const Windows::Starter& starter) const {
 Result<void> Distribution::migrate(std::vector<Windows::Starter>& starters) {
   if (communicator_.ranks() == 1) return {};
   Outbox outbox(communicator_.ranks());
-  std::erase_if(starters, [&](const Windows::Starter& starter) {
-    const int owner = partition_.owner_of(local_.centre_of(local_.bodies()[starter.number]));
-    if (owner == communicator_.rank()) return false;
-    Parcel parcel = pack_to_start(starter);
-    parcel.owner = owner;
-    outbox.add(owner, parcel);
-    transit_.drop(starter.number);
-    return true;
-  });
+  agreement_.note(guarded([&]() -> Result<void> {
+    std::erase_if(starters, [&](const Windows::Starter& starter) {
+      const int owner = partition_.owner_of(local_.centre_of(local_.bodies()[starter.number]));
+      if (owner == communicator_.rank()) return false;
+      Parcel parcel = pack_to_start(starter);
+      parcel.owner = owner;
+      outbox.add(owner, parcel);
+      transit_.drop(starter.number);
+      return true;
+    });
+    return {};
+  }));
   return exchange(outbox, starters);
 }
 
 /// Bodies that come and start with all others are added to `starters`.
 Result<void> Distribution::exchange(Outbox& outbox, std::vector<Windows::Starter>& starters) {
-  const auto parcels = transit_.exchange(communicator_, outbox);
+  const auto parcels = transit_.exchange(communicator_, agreement_, outbox);
   if (!parcels) return parcels.error();
   for (const Parcel& parcel : *parcels) {
     if (!parcel.starts) continue;
@@ -125,21 +130,17 @@ Result<void> Distribution::spread(std::vector<Windows::Starter>& starters, bool 
   for (const Box& way : ways) known_.cover(way);
   const std::vector<std::vector<Box>> added = gather_boxes(std::span(known_.here().boxes()).subspan(told));
   Outbox outbox(communicator_.ranks());
-  for (int to = 0; to < communicator_.ranks(); ++to) {
-    if (to == here) continue;
-    const std::vector<Box>& boxes = added[static_cast<std::size_t>(to)];
-    if (anew) known_[to].assign({});
-    for (const Box& box : boxes) known_[to].add(box);
-    send_copies(to, anew ? others : local_.own_bodies_in(boxes), outbox);
-  }
-  for (std::size_t k = 0; k < starters.size(); ++k) {
-    std::optional<Parcel> parcel;
-    for (const int to : known_.ranks_that_meet(ways[k])) {
-      if (!parcel) parcel = pack_to_start(starters[k]);
-      outbox.add(to, *parcel);
-      local_.roster.add_holder(starters[k].number, to);
+  agreement_.note(guarded([&]() -> Result<void> {
+    for (int to = 0; to < communicator_.ranks(); ++to) {
+      if (to == here) continue;
+      const std::vector<Box>& boxes = added[static_cast<std::size_t>(to)];
+      if (anew) known_[to].assign({});
+      for (const Box& box : boxes) known_[to].add(box);
+      send_copies(to, anew ? others : local_.own_bodies_in(boxes), outbox);
     }
-  }
+    send_starters(starters, ways, outbox);
+    return {};
+  }));
   return exchange(outbox, starters);
 }
 
@@ -196,6 +197,19 @@ void Distribution::send_copies(int to, std::span<const std::uint32_t> numbers, O
   for (const Parcel& parcel : parcels) outbox.add(to, parcel);
 }
 
+/// Copies of bodies whose windows start, whose ways these are, to those who may meet them.
+void Distribution::send_starters(std::span<const Windows::Starter> starters, std::span<const Box> ways,
+                                 Outbox& outbox) {
+  for (std::size_t k = 0; k < starters.size(); ++k) {
+    std::optional<Parcel> parcel;
+    for (const int to : known_.ranks_that_meet(ways[k])) {
+      if (!parcel) parcel = pack_to_start(starters[k]);
+      outbox.add(to, *parcel);
+      local_.roster.add_holder(starters[k].number, to);
+    }
+  }
+}
+
 Result<void> Distribution::deal_out(std::vector<Parcel> parcels) {
   std::vector<Vec3> positions;
   positions.reserve(parcels.size());
@@ -209,7 +223,7 @@ Result<void> Distribution::deal_out(std::vector<Parcel> parcels) {
     outbox.add(parcels[k].owner, parcels[k]);
   }
   parcels.clear();
-  const auto installed = transit_.exchange(communicator_, outbox);
+  const auto installed = transit_.exchange(communicator_, agreement_, outbox);
   return installed ? Result<void>() : installed.error();
 }
 

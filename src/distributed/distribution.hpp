@@ -15,7 +15,8 @@ namespace kinesphere {
 /// All functions but drop_copies() and partitions() are collective. Errors: those of Transit::exchange().
 class Distribution {
  public:
-  Distribution(Communicator& communicator, LocalWorld& local, Transit& transit, KnownSpaces& known);
+  Distribution(Communicator& communicator, Agreement& agreement, LocalWorld& local, Transit& transit,
+               KnownSpaces& known);
 
   // Windows start in these steps. `starters` are the bodies whose windows start now: first own ones alone,
   // and in the end the own ones that are left, those that have come, and copies of others.
@@ -43,9 +44,11 @@ class Distribution {
   Box way_of(const Windows::Starter& starter) const;
   Box core_of(std::span<const Box> ways, std::span<const std::uint32_t> others);
   std::vector<std::vector<Box>> gather_boxes(std::span<const Box> boxes);
+  void send_starters(std::span<const Windows::Starter> starters, std::span<const Box> ways, Outbox& outbox);
   void send_copies(int to, std::span<const std::uint32_t> numbers, Outbox& outbox);
 
   Communicator& communicator_;
+  Agreement& agreement_;
   LocalWorld& local_;
   Transit& transit_;
   KnownSpaces& known_;

@@ -16,7 +16,7 @@ DistributedWorld::Domain::Domain(const WorldDefinition& definition, Motion& moti
       mover_(motion, local_.roster),
       transit_(motion, local_),
       known_(communicator_.ranks(), communicator_.rank(), local_.bodies().space()),
-      distribution_(communicator_, local_, transit_, known_),
+      distribution_(communicator_, agreement_, local_, transit_, known_),
       starts_(communicator_, agreement_, local_, distribution_) {}
 
 Result<void> DistributedWorld::Domain::check_body_to_add(std::uint32_t name, const BodyDefinition& body,

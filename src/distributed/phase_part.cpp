@@ -1,7 +1,10 @@
 #include "distributed/phase_part.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
+
+#include "distributed/guarded.hpp"
 
 namespace kinesphere {
 namespace {
@@ -84,7 +87,10 @@ Result<bool> PhasePart::share() {
     const std::vector<Box>& boxes = asked[static_cast<std::size_t>(rank)];
     for (const Box& box : boxes) known_[rank].add(box);
     for (const std::uint32_t number : local_.own_bodies_in(boxes)) send(number, rank);
-    send_to(rank, outbox);
+    agreement_.note(guarded([&]() -> Result<void> {
+      send_to(rank, outbox);
+      return {};
+    }));
   }
   round_ = Round(communicator_.ranks());
   take_in(outbox.exchange(communicator_));
@@ -116,11 +122,14 @@ void PhasePart::take_in(const std::vector<Communicator::Bytes>& incoming) {
     std::move(message.parcels.begin(), message.parcels.end(), std::back_inserter(parcels));
     std::move(message.lists.begin(), message.lists.end(), std::back_inserter(lists_));
   }
-  auto beginning = transit_.install(parcels, &islands_);
-  if (!beginning) {
-    agreement_.note(beginning.error());
-    return;
-  }
+  std::optional<Beginning> beginning;
+  agreement_.note(guarded([&]() -> Result<void> {
+    auto installed = transit_.install(parcels, &islands_);
+    if (!installed) return installed.error();
+    beginning = std::move(*installed);
+    return {};
+  }));
+  if (!beginning) return;
   local_.tables.book.start_side_by_side(local_.bodies().sensors.any());
   const auto later = std::partition(beginning->due.begin(), beginning->due.end(),
                                     [this](const HotPair& pair) { return islands_.comes(pair.time); });

@@ -1,6 +1,7 @@
 // What came of the islands of a part of a phase: events, and copies that are renewed.
 #include <algorithm>
 
+#include "distributed/guarded.hpp"
 #include "distributed/phase_part.hpp"
 
 namespace kinesphere {
@@ -37,9 +38,12 @@ void PhasePart::add_costs() {
 Result<void> PhasePart::renew_copies() {
   if (communicator_.ranks() == 1) return {};
   Outbox outbox(communicator_.ranks());
-  for (const Group& group : islands_.groups())
-    if (!group.joined() && group.attempted) renew_copies(group, outbox);
-  const auto renewed = transit_.exchange(communicator_, outbox);
+  agreement_.note(guarded([&]() -> Result<void> {
+    for (const Group& group : islands_.groups())
+      if (!group.joined() && group.attempted) renew_copies(group, outbox);
+    return {};
+  }));
+  const auto renewed = transit_.exchange(communicator_, agreement_, outbox);
   return renewed ? Result<void>() : renewed.error();
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "distributed/guarded.hpp"
+
 namespace kinesphere {
 namespace {
 
@@ -239,15 +241,20 @@ void Transit::link(const Parcel& parcel) {
   dangling_.set(parcel.name, std::move(missing));
 }
 
-Result<std::vector<Parcel>> Transit::exchange(Communicator& communicator, Outbox& outbox) {
+Result<std::vector<Parcel>> Transit::exchange(Communicator& communicator, Agreement& agreement,
+                                              Outbox& outbox) {
   std::vector<Parcel> parcels;
   for (const Communicator::Bytes& bytes : outbox.exchange(communicator)) {
     ByteReader reader(bytes);
     while (reader.remaining() > 0 && !reader.failed()) reader(parcels.emplace_back());
   }
-  auto beginning = install(parcels, nullptr);
-  if (!beginning) return beginning.error();
-  local_.everybody.agenda().add_all(beginning->due);
+  agreement.note(guarded([&]() -> Result<void> {
+    auto beginning = install(parcels, nullptr);
+    if (!beginning) return beginning.error();
+    local_.everybody.agenda().add_all(beginning->due);
+    return {};
+  }));
+  if (auto agreed = agreement.agree_on_noted(); !agreed) return agreed.error();
   return parcels;
 }
 

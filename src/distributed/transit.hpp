@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "distributed/agreement.hpp"
 #include "distributed/dangling_links.hpp"
 #include "distributed/local_world.hpp"
 #include "distributed/outbox.hpp"
@@ -25,7 +26,8 @@ class Transit {
  public:
   Transit(Motion& motion, LocalWorld& local) : motion_(motion), local_(local) {}
 
-  /// The body as it is now, but for hot pairs.
+  /// The body as it is now, but for hot pairs. Throws what Motion::write_body throws, and BadResult with its
+  /// errors.
   Parcel pack(std::uint32_t number) const;
   /// The body as it was when the part of the phase began, with events of it that waited to be told then; but
   /// for hot pairs.
@@ -40,8 +42,9 @@ class Transit {
   /// which the pairs may be due at any time. Errors: those of Motion::read_body.
   Result<Beginning> install(std::vector<Parcel>& parcels, const Islands* islands);
   /// Collective, between parts. Sends the parcels that have been written to the outbox, and installs those
-  /// that come, which are returned. Errors: those of Motion::read_body, on this rank alone.
-  Result<std::vector<Parcel>> exchange(Communicator& communicator, Outbox& outbox);
+  /// that come, which are returned. Errors, the same on all ranks: what one of them has noted, also of
+  /// Motion::read_body.
+  Result<std::vector<Parcel>> exchange(Communicator& communicator, Agreement& agreement, Outbox& outbox);
   /// The body is not known here any more.
   void drop(std::uint32_t number);
 

@@ -76,17 +76,35 @@ class Failing final : public Motion {
   }
   Result<void> remove(std::uint32_t body) override { return inner_->remove(body); }
   Result<void> write_body(std::uint32_t body, std::vector<std::byte>& bytes) const override {
+    if (writing.fails_now()) return full("write_body");
     return inner_->write_body(body, bytes);
   }
   Result<std::uint32_t> read_body(std::span<const std::byte>& bytes) override {
+    if (reading.fails_now()) return full("read_body");
     return inner_->read_body(bytes);
   }
   std::unique_ptr<Motion> clone() const override { return inner_->clone(); }
 
   bool fails = false;
   bool throws = false;
+  /// A call that fails after so many that do not.
+  struct Calls {
+    int left = std::numeric_limits<int>::max();
+    bool throws = false;
+
+    bool fails_now() {
+      const bool now = left-- == 0;
+      if (now && throws) throw std::runtime_error("no room for this body");
+      return now;
+    }
+  };
+  mutable Calls writing{};
+  Calls reading{};
 
  private:
+  static Error full(const std::string& call) {
+    return {ErrorCode::unsupported, "body", no_body, call + ": no room for this body"};
+  }
   std::unique_ptr<Motion> inner_;
 };
 
@@ -104,6 +122,37 @@ TEST(DistributedFailures, OfAProbeEndAllRanks) {
     } else {
       expect_everywhere(done, ErrorCode::not_finite, rank + "run: ");
       EXPECT_NE(done.error().body, no_body);
+    }
+  }
+}
+
+/// In a dense gas bodies go from rank to rank when windows start, while islands run, and when a part is over.
+TEST(DistributedFailures, OfBodiesThatCannotMoveEndAllRanks) {
+  SceneParameters parameters;
+  for (const SceneParameters& built_in : built_in_scenes())
+    if (built_in.name == "gas") parameters = built_in;
+  parameters.bodies = 220;
+  parameters.seconds = 0.5;
+  parameters.packing = 0.45;
+  const Setting setting{.scene = make_scene(parameters).value(), .sensors = true};
+  // Of one rank nobody goes anywhere.
+  if (Communicator().ranks() == 1) return;
+  for (const bool throws : {false, true}) {
+    for (int good_ones = 0; good_ones < 300; good_ones += 7) {
+      for (const bool writes : {false, true}) {
+        SCOPED_TRACE(std::to_string(good_ones) + (writes ? " written" : " read"));
+        Failing motion(setting.scene.motion->clone());
+        DistributedWorld world = spread(setting, motion);
+        if (world.rank() == world.ranks() - 1)
+          (writes ? motion.writing : motion.reading) = {good_ones, throws};
+        const auto done = world.run(
+            setting.scene.end_time, [&](const Event& event) { return setting.answer(event); },
+            [](const OrderedEvent&) {});
+        const std::string rank = "rank " + std::to_string(world.ranks() - 1) + ": ";
+        const bool as_error = !throws && !writes;
+        expect_everywhere(done, as_error ? ErrorCode::unsupported : ErrorCode::callback_threw, rank);
+        EXPECT_NE(done.error().message.find("no room for this body"), std::string::npos);
+      }
     }
   }
 }
