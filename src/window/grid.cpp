@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "number/infinity.hpp"
 
@@ -149,7 +150,8 @@ Box Grid::box_of(const Cell& cell) const {
 }
 
 std::optional<Grid::CellRange> Grid::cells_near(const Corners& corners, float reach) const {
-  CellRange range;
+  // Not copied at the end: a copy would wait for what has just been written in other pieces.
+  std::optional<CellRange> range(std::in_place);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::int32_t all = count_[axis];
     const std::int32_t first = cell_of(corners.lower[axis] - reach, axis);
@@ -167,9 +169,12 @@ std::optional<Grid::CellRange> Grid::cells_near(const Corners& corners, float re
         count = std::min(last - first_[axis] + 1, all) - begin;
       }
     }
-    if (count <= 0) return std::nullopt;
-    range.begin[axis] = static_cast<std::uint32_t>(begin);
-    range.count[axis] = static_cast<std::uint32_t>(count);
+    if (count <= 0) {
+      range.reset();
+      return range;
+    }
+    range->begin[axis] = static_cast<std::uint32_t>(begin);
+    range->count[axis] = static_cast<std::uint32_t>(count);
   }
   return range;
 }
