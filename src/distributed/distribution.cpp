@@ -84,7 +84,7 @@ Parcel Distribution::pack_to_start(const Windows::Starter& starter) const {
 Result<void> Distribution::migrate(std::vector<Windows::Starter>& starters) {
   if (communicator_.ranks() == 1) return {};
   Outbox outbox(communicator_.ranks());
-  agreement_.note(guarded([&]() -> Result<void> {
+  agreement_.note(guarded([&] {
     std::erase_if(starters, [&](const Windows::Starter& starter) {
       const int owner = partition_.owner_of(local_.centre_of(local_.bodies()[starter.number]));
       if (owner == communicator_.rank()) return false;
@@ -94,7 +94,6 @@ Result<void> Distribution::migrate(std::vector<Windows::Starter>& starters) {
       transit_.drop(starter.number);
       return true;
     });
-    return {};
   }));
   return exchange(outbox, starters);
 }
@@ -130,7 +129,7 @@ Result<void> Distribution::spread(std::vector<Windows::Starter>& starters, bool 
   for (const Box& way : ways) known_.cover(way);
   const std::vector<std::vector<Box>> added = gather_boxes(std::span(known_.here().boxes()).subspan(told));
   Outbox outbox(communicator_.ranks());
-  agreement_.note(guarded([&]() -> Result<void> {
+  agreement_.note(guarded([&] {
     for (int to = 0; to < communicator_.ranks(); ++to) {
       if (to == here) continue;
       const std::vector<Box>& boxes = added[static_cast<std::size_t>(to)];
@@ -139,7 +138,6 @@ Result<void> Distribution::spread(std::vector<Windows::Starter>& starters, bool 
       send_copies(to, anew ? others : local_.own_bodies_in(boxes), outbox);
     }
     send_starters(starters, ways, outbox);
-    return {};
   }));
   return exchange(outbox, starters);
 }

@@ -25,13 +25,12 @@ Result<std::vector<std::byte>> DistributedWorld::Domain::save() {
   checkpoint.counters = counters();
   checkpoint.hash = hash_.parts();
   std::vector<std::uint32_t> numbers;
-  const auto packed = guarded([&]() -> Result<void> {
+  const auto packed = guarded([&] {
     for (std::uint32_t number = 0; number < local_.bodies().numbers(); ++number) {
       if (!local_.bodies()[number].alive || !local_.roster.is_own(number)) continue;
       numbers.push_back(number);
       checkpoint.parcels.push_back(transit_.pack(number));
     }
-    return {};
   });
   if (auto agreed = agree(packed); !agreed) return agreed.error();
   transit_.add_due(checkpoint.parcels, numbers, nullptr);

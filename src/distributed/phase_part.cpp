@@ -87,10 +87,7 @@ Result<bool> PhasePart::share() {
     const std::vector<Box>& boxes = asked[static_cast<std::size_t>(rank)];
     for (const Box& box : boxes) known_[rank].add(box);
     for (const std::uint32_t number : local_.own_bodies_in(boxes)) send(number, rank);
-    agreement_.note(guarded([&]() -> Result<void> {
-      send_to(rank, outbox);
-      return {};
-    }));
+    agreement_.note(guarded([&] { send_to(rank, outbox); }));
   }
   round_ = Round(communicator_.ranks());
   take_in(outbox.exchange(communicator_));

@@ -38,10 +38,9 @@ void PhasePart::add_costs() {
 Result<void> PhasePart::renew_copies() {
   if (communicator_.ranks() == 1) return {};
   Outbox outbox(communicator_.ranks());
-  agreement_.note(guarded([&]() -> Result<void> {
+  agreement_.note(guarded([&] {
     for (const Group& group : islands_.groups())
       if (!group.joined() && group.attempted) renew_copies(group, outbox);
-    return {};
   }));
   const auto renewed = transit_.exchange(communicator_, agreement_, outbox);
   return renewed ? Result<void>() : renewed.error();

@@ -40,10 +40,8 @@ void Attempts::run(Group& group, std::span<const HotPair> due, Sea& sea, std::ui
 }
 
 Outcome Attempts::end(Runner& runner, std::uint32_t worker) {
-  const Facts facts = runner.island.facts();
-  runner.island.agenda().for_each([&](const HotPair& pair) {
-    if (!facts.is_void(pair)) runner.beside.left.add(pair);
-  });
+  runner.island.facts().for_each_hot_pair(runner.island.agenda(),
+                                          [&](const HotPair& pair) { runner.beside.left.add(pair); });
   return runner.beside.end(worker, runner.island.work());
 }
 

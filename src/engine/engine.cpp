@@ -75,10 +75,8 @@ Activity World::Engine::activity() const {
 
 std::vector<HotPair> World::Engine::hot_pairs(std::optional<std::uint32_t> number) const {
   std::vector<HotPair> pairs;
-  const Facts facts = everybody_.facts();
-  everybody_.agenda().for_each([&](const HotPair& pair) {
-    const bool asked = !number || pair.first == *number || pair.second == *number;
-    if (asked && !facts.is_void(pair)) pairs.push_back(pair);
+  everybody_.facts().for_each_hot_pair(everybody_.agenda(), [&](const HotPair& pair) {
+    if (!number || pair.first == *number || pair.second == *number) pairs.push_back(pair);
   });
   return pairs;
 }

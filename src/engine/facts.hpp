@@ -72,6 +72,13 @@ class Facts {
     return stamp_of(pair.first) != pair.first_stamp ||
            (pair.has_second() && stamp_of(pair.second) != pair.second_stamp);
   }
+  /// Calls visit(pair) for those of the agenda that hold.
+  template <class Visit>
+  void for_each_hot_pair(const Agenda& agenda, Visit visit) const {
+    agenda.for_each([&](const HotPair& pair) {
+      if (!is_void(pair)) visit(pair);
+    });
+  }
   /// Two bodies, or a body and HotPair::walls or HotPair::renewal, to be looked at then.
   HotPair hot_pair(double time, std::uint32_t a, std::uint32_t b) const;
 

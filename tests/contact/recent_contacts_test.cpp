@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "archive/archive.hpp"
+#include "support/read_back.hpp"
 
 namespace kinesphere::recent_contacts_test {
 namespace {
@@ -50,12 +50,8 @@ TEST_F(RecentContactsTest, JamWhereEachHasHadManyAtOneInstant) {
 TEST_F(RecentContactsTest, GoOnAsBeforeWhenPutBackOrRead) {
   recent.note(both, 5.0);
   const RecentContacts::Body kept = recent.of(0);
-  ByteWriter writer;
-  writer(recent);
   RecentContacts back;
-  ByteReader reader(writer.bytes());
-  reader(back);
-  ASSERT_FALSE(reader.failed());
+  ASSERT_TRUE(read_back(recent, back));
   EXPECT_EQ(back.size(), 3u);
   EXPECT_TRUE(back.is_sound());
   EXPECT_TRUE(back.note(alone, 5.5).repeated);

@@ -7,9 +7,9 @@
 #include <tuple>
 #include <vector>
 
-#include "archive/archive.hpp"
 #include "kinesphere/random.hpp"
 #include "support/bound_cases.hpp"
+#include "support/read_back.hpp"
 
 namespace kinesphere::agenda_test {
 namespace {
@@ -197,13 +197,8 @@ TEST(Agenda, GoesOnAsBeforeFromThePairsThatHold) {
     Random random = Random::at(seed, stream, 1);
     Mirrored mirrored;
     for (int action = 0; action < 60; ++action) act(mirrored, random, all_times[0]);
-    ByteWriter writer;
-    writer(pairs_that_hold(mirrored));
     std::vector<HotPair> pairs;
-    ByteReader reader(writer.bytes());
-    reader(pairs);
-    ASSERT_FALSE(reader.failed());
-    EXPECT_EQ(reader.remaining(), 0u);
+    ASSERT_TRUE(read_back(pairs_that_hold(mirrored), pairs));
     Mirrored back = mirrored;
     back.agenda = {};
     back.agenda.add_all(pairs);

@@ -14,6 +14,7 @@
 #include "kinesphere/random.hpp"
 #include "number/infinity.hpp"
 #include "support/bound_cases.hpp"
+#include "support/read_back.hpp"
 #include "support/true_balls.hpp"
 
 namespace kinesphere::layer_test {
@@ -380,15 +381,10 @@ TEST_P(LayerSearch, GoesOnAsBeforeAfterItWasBytes) {
     act(mirrored, random, GetParam(), true);
     if (action == 200) mirrored.sort();
   }
-  ByteWriter writer;
-  writer(mirrored.layer);
   Mirrored back = mirrored;
   back.layer = {};
   back.layer.add(7, {}, 0.0f);  // what was there before is forgotten
-  ByteReader reader(writer.bytes());
-  reader(back.layer);
-  ASSERT_FALSE(reader.failed());
-  EXPECT_EQ(reader.remaining(), 0u);
+  ASSERT_TRUE(read_back(mirrored.layer, back.layer));
   for (const int more : {0, 100, 200}) {
     Random same_random = random;
     for (int action = 0; action < more; ++action) {

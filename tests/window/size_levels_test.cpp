@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "archive/archive.hpp"
 #include "kinesphere/random.hpp"
 #include "support/bound_cases.hpp"
+#include "support/read_back.hpp"
 
 namespace kinesphere::size_levels_test {
 namespace {
@@ -62,12 +62,8 @@ TEST(SizeLevels, RememberHowCoarseCellsHaveToBe) {
   EXPECT_EQ(levels.coarseness(2, 2), 1.0f);
   EXPECT_EQ(levels.coarseness(1, 1), 1.0f);
   EXPECT_TRUE(levels.is_sound());
-  ByteWriter writer;
-  writer(levels);
   SizeLevels back;
-  ByteReader reader(writer.bytes());
-  reader(back);
-  EXPECT_FALSE(reader.failed());
+  EXPECT_TRUE(read_back(levels, back));
   EXPECT_EQ(back.coarseness(2, 1), 8.0f);
   levels.set_coarseness(2, 1, 1.0f);
   EXPECT_EQ(levels.coarseness(2, 1), 1.0f);

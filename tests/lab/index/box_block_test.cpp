@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "archive/archive.hpp"
 #include "kinesphere/random.hpp"
+#include "support/read_back.hpp"
 
 namespace kinesphere::box_block_test {
 namespace {
@@ -161,11 +161,7 @@ TEST(BoxBlock, fills_two_cache_lines) {
 TEST(BoxBlock, comes_back_from_an_archive) {
   BoxBlock block, back;
   block.put(0, {{65535, 0, 2}, {5, 32767, 3}}, 9);
-  ByteWriter writer;
-  writer(block);
-  ByteReader reader(writer.bytes());
-  reader(back);
-  EXPECT_FALSE(reader.failed());
+  EXPECT_TRUE(read_back(block, back));
   EXPECT_EQ(back, block);
   EXPECT_EQ(back.body(0), 9u);
 }
