@@ -28,6 +28,9 @@ inline constexpr double largest_acceleration = 1e100;
 /// Times lie within +- this: the start of a world, and all that it advances to.
 inline constexpr double largest_time = 1e30;
 
+/// The window and the time resolution of a monitor (time) lie between this and largest_time.
+inline constexpr double least_time = 1e-30;
+
 /// Of queries, in contact tolerances: a radius or the length of a way.
 inline constexpr double largest_query_length = 4.0 * largest_length;
 

@@ -9,6 +9,17 @@
 
 namespace kinesphere {
 
+/// Until when a pair that has no open record is apart by what was certified before, which reports that say
+/// less do not end; nothing if that is to be decided anew now. Cost: O(pairs that are near).
+std::optional<double> Monitor::Engine::certified_until(std::uint32_t a, std::uint32_t b) const {
+  double until = windows_.next_end();
+  const auto [first, second] = std::minmax(a, b);
+  agenda_.for_each([&, one = first, other = second](const HotPair& pair) {
+    if (pair.first == one && pair.second == other && !is_void(pair)) until = std::min(until, pair.time);
+  });
+  return until > time_ ? std::optional(until) : std::nullopt;
+}
+
 Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::uint32_t level) const {
   for (const TrackId id : {first, second})
     if (!tracks_.find(id))
@@ -36,6 +47,11 @@ Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::u
   answer.since = state.since;
   answer.until =
       record == nullptr || now.verdict == state.verdict ? std::max(now.until, state.until) : state.until;
+  if (record == nullptr && now.verdict == Verdict::undecided)
+    if (const auto until = certified_until(a, b)) {
+      answer.verdict = Verdict::apart;
+      answer.until = *until;
+    }
   const Component& nearest = *levels[level].begin();
   const DistanceBetween between = distance_between(one.knowledge, other.knowledge, nearest, time_);
   answer.lower = std::max(0.0, between.lower);

@@ -12,22 +12,30 @@ Result<void> check_monitor(const MonitorDefinition& definition) {
   InputCheck check("Monitor::create");
   check.require(definition.dimensions == 2 || definition.dimensions == 3, ErrorCode::out_of_range,
                 {"dimensions"}, "must be 2 or 3", static_cast<double>(definition.dimensions));
-  check.finite({"start_time"}, definition.start_time)
-      .require(std::abs(definition.start_time) <= limits::largest_time, ErrorCode::out_of_range,
-               {"start_time"}, "must lie within +-", limits::largest_time, definition.start_time)
-      .positive({"tolerance"}, definition.tolerance)
+  if (definition.start_time)
+    check.finite({"start_time"}, *definition.start_time)
+        .require(std::abs(*definition.start_time) <= limits::largest_time, ErrorCode::out_of_range,
+                 {"start_time"}, "must lie within +-", limits::largest_time, *definition.start_time);
+  check.positive({"tolerance"}, definition.tolerance)
       .require(definition.tolerance >= limits::least_contact_tolerance &&
                    definition.tolerance <= limits::largest_contact_tolerance,
                ErrorCode::out_of_range, {"tolerance"}, "must lie within the limits of a contact tolerance",
                definition.tolerance)
-      .positive({"time_resolution"}, definition.time_resolution)
-      .positive({"window"}, definition.window)
       .require(definition.silence_after > 0.0, ErrorCode::out_of_range, {"silence_after"}, "must be > 0",
                definition.silence_after)
       .require(definition.forget_after > 0.0, ErrorCode::out_of_range, {"forget_after"}, "must be > 0",
                definition.forget_after)
       .require(!definition.classes.empty(), ErrorCode::out_of_range, {"classes"}, "must name at least one",
                definition.classes.size());
+  const auto duration = [&check](std::string_view part, double value) {
+    check.positive({part}, value)
+        .require(value >= limits::least_time, ErrorCode::out_of_range, {part}, "must be at least",
+                 limits::least_time, value)
+        .require(value <= limits::largest_time, ErrorCode::out_of_range, {part}, "must be at most",
+                 limits::largest_time, value);
+  };
+  duration("time_resolution", definition.time_resolution);
+  duration("window", definition.window);
   const PairShare& share = definition.share;
   check
       .require(share.of > 0, ErrorCode::out_of_range, {.argument = "share", .part = "of"}, "must be > 0",
@@ -36,17 +44,19 @@ Result<void> check_monitor(const MonitorDefinition& definition) {
                "must be > 0", share.count)
       .require(share.count <= share.of && share.first <= share.of - share.count, ErrorCode::out_of_range,
                {.argument = "share", .part = "first"}, "must be, with count, at most", share.of, share.first);
-  const auto limit = [&check](const Subject& subject, const Spread& spread) {
+  const auto limit = [&check](const Subject& subject, const Spread& spread, double most) {
     for (const double value : {spread.horizontal(), spread.vertical(), spread.total()})
-      check.require(value >= 0.0, ErrorCode::out_of_range, subject, "must be >= 0", value);
+      check.require(value >= 0.0, ErrorCode::out_of_range, subject, "must be >= 0", value)
+          .require(value <= most || value == infinity, ErrorCode::out_of_range, subject,
+                   "must be infinite or at most", most, value);
   };
   for (std::size_t k = 0; k < definition.classes.size(); ++k) {
     const TrackClass& one = definition.classes[k];
     const auto subject = [k](std::string_view part) {
       return Subject{.argument = "classes", .part = part, .part_number = k};
     };
-    limit(subject("acceleration_limit"), one.acceleration_limit);
-    limit(subject("largest_speed"), one.largest_speed);
+    limit(subject("acceleration_limit"), one.acceleration_limit, limits::largest_acceleration);
+    limit(subject("largest_speed"), one.largest_speed, limits::largest_speed);
     check.within(subject("planned_acceleration"), one.planned_acceleration, limits::largest_acceleration);
     check.require(std::isfinite(one.acceleration_limit.total()) || std::isfinite(one.largest_speed.total()),
                   ErrorCode::out_of_range, subject("acceleration_limit"),

@@ -1,6 +1,10 @@
 // What one report says of where a track is from then on.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
+#include "bound/rounding.hpp"
 #include "kinesphere/bound.hpp"
 #include "kinesphere/monitor/report.hpp"
 #include "kinesphere/monitor/separation.hpp"
@@ -24,11 +28,26 @@ struct Claim {
     const double s = t - time;
     return position + (velocity + acceleration * (0.5 * s)) * s;
   }
-  Vec3 velocity_at(double t) const { return velocity + acceleration * (t - time); }
   Spread radius_at(double t) const {
     const double s = t - time;
     return radius + (speed + growth * (0.5 * s)) * s;
   }
+  /// The same motion, told as of another time, before or after its own; it holds for as long. The errors have
+  /// room for the roundings of this: margins of all that is added up, which may cancel.
+  Claim moved_to(double t) const {
+    const double way = t - time, s = std::abs(way);
+    const double speeds = norm_one(velocity) + norm_one(acceleration) * s;
+    const double lengths = norm_one(position) + speeds * s;
+    constexpr double more = 1.0 + rounding::margin;
+    Claim moved = *this;
+    moved.time = t;
+    moved.position = position + (velocity + acceleration * (0.5 * way)) * way;
+    moved.velocity = velocity_at(t);
+    moved.radius = (radius + (speed + growth * (0.5 * s)) * s) * more + Spread(lengths * rounding::margin);
+    moved.speed = (speed + growth * s) * more + Spread(speeds * rounding::margin);
+    return moved;
+  }
+  Vec3 velocity_at(double t) const { return velocity + acceleration * (t - time); }
   /// As a ball.
   Bound bound() const {
     return {time, position, velocity, acceleration, radius.total(), speed.total(), growth.total()};
@@ -48,6 +67,9 @@ struct Component {
   Axes axes = Axes::space;
   double stretch = 1.0;
   double limit = 0.0;
+  /// A point of which this length, measured along these axes, is the excess over `limit` is no farther
+  /// outside of the separation than the tolerance (docs/monitoring.md, Lemma 1).
+  double tolerance = 0.0;
 
   double length(const Spread& spread) const {
     if (axes == Axes::plane) return spread.horizontal();
@@ -64,14 +86,15 @@ struct Components {
   Component parts[2];
   int count = 1;
 
-  explicit Components(const Separation& separation, int dimensions) {
+  Components(const Separation& separation, int dimensions, double tolerance) {
     const auto& [shape, horizontal, vertical] = separation;
     if (shape == Separation::Shape::cylinder) {
-      parts[0] = {Component::Axes::plane, 1.0, horizontal};
-      parts[1] = {Component::Axes::upright, 1.0, vertical};
+      parts[0] = {Component::Axes::plane, 1.0, horizontal, tolerance};
+      parts[1] = {Component::Axes::upright, 1.0, vertical, tolerance};
       count = dimensions == 2 ? 1 : 2;
     } else {
-      parts[0] = {Component::Axes::space, dimensions == 2 ? 1.0 : horizontal / vertical, horizontal};
+      const double stretch = dimensions == 2 ? 1.0 : horizontal / vertical;
+      parts[0] = {Component::Axes::space, stretch, horizontal, std::min(1.0, stretch) * tolerance};
     }
   }
   const Component* begin() const { return parts; }

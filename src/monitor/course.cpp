@@ -38,7 +38,7 @@ struct View {
 /// Two claims and a component.
 class ClaimsMeeting {
  public:
-  ClaimsMeeting(const Claim& a, const Claim& b, const Component& component, double tolerance, double now)
+  ClaimsMeeting(const Claim& a, const Claim& b, const Component& component, double now)
       : a_(a, component),
         b_(b, component),
         now_(now),
@@ -46,7 +46,7 @@ class ClaimsMeeting {
         end_(std::min(a.end, b.end)),
         errors_(rounding::sum_up(a_.error, b_.error)),
         limit_(component.limit),
-        outer_limit_(rounding::sum_down(component.limit, tolerance)),
+        outer_limit_(rounding::sum_down(component.limit, component.tolerance)),
         gap_(gap_limits(a_.path, b_.path, now)) {}
 
   bool holds() const { return begin_ <= now_ && now_ < end_; }
@@ -84,11 +84,11 @@ class ClaimsMeeting {
 
 /// Calls visit(meeting) for each pair of claims that hold, until it returns false.
 template <class Visit>
-void for_each_meeting(const Hypothesis& a, const Hypothesis& b, const Component& component, double tolerance,
-                      double now, Visit visit) {
+void for_each_meeting(const Hypothesis& a, const Hypothesis& b, const Component& component, double now,
+                      Visit visit) {
   for (const Claim& one : a.claims)
     for (const Claim& other : b.claims)
-      if (const ClaimsMeeting meeting(one, other, component, tolerance, now); meeting.holds())
+      if (const ClaimsMeeting meeting(one, other, component, now); meeting.holds())
         if (!visit(meeting)) return;
 }
 
@@ -98,12 +98,12 @@ struct Certain {
   double within = infinity;
 };
 
-Certain certain_of(const Hypothesis& a, const Hypothesis& b, const Components& components, double tolerance,
-                   double now, double horizon) {
+Certain certain_of(const Hypothesis& a, const Hypothesis& b, const Components& components, double now,
+                   double horizon) {
   Certain certain;
   for (const Component& component : components) {
     double within = -infinity;
-    for_each_meeting(a, b, component, tolerance, now, [&](const ClaimsMeeting& meeting) {
+    for_each_meeting(a, b, component, now, [&](const ClaimsMeeting& meeting) {
       if (meeting.is_apart()) certain.apart = std::max(certain.apart, meeting.apart_until(horizon));
       if (meeting.is_within()) within = std::max(within, meeting.within_until(horizon));
       // No other pair can say more.
@@ -114,31 +114,39 @@ Certain certain_of(const Hypothesis& a, const Hypothesis& b, const Components& c
   return certain;
 }
 
+/// The first time after `now` from which a claim holds that does not hold yet.
+double next_begin(const Hypothesis& hypothesis, double now) {
+  double next = infinity;
+  for (const Claim& claim : hypothesis.claims)
+    if (claim.time > now) next = std::min(next, claim.time);
+  return next;
+}
+
 /// When passing time may decide what two hypotheses leave open, at the earliest.
-double decided_from(const Hypothesis& a, const Hypothesis& b, const Components& components, double tolerance,
-                    double now, double horizon) {
+double decided_from(const Hypothesis& a, const Hypothesis& b, const Components& components, double now,
+                    double horizon) {
   double apart = infinity;
   double within = -infinity;
   for (const Component& component : components) {
     double one_within = infinity;
-    for_each_meeting(a, b, component, tolerance, now, [&](const ClaimsMeeting& meeting) {
+    for_each_meeting(a, b, component, now, [&](const ClaimsMeeting& meeting) {
       apart = std::min(apart, meeting.may_be_apart(horizon));
       one_within = std::min(one_within, meeting.is_within() ? now : meeting.may_be_within(horizon));
       return true;
     });
     within = std::max(within, one_within);
   }
-  return std::min(apart, within);
+  return std::min({apart, within, next_begin(a, now), next_begin(b, now)});
 }
 
 }  // namespace
 
-Course course_of(const Knowledge& a, const Knowledge& b, const Components& separation, double tolerance,
-                 double now, double horizon, double least) {
+Course course_of(const Knowledge& a, const Knowledge& b, const Components& separation, double now,
+                 double horizon, double least) {
   Certain all{infinity, infinity};
   for (const Hypothesis& one : a.hypotheses())
     for (const Hypothesis& other : b.hypotheses()) {
-      const Certain certain = certain_of(one, other, separation, tolerance, now, horizon);
+      const Certain certain = certain_of(one, other, separation, now, horizon);
       all.apart = std::min(all.apart, certain.apart);
       all.within = std::min(all.within, certain.within);
     }
@@ -148,8 +156,8 @@ Course course_of(const Knowledge& a, const Knowledge& b, const Components& separ
   double until = enough;
   // One that is open says when the earliest is; several are looked at again soon.
   if (a.hypotheses().size() == 1 && b.hypotheses().size() == 1)
-    until = std::max(until, decided_from(a.hypotheses().front(), b.hypotheses().front(), separation,
-                                         tolerance, now, infinity));
+    until = std::max(until,
+                     decided_from(a.hypotheses().front(), b.hypotheses().front(), separation, now, infinity));
   else
     until = infinity;
   return {Verdict::undecided, until};
@@ -161,7 +169,7 @@ DistanceBetween distance_between(const Knowledge& a, const Knowledge& b, const C
   for (const Hypothesis& one : a.hypotheses())
     for (const Hypothesis& other : b.hypotheses()) {
       DistanceBetween between;
-      for_each_meeting(one, other, component, 0.0, now, [&](const ClaimsMeeting& meeting) {
+      for_each_meeting(one, other, component, now, [&](const ClaimsMeeting& meeting) {
         between.lower = std::max(between.lower, meeting.lower());
         between.upper = std::min(between.upper, meeting.upper());
         return true;

@@ -17,8 +17,8 @@ struct Course {
 
 /// `least`: answers that would be certain for less than this (time, > 0) are not. Cost: some 100 ns for each
 /// pair of claims.
-Course course_of(const Knowledge& a, const Knowledge& b, const Components& separation, double tolerance,
-                 double now, double horizon, double least);
+Course course_of(const Knowledge& a, const Knowledge& b, const Components& separation, double now,
+                 double horizon, double least);
 
 /// Limits of the distance along one component.
 struct DistanceBetween {

@@ -24,7 +24,8 @@ Monitor::Engine::Engine(const MonitorDefinition& definition)
     : definition_(definition),
       levels_(definition),
       tier_(exponent_of(definition.window)),
-      time_(definition.start_time),
+      time_(definition.start_time.value_or(0.0)),
+      has_started_(definition.start_time.has_value()),
       windows_(space_of(definition)) {}
 
 bool Monitor::Engine::is_void(const HotPair& pair) const {
@@ -39,6 +40,10 @@ bool Monitor::Engine::is_void(const HotPair& pair) const {
 }
 
 Result<std::optional<MonitorEvent>> Monitor::Engine::advance(double until, const Poll* poll) {
+  // Taking what has happened so far, which is nothing, starts no clock.
+  if (!has_started_ && until == time_) return std::optional<MonitorEvent>{};
+  if (!has_started_) time_ = until;
+  has_started_ = true;
   for (;;) {
     agenda_.open([this](const HotPair& pair) { return is_void(pair); });
     const double next = std::min(windows_.next_end(), agenda_.next_time());
@@ -78,8 +83,17 @@ RoomyBound Monitor::Engine::roomy_bound(std::uint32_t number, const Hypothesis& 
   return {moved, levels_.room(tracks_[number].track_class)};
 }
 
+/// Windows get twice as long with each few that pass without a report, so that a gap of any length has few.
+Window Monitor::Engine::next_window() const {
+  constexpr std::uint32_t windows_of_a_length = 8;
+  const auto lengthened =
+      std::min<std::uint32_t>(quiet_windows_ / windows_of_a_length, 2 * Window::longest_tier);
+  return Window::at(time_, std::min(tier_ + static_cast<int>(lengthened), Window::longest_tier));
+}
+
 Result<void> Monitor::Engine::start_windows(const Poll* poll) {
-  const Window next = window();
+  const Window next = next_window();
+  ++quiet_windows_;
   // Tracks by number: the places of one follow one another.
   std::vector<std::uint32_t> numbers;
   for (const std::uint32_t place : windows_.ended(time_, false))
@@ -96,11 +110,13 @@ Result<void> Monitor::Engine::start_windows(const Poll* poll) {
         asked.push_back(number);
     }
     if (!asked.empty()) {
+      quiet_windows_ = 0;
       if (Result<void> done = ask(asked, *poll, Placing::later); !done) return done;
       for (const std::uint32_t number : asked) judge_pairs_not_due(number);
     }
   }
   close_records();
+  window_ = next;
   ++counters_.windows;
   windows_.end_windows(time_, false);
   std::vector<Windows::Starter> starters;

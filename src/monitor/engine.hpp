@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -37,6 +38,7 @@ class Monitor::Engine {
   const MonitorDefinition& definition() const { return definition_; }
   const MonitorCounters& counters() const { return counters_; }
   double time() const { return time_; }
+  bool has_started() const { return has_started_; }
   const TrackTable& tracks() const { return tracks_; }
   /// In a Poll.
   bool is_asking() const { return asking_; }
@@ -71,6 +73,7 @@ class Monitor::Engine {
   void is_due(std::uint32_t number);
 
   bool is_void(const HotPair& pair) const;
+  Window next_window() const;
   Result<void> start_windows(const Poll* poll);
   Result<void> look(const Poll* poll);
   Result<void> ask_about(const HotPair& pair, const Poll& poll);
@@ -81,10 +84,10 @@ class Monitor::Engine {
     return levels_.between(tracks_[a].track_class, tracks_[b].track_class);
   }
   Course course(std::uint32_t a, std::uint32_t b, const Components& level, double horizon) const {
-    return course_of(tracks_[a].knowledge, tracks_[b].knowledge, level, definition_.tolerance, time_, horizon,
-                     definition_.time_resolution);
+    return course_of(tracks_[a].knowledge, tracks_[b].knowledge, level, time_, horizon, resolution());
   }
   std::optional<double> apart_until(std::uint32_t a, std::uint32_t b, double horizon);
+  std::optional<double> certified_until(std::uint32_t a, std::uint32_t b) const;
   bool is_decided(std::uint32_t a, std::uint32_t b);
   bool is_less_certain(std::uint32_t a, std::uint32_t b) const;
   void find_pair(std::uint32_t a, std::uint32_t b);
@@ -101,12 +104,18 @@ class Monitor::Engine {
   }
   static std::uint32_t track_at(std::uint32_t place) { return place / Knowledge::slots; }
   RoomyBound roomy_bound(std::uint32_t number, const Hypothesis& hypothesis, double end) const;
-  Window window() const { return Window::at(time_, tier_); }
+  /// That in which all tracks are registered now, or would be.
+  Window window() const { return time_ < window_.end ? window_ : Window::at(time_, tier_); }
+  /// The next time that can be told from now, or later: MonitorDefinition::time_resolution.
+  double resolution() const { return std::max(definition_.time_resolution, std::abs(time_) * 0x1p-50); }
 
   MonitorDefinition definition_;
   Levels levels_;
-  int tier_;
+  int tier_;  ///< of windows while reports come
   double time_;
+  bool has_started_;  ///< false until a report or advance() sets the time, if the definition does not
+  Window window_{.tier = 0, .end = -infinity};
+  std::uint32_t quiet_windows_ = 0;  ///< that have started since a report came or was asked for
   MonitorCounters counters_;
   TrackTable tracks_;
   OpenRecords open_;

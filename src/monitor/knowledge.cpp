@@ -12,39 +12,40 @@ namespace {
 /// More contradictions at a time are not kept: the oldest hypothesis goes.
 constexpr std::size_t most_hypotheses = Knowledge::slots - 1;
 
-/// Relative rounding of the few operations behind a claim.
-constexpr double rounding_margin = 0x1p-47;
-
-/// The error of a stamp, told as errors of the state.
-TrackReport with_exact_stamp(TrackReport report, const TrackClass& promise) {
+/// The error of a stamp, told as errors of the state at the stamp. While a stamp may be wrong, so may be
+/// which plan is in force: accelerations differ from the class's planned one by at most what `plans` say.
+TrackReport with_exact_stamp(TrackReport report, const TrackClass& promise, const PlansBeyondClass& plans) {
   const double error = report.stamp_error;
   if (error == 0.0) return report;
   const Vec3& velocity = report.state.velocity;
   const Spread speed = least(
       Spread::cylinder(std::hypot(velocity.x, velocity.y), std::abs(velocity.z)) + report.velocity_error,
       promise.largest_speed);
-  const Vec3& plan = promise.planned_acceleration;
-  const Spread turn =
-      promise.acceleration_limit + Spread::cylinder(std::hypot(plan.x, plan.y), std::abs(plan.z));
+  const Vec3& planned = promise.planned_acceleration;
+  const Spread turn = plans.limit_from(report.stamp - error, promise) +
+                      Spread::cylinder(std::hypot(planned.x, planned.y), std::abs(planned.z));
   // A path that turns goes no farther than this, and no farther than the largest speed takes it.
   const Spread way = least((speed + turn * (0.5 * error)) * error, promise.largest_speed * error);
-  report.position_error = report.position_error + way * (1.0 + rounding_margin);
-  report.velocity_error = report.velocity_error + turn * (error * (1.0 + rounding_margin));
+  report.position_error = report.position_error + way * (1.0 + rounding::margin);
+  // The plan may begin so much after the stamp; until then the acceleration may differ from the plan's by
+  // twice what it may be.
+  const double times = report.plan ? 3.0 : 1.0;
+  report.velocity_error = report.velocity_error + turn * (times * error * (1.0 + rounding::margin));
   report.stamp_error = 0.0;
   return report;
 }
 
 bool is_finite(const Spread& spread) { return std::isfinite(spread.total()); }
 
-/// By the class's limit of accelerations.
-Claim motion_of(const TrackReport& report, const TrackClass& promise) {
+/// By an acceleration that differs from `planned` by at most `limit`.
+Claim motion_of(const TrackReport& report, const Vec3& planned, const Spread& limit) {
   return {.time = report.stamp,
           .position = report.state.position,
           .velocity = report.state.velocity,
-          .acceleration = promise.planned_acceleration,
+          .acceleration = planned,
           .radius = report.position_error,
           .speed = report.velocity_error,
-          .growth = promise.acceleration_limit};
+          .growth = limit};
 }
 
 /// By the class's largest speed alone.
@@ -55,21 +56,9 @@ Claim range_of(const TrackReport& report, const TrackClass& promise) {
           .speed = promise.largest_speed};
 }
 
-/// The same claim for a report from after `now`, told as one of now: motion can be followed backwards.
-Claim brought_back(Claim claim, double now) {
-  const double ahead = claim.time - now;
-  if (!(ahead > 0.0)) return claim;
-  claim.position = claim.position - (claim.velocity - claim.acceleration * (0.5 * ahead)) * ahead;
-  claim.velocity = claim.velocity - claim.acceleration * ahead;
-  claim.radius = claim.radius + (claim.speed + claim.growth * (0.5 * ahead)) * ahead;
-  claim.speed = claim.speed + claim.growth * ahead;
-  claim.time = now;
-  return claim;
-}
-
 /// With room for the roundings of what is computed from it.
 void widen(Claim& claim) {
-  const double size = norm_one(claim.position) * rounding_margin;
+  const double size = norm_one(claim.position) * rounding::margin;
   claim.radius = claim.radius + Spread(size);
 }
 
@@ -78,24 +67,48 @@ void widen(Claim& claim) {
 std::optional<Claim> range_after(const Claim& motion, double after, const TrackClass& promise) {
   const double begin = motion.time + after;
   if (!(after > 0.0 && begin < motion.end)) return std::nullopt;
-  return Claim{.time = begin,
-               .position = motion.centre_at(begin),
-               .radius = motion.radius_at(begin),
-               .speed = promise.largest_speed};
+  const Claim then = motion.moved_to(begin);
+  return Claim{
+      .time = begin, .position = then.position, .radius = then.radius, .speed = promise.largest_speed};
 }
 
-std::vector<Claim> claims_of(const TrackReport& report, const TrackClass& promise, double now) {
-  std::vector<Claim> claims;
-  const bool has_velocity = is_finite(report.velocity_error);
-  if (report.plan && report.stamp <= now && now < report.plan->valid_until && has_velocity) {
-    Claim claim = motion_of(report, promise);
-    claim.acceleration = report.plan->acceleration;
-    claim.growth = report.plan->acceleration_limit;
-    claim.end = report.plan->valid_until;
-    claims.push_back(claim);
+/// What a report says of its track's motion from `now` on, by the accelerations that the class and plans
+/// leave possible. The first is the tightest.
+std::vector<Claim> motions_of(const TrackReport& report, const TrackClass& promise,
+                              const PlansBeyondClass& plans, double now) {
+  std::vector<Claim> motions;
+  if (!is_finite(report.velocity_error)) return motions;
+  const bool has_limit = is_finite(promise.acceleration_limit);
+  // Accelerations change from one limit to another then.
+  const auto go_on = [&](const Claim& motion, double time) {
+    Claim rest = motion.moved_to(time);
+    rest.acceleration = promise.planned_acceleration;
+    rest.growth = plans.limit_from(time, promise);
+    rest.end = infinity;
+    motions.push_back(rest);
+  };
+  if (report.plan && now < report.plan->valid_until) {
+    Claim planned = motion_of(report, report.plan->acceleration, report.plan->acceleration_limit);
+    planned.end = report.plan->valid_until;
+    motions.push_back(planned);
+    if (planned.end < infinity && has_limit) go_on(planned, planned.end);
   }
-  if (is_finite(promise.acceleration_limit) && has_velocity)
-    claims.push_back(brought_back(motion_of(report, promise), now));
+  if (!has_limit) return motions;
+  const Claim motion =
+      motion_of(report, promise.planned_acceleration, plans.limit_from(report.stamp, promise));
+  if (report.stamp > now) {
+    Claim back = motion;
+    back.growth = plans.limit_from(now, promise);
+    motions.push_back(back.moved_to(now));
+  }
+  motions.push_back(motion);
+  if (report.stamp < plans.end && plans.end < infinity) go_on(motion, plans.end);
+  return motions;
+}
+
+std::vector<Claim> claims_of(const TrackReport& report, const TrackClass& promise,
+                             const PlansBeyondClass& plans, double now) {
+  std::vector<Claim> claims = motions_of(report, promise, plans, now);
   if (is_finite(promise.largest_speed)) {
     if (!claims.empty()) {
       // Ahead the largest speed is reached sooner than on the way back.
@@ -105,14 +118,16 @@ std::vector<Claim> claims_of(const TrackReport& report, const TrackClass& promis
       for (const double speed : {fastest - norm(motion.velocity), fastest})
         if (const auto range = range_after(motion, speed / limit, promise)) claims.push_back(*range);
     }
-    claims.push_back(brought_back(range_of(report, promise), now));
+    const Claim range = range_of(report, promise);
+    if (report.stamp > now) claims.push_back(range.moved_to(now));
+    claims.push_back(range);
   }
   for (Claim& claim : claims) widen(claim);
   return claims;
 }
 
 double beyond(const Vec3& way, const Spread& limit, double size) {
-  const double room = rounding_margin * size;
+  const double room = rounding::margin * size;
   const double flat = std::hypot(way.x, way.y) - limit.horizontal();
   const double upright = std::abs(way.z) - limit.vertical();
   const double all = norm(way) - limit.total();
@@ -124,17 +139,21 @@ Excess excess_of(const TrackReport& report, const Hypothesis& believed, const Tr
   const double way = report.stamp - believed.stamp;
   const double s = std::abs(way);
   const Claim& from = believed.motion;
+  // Its own plan counts before the other one's stamp only if it is older.
+  const PlansBeyondClass plans =
+      way < 0.0 ? joined(believed.plans, PlansBeyondClass::of(report, promise)) : believed.plans;
+  const Spread& limit = plans.limit_from(std::min(report.stamp, believed.stamp), promise);
   Excess excess;
   const double size = norm_one(report.state.position) + norm_one(from.position) +
                       (norm_one(from.velocity) + norm_one(from.acceleration) * s) * s;
   const Spread both = report.position_error + from.radius;
-  if (is_finite(from.speed) && is_finite(promise.acceleration_limit)) {
+  if (is_finite(from.speed) && is_finite(limit)) {
     const Vec3 centre = from.position + (from.velocity + promise.planned_acceleration * (0.5 * way)) * way;
-    const Spread reach = both + (from.speed + promise.acceleration_limit * (0.5 * s)) * s;
+    const Spread reach = both + (from.speed + limit * (0.5 * s)) * s;
     excess.position = beyond(report.state.position - centre, reach, size);
     if (is_finite(report.velocity_error)) {
       const Vec3 velocity = from.velocity + promise.planned_acceleration * way;
-      const Spread turn = report.velocity_error + from.speed + promise.acceleration_limit * s;
+      const Spread turn = report.velocity_error + from.speed + limit * s;
       excess.velocity =
           beyond(report.state.velocity - velocity, turn,
                  norm_one(report.state.velocity) + norm_one(from.velocity) + norm_one(from.acceleration) * s);
@@ -146,13 +165,23 @@ Excess excess_of(const TrackReport& report, const Hypothesis& believed, const Tr
   return excess;
 }
 
-Hypothesis hypothesis_of(const TrackReport& report, const TrackClass& promise, double now) {
+Hypothesis hypothesis_of(const TrackReport& report, const TrackClass& promise, const PlansBeyondClass& plans,
+                         double now) {
   Hypothesis hypothesis{.stamp = report.stamp,
-                        .motion = motion_of(report, promise),
+                        .motion = motion_of(report, promise.planned_acceleration, promise.acceleration_limit),
                         .state = report.state,
-                        .claims = claims_of(report, promise, now)};
+                        .plans = plans,
+                        .claims = claims_of(report, promise, plans, now)};
   hypothesis.latest_claims = hypothesis.claims.size();
   return hypothesis;
+}
+
+/// The latest report of a hypothesis, without its plan.
+TrackReport report_of(const Hypothesis& hypothesis) {
+  return {.stamp = hypothesis.stamp,
+          .state = hypothesis.state,
+          .position_error = hypothesis.motion.radius,
+          .velocity_error = hypothesis.motion.speed};
 }
 
 /// Both hold. What the latest report says stays, and of all else the claim that is tightest at a time soon,
@@ -173,10 +202,13 @@ Hypothesis joined(Hypothesis latest, Hypothesis other, double now, double soon) 
 Knowledge::Learned Knowledge::learn(const TrackReport& report, const TrackClass& promise, double now,
                                     double ahead) {
   Learned learned;
-  const TrackReport exact = with_exact_stamp(report, promise);
-  Hypothesis next = hypothesis_of(exact, promise, now);
+  const PlansBeyondClass own = PlansBeyondClass::of(report, promise);
+  PlansBeyondClass all = own;
+  for (const Hypothesis& believed : hypotheses_) all = joined(all, believed.plans);
+  const TrackReport exact = with_exact_stamp(report, promise, all);
+  const auto next = [&](const PlansBeyondClass& plans) { return hypothesis_of(exact, promise, plans, now); };
   if (hypotheses_.empty()) {
-    hypotheses_.push_back(std::move(next));
+    hypotheses_.push_back(next(all));
     return learned;
   }
   learned.late = exact.stamp < stamp();
@@ -184,7 +216,7 @@ Knowledge::Learned Knowledge::learn(const TrackReport& report, const TrackClass&
   learned.excess = {infinity, infinity};
   for (std::size_t k = 0; k < hypotheses_.size(); ++k) {
     const Hypothesis& believed = hypotheses_[k];
-    if (believed.stamp == exact.stamp && believed.state == exact.state) {
+    if (believed.stamp == exact.stamp && believed.state == exact.state && believed.plans.include(own)) {
       learned = {.outcome = Outcome::repeated};
       return learned;
     }
@@ -195,24 +227,34 @@ Knowledge::Learned Knowledge::learn(const TrackReport& report, const TrackClass&
   }
   if (agreeing.empty()) {
     learned.outcome = Outcome::contradicts;
-    next.slot = free_slot();
+    learned.ends_certainty = true;
+    Hypothesis other = next(all);
+    other.slot = free_slot();
     if (hypotheses_.size() == most_hypotheses) hypotheses_.erase(hypotheses_.begin());
-    hypotheses_.push_back(std::move(next));
+    hypotheses_.push_back(std::move(other));
     return learned;
   }
   if (hypotheses_.size() > 1) learned.outcome = Outcome::resolves;
-  if (agreeing.size() > 1) {
-    // They contradict each other, so one of them rests upon a wrong report, and this one is right.
-    next.slot = free_slot();
-    hypotheses_ = {std::move(next)};
+  learned.ends_certainty = std::any_of(agreeing.begin(), agreeing.end(),
+                                       [&](std::size_t k) { return !hypotheses_[k].plans.include(own); });
+  if (agreeing.size() > 1 || learned.ends_certainty) {
+    // Where several agree, they contradict each other: one of them rests upon a wrong report, and this one is
+    // right. Where a plan goes beyond what was believed possible, nothing is kept but the latest state.
+    const Hypothesis& believed = hypotheses_[agreeing.front()];
+    Hypothesis only = next(all);
+    if (agreeing.size() == 1 && exact.stamp < believed.stamp)
+      only = joined(hypothesis_of(report_of(believed), promise, all, now), std::move(only), now, now + ahead);
+    only.slot = free_slot();
+    hypotheses_ = {std::move(only)};
     return learned;
   }
   Hypothesis believed = std::move(hypotheses_[agreeing.front()]);
-  next.slot = believed.slot;
+  Hypothesis latest = next(believed.plans);
+  latest.slot = believed.slot;
   hypotheses_.clear();
   const bool newer = exact.stamp >= believed.stamp;
-  hypotheses_.push_back(newer ? joined(std::move(next), std::move(believed), now, now + ahead)
-                              : joined(std::move(believed), std::move(next), now, now + ahead));
+  hypotheses_.push_back(newer ? joined(std::move(latest), std::move(believed), now, now + ahead)
+                              : joined(std::move(believed), std::move(latest), now, now + ahead));
   return learned;
 }
 
@@ -240,14 +282,7 @@ std::uint32_t Knowledge::free_slot() const {
 }
 
 Bound Knowledge::bound(const Hypothesis& hypothesis, double now, double end) {
-  const Claim& claim = tightest(hypothesis, now, end);
-  Bound bound = claim.bound();
-  bound.position = claim.centre_at(now);
-  bound.velocity = claim.velocity_at(now);
-  bound.radius = bound.radius_at(now);
-  bound.growth_speed += bound.growth_acceleration * (now - claim.time);
-  bound.time = now;
-  return bound;
+  return tightest(hypothesis, now, end).moved_to(now).bound();
 }
 
 double Knowledge::worth_asking(double time) const {
@@ -276,8 +311,9 @@ bool Knowledge::is_sound(double now) const {
   return !hypotheses_.empty() && hypotheses_.size() <= most_hypotheses &&
          std::all_of(hypotheses_.begin(), hypotheses_.end(), [&](const Hypothesis& hypothesis) {
            const std::vector<Claim>& claims = hypothesis.claims;
-           return std::isfinite(hypothesis.stamp) && hypothesis.slot < slots && is_claim(hypothesis.motion) &&
-                  hypothesis.latest_claims <= claims.size() &&
+           return std::isfinite(hypothesis.stamp) && !std::isnan(hypothesis.plans.end) &&
+                  is_spread(hypothesis.plans.limit) && hypothesis.slot < slots &&
+                  is_claim(hypothesis.motion) && hypothesis.latest_claims <= claims.size() &&
                   std::all_of(claims.begin(), claims.end(), is_claim) &&
                   std::any_of(claims.begin(), claims.end(), [now](const Claim& claim) {
                     return claim.time <= now && claim.end == infinity;

@@ -10,6 +10,7 @@
 #include "kinesphere/bound.hpp"
 #include "kinesphere/monitor/report.hpp"
 #include "monitor/claim.hpp"
+#include "monitor/plans_beyond_class.hpp"
 
 namespace kinesphere {
 
@@ -20,14 +21,15 @@ struct Hypothesis {
   /// What the latest report says by itself, for comparing with others; both before and after it.
   Claim motion{};
   State state{};
+  PlansBeyondClass plans{};  ///< of all its reports
   /// Those of the latest report, and behind them perhaps one of another.
   std::vector<Claim> claims;
   std::size_t latest_claims = 0;
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
-    auto& [stamp, slot, motion, state, claims, latest_claims] = self;
-    archive(stamp, slot, motion, state, claims, latest_claims);
+    auto& [stamp, slot, motion, state, plans, claims, latest_claims] = self;
+    archive(stamp, slot, motion, state, plans, claims, latest_claims);
   }
 };
 
@@ -55,6 +57,8 @@ class Knowledge {
     Outcome outcome = Outcome::agrees;
     Excess excess{};
     bool late = false;
+    /// What was certain of the track may not be so any more: it may be elsewhere than was thought possible.
+    bool ends_certainty = false;
   };
 
   /// A report that has come in at `now`, of a track of this class. `ahead`: for how long claims are to be

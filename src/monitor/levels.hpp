@@ -19,7 +19,7 @@ class Levels {
       const auto [a, b, levels] = rule;
       std::vector<Components>& components = of_pairs_[std::min(a, b) * classes_ + std::max(a, b)];
       for (const Separation& level : levels) {
-        components.emplace_back(level, definition.dimensions);
+        components.emplace_back(level, definition.dimensions, definition.tolerance);
         const double room = 0.5 * reach_of(level, definition.dimensions) + 2.0 * definition.tolerance;
         rooms_[a] = std::max(rooms_[a], room);
         rooms_[b] = std::max(rooms_[b], room);

@@ -1,7 +1,10 @@
 // The public calls of a monitor: checked, and handed on.
 #include "kinesphere/monitor/monitor.hpp"
 
+#include <cmath>
+
 #include "input/input_check.hpp"
+#include "kinesphere/limits.hpp"
 #include "monitor/check_monitor.hpp"
 #include "monitor/engine.hpp"
 
@@ -89,8 +92,10 @@ Result<std::optional<MonitorEvent>> Monitor::go_on(double until, const Poll* pol
   if (const Result<void> idle = check_idle("advance"); !idle) return idle.error();
   const auto check = InputCheck("advance")
                          .finite({"until"}, until)
-                         .require(until >= time(), ErrorCode::time_backwards, {"until"},
-                                  "must not lie before the time of the monitor,", time(), until);
+                         .require(std::abs(until) <= limits::largest_time, ErrorCode::out_of_range, {"until"},
+                                  "must lie within +-", limits::largest_time, until)
+                         .require(until >= time() || !engine_->has_started(), ErrorCode::time_backwards,
+                                  {"until"}, "must not lie before the time of the monitor,", time(), until);
   if (check.error()) return *check.error();
   return engine_->advance(until, poll);
 }

@@ -12,6 +12,8 @@ namespace kinesphere {
 
 Result<void> Monitor::Engine::report(TrackId id, const TrackReport& report) {
   if (Result<void> checked = check(id, report, "report"); !checked) return checked;
+  if (!has_started_) time_ = report.stamp;
+  has_started_ = true;
   take(id, report, Placing::now);
   judge_open_pairs(*tracks_.find(id));
   return {};
@@ -27,20 +29,23 @@ Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const
       .within(subject("position"), report.state.position, definition_.tolerance * limits::largest_length)
       .within(subject("velocity"), report.state.velocity, limits::largest_speed)
       .not_negative(subject("stamp_error"), report.stamp_error)
+      .require(report.stamp_error <= limits::largest_time, ErrorCode::out_of_range, subject("stamp_error"),
+               "must be at most", limits::largest_time, report.stamp_error)
       .require(report.track_class < definition_.classes.size(), ErrorCode::out_of_range,
                subject("track_class"), "must be less than the number of classes", definition_.classes.size(),
                report.track_class);
-  const auto spread = [&](std::string_view field, const Spread& value, bool may_be_infinite) {
+  const auto spread = [&](std::string_view field, const Spread& value, double most, bool may_be_infinite) {
     for (const double length : {value.horizontal(), value.vertical(), value.total()}) {
       if (may_be_infinite && length == infinity) continue;
-      check.not_negative(subject(field), length);
+      check.not_negative(subject(field), length)
+          .require(length <= most, ErrorCode::out_of_range, subject(field), "must be at most", most, length);
     }
   };
-  spread("position_error", report.position_error, false);
-  spread("velocity_error", report.velocity_error, true);
+  spread("position_error", report.position_error, limits::largest_size, false);
+  spread("velocity_error", report.velocity_error, limits::largest_speed, true);
   if (report.plan) {
     check.within(subject("plan acceleration"), report.plan->acceleration, limits::largest_acceleration);
-    spread("plan acceleration_limit", report.plan->acceleration_limit, false);
+    spread("plan acceleration_limit", report.plan->acceleration_limit, limits::largest_acceleration, false);
     check.require(report.plan->valid_until > report.stamp, ErrorCode::out_of_range,
                   subject("plan valid_until"), "must be later than the stamp", report.plan->valid_until);
   }
@@ -75,6 +80,7 @@ void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placin
     }
   }
   const Knowledge::Learned learned = track.knowledge.learn(flat, promise, time_, power_of_two(tier_));
+  quiet_windows_ = 0;
   if (learned.outcome == Knowledge::Outcome::repeated) {
     ++counters_.repeated;
     return;
@@ -101,20 +107,21 @@ void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placin
           .first = id,
           .position_excess = learned.excess.position,
           .velocity_excess = learned.excess.velocity});
-    for (const std::uint32_t other : track.open)
-      for (LevelState& state : open_.find(number, other)->levels) state.until = -infinity;
-    if (placing == Placing::now) place(number);
-    return;
   }
   if (learned.outcome == Knowledge::Outcome::resolves)
     tell({.time = time_, .kind = MonitorEventKind::resolved, .first = id});
+  if (!learned.ends_certainty) return;
+  for (const std::uint32_t other : track.open)
+    for (LevelState& state : open_.find(number, other)->levels) state.until = -infinity;
+  if (placing == Placing::now) place(number);
 }
 
 /// A track is new, or may be elsewhere than was thought: its hypotheses get capsules from now on, and the
 /// pairs that they find are looked at.
 void Monitor::Engine::place(std::uint32_t number) {
   KnownTrack& track = tracks_[number];
-  const Window now = window();
+  window_ = window();
+  const Window& now = window_;
   for (const Hypothesis& hypothesis : track.knowledge.hypotheses()) {
     if ((track.placed & 1u << hypothesis.slot) != 0) continue;
     track.placed |= 1u << hypothesis.slot;

@@ -5,6 +5,7 @@
 
 #include "archive/archive.hpp"
 #include "archive/envelope.hpp"
+#include "kinesphere/limits.hpp"
 #include "monitor/check_monitor.hpp"
 #include "monitor/engine.hpp"
 #include "monitor/fields.hpp"
@@ -15,7 +16,7 @@ namespace {
 /// Raise the version when the fields change, or when the engine would go on from the same fields in another
 /// way.
 constexpr Envelope monitor_envelope{{'K', 'i', 'n', 'M', 'o', 'n', '\r', '\n'},
-                                    4,
+                                    5,
                                     "monitor",
                                     "Monitor::restore",
                                     "snapshot",
@@ -25,7 +26,8 @@ constexpr Envelope monitor_envelope{{'K', 'i', 'n', 'M', 'o', 'n', '\r', '\n'},
 
 template <class Self, class Archive>
 void Monitor::Engine::transfer(Self& self, Archive& archive) {
-  archive(self.time_, self.counters_, self.tracks_, self.windows_);
+  archive(self.time_, self.has_started_, self.window_, self.quiet_windows_, self.counters_, self.tracks_,
+          self.windows_);
   std::vector<SavedRecord> records;
   std::vector<MonitorEvent> events;
   std::uint32_t last_version = 0;
@@ -79,7 +81,9 @@ Result<std::unique_ptr<Monitor::Engine>> Monitor::Engine::restore(std::span<cons
 }
 
 const char* Monitor::Engine::contradiction() const {
-  if (!std::isfinite(time_)) return "time";
+  if (!std::isfinite(time_) || std::abs(time_) > limits::largest_time) return "time";
+  if (!has_started_ && (time_ != 0.0 || definition_.start_time || tracks_.size() > 0)) return "time";
+  if (std::isnan(window_.end) || (window_.end > time_ && !window_.is_sound())) return "windows";
   if (!windows_.is_sound(std::size_t{tracks_.numbers()} * Knowledge::slots)) return "windows";
   const auto is_present = [this](std::uint32_t number) {
     return number < tracks_.numbers() && tracks_[number].present;

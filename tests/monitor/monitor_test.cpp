@@ -169,7 +169,9 @@ TEST(Monitor, TakesReportsFromThePastInAnyOrder) {
 }
 
 TEST(Monitor, TakesReportsFromTheFutureForWhatTheySayOfThePresent) {
-  Monitor monitor = made(definition(2.0));
+  MonitorDefinition from_zero = definition(2.0);
+  from_zero.start_time = 0.0;
+  Monitor monitor = made(from_zero);
   monitor.report(1, at(3.0, {0, 0, 0})).value();
   monitor.report(2, at(3.0, {40, 0, 0})).value();
   // At time 0 each may be 9 away from where it will be at 3.
@@ -289,10 +291,11 @@ TEST(Monitor, APlanHoldsUntilItEnds) {
   auto events = all(monitor.events(3.9));
   EXPECT_TRUE(events.empty());
   EXPECT_EQ(monitor.answer(1, 2)->until, 4.0);
-  // Then the class's limit counts, from the report on: 60 - 2 1/2 10 16 < 10.
-  events = all(monitor.events(4.1));
+  // Then the class's limit counts, from the end of the plan on: 60 - 2 1/2 10 5 = 10.
+  EXPECT_TRUE(all(monitor.events(4.1)).empty());
+  events = all(monitor.events(7.0));
   ASSERT_EQ(events.size(), 1u);
-  EXPECT_EQ(events[0].time, 4.0);
+  EXPECT_NEAR(events[0].time, 4.0 + std::sqrt(5.0), 2e-3);
   EXPECT_EQ(events[0].verdict, Verdict::undecided);
 }
 

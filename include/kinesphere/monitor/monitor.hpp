@@ -50,21 +50,28 @@ struct PairShare {
 
 struct MonitorDefinition {
   int dimensions = 3;  ///< 2 or 3; in two dimensions z is ignored
-  double start_time = 0.0;
+  /// The time at which the monitor starts. Without one it starts at the stamp of the first report or at the
+  /// first time that it is advanced to, whichever comes first; until then time() is 0. Give one where stamps
+  /// may be ahead of the times that you advance to.
+  std::optional<double> start_time{};
   /// What promises there are: TrackReport::track_class is a place in this list.
   std::vector<TrackClass> classes{};
   /// Pairs of classes that are not named here are not watched.
   std::vector<SeparationRule> separations{};
-  /// Within a separation means: no farther outside of it than this (length, > 0). No coordinate may be larger
-  /// than 2^41 times the tolerance. Who polls (below) should let it be at least twice the position errors of
-  /// both tracks: only then can a report always decide.
+  /// Within a separation means: no farther outside of it than this (length, > 0); of a cylinder, in the plane
+  /// and in height each. No coordinate may be larger than 2^41 times the tolerance. Who polls (below) should
+  /// let it be at least twice the position errors of both tracks: only then can a report always decide. (For
+  /// an ellipsoid that is taller than wide: so many times that, as it is taller.)
   double tolerance = 1e-3;
   /// An answer that can become certain by the passing of time alone does so at most this late (time, > 0),
   /// and one that could stay certain for less than this does not become so. Answers never are certain too
-  /// long.
+  /// long. In [limits::least_time, limits::largest_time]; where numbers of the size of time() are less exact,
+  /// 2^-50 of time() counts instead.
   double time_resolution = 1e-3;
   /// How far ahead pairs are looked for (time, > 0): about the time between two reports of a track. It
-  /// matters for speed, and for needed(), alone; it is rounded down to a power of two.
+  /// matters for speed, and for needed(), alone; it is rounded down to a power of two. In
+  /// [limits::least_time, limits::largest_time]; while nothing is reported, pairs are looked for farther and
+  /// farther ahead.
   double window = 1.0;
   /// A track of which nothing is heard for so long is told of, and for so long leaves (time, > 0).
   double silence_after = std::numeric_limits<double>::infinity();
@@ -173,8 +180,8 @@ class Monitor {
   Result<void> remove(TrackId id);
 
   /// Goes on to the next event, at most to time `until`. Returns it, with time() at its time, or nothing,
-  /// with time() == until. Events of one time come in the order of their fields. Errors: time_backwards or
-  /// not_finite for `until`.
+  /// with time() == until. Events of one time come in the order of their fields. Errors: time_backwards,
+  /// not_finite, or out_of_range beyond limits::largest_time for `until`.
   Result<std::optional<MonitorEvent>> advance(double until);
   /// The same, and asks for reports: of a pair that is about to turn undecided for that of one of the two
   /// and, if that is not enough, of the other. So with a tolerance as MonitorDefinition has it nothing stays
@@ -196,7 +203,8 @@ class Monitor {
   Result<TrackView> track(TrackId id) const;
 
   /// What is certain of two tracks. Errors: unknown_body; out_of_range for the same track twice, a level that
-  /// the two do not have, or a pair of another share.
+  /// the two do not have, or a pair of another share. Cost: that of a look at the pair; O(pairs that are
+  /// near) where the latest reports alone leave open what was certified before.
   Result<PairAnswer> answer(TrackId first, TrackId second, std::uint32_t level = 0) const;
   /// Pairs that are not certainly apart, by their ids and levels.
   std::vector<OpenPair> open_pairs() const;

@@ -46,6 +46,11 @@ class Spread {
   friend Spread operator*(const Spread& a, double factor) {
     return of(a.horizontal_ * factor, a.vertical_ * factor, a.total_ * factor);
   }
+  /// The larger of each.
+  friend Spread largest(const Spread& a, const Spread& b) {
+    return of(std::max(a.horizontal_, b.horizontal_), std::max(a.vertical_, b.vertical_),
+              std::max(a.total_, b.total_));
+  }
   /// The lesser of each.
   friend Spread least(const Spread& a, const Spread& b) {
     return of(std::min(a.horizontal_, b.horizontal_), std::min(a.vertical_, b.vertical_),
@@ -101,9 +106,13 @@ struct TrackReport {
   /// The stamp is within this of the true time.
   double stamp_error = 0.0;
 
-  /// What is known of the motion after this report alone, in place of the promise of its class: until
-  /// `valid_until` the acceleration differs from the planned one by at most the limit. A satellite's gravity,
-  /// a filed manoeuvre.
+  /// A plan is in force from the report's stamp until `valid_until`, whatever reports follow. While it is,
+  /// the acceleration differs from the plan's by at most the plan's limit, and that takes the place of the
+  /// class's planned_acceleration and acceleration_limit; the class's largest_speed holds all the time. Of
+  /// several plans in force at a time each holds. Examples: a satellite's gravity, a filed manoeuvre. Cost: a
+  /// plan within the class's promise adds to what is certain and ends nothing; one beyond it ends what was
+  /// certain of the track's pairs, which the monitor then decides anew. What was told before such a plan came
+  /// in rests upon the class's promise alone.
   struct Plan {
     Vec3 acceleration{};
     Spread acceleration_limit{};

@@ -1,0 +1,54 @@
+// What bounds the accelerations of a track: the promise of its class and, in its place, plans.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "bound/rounding.hpp"
+#include "kinesphere/monitor/report.hpp"
+#include "number/infinity.hpp"
+
+namespace kinesphere {
+
+/// The plans of a track that go beyond the promise of its class, summed up: until `end`, accelerations differ
+/// from the class's planned acceleration by at most `limit`, whichever plan is in force or none. From then on
+/// they differ by at most the class's limit.
+struct PlansBeyondClass {
+  Spread limit{};
+  double end = -infinity;  ///< there is no such plan
+
+  /// Of the plan of a report, if it has one.
+  static PlansBeyondClass of(const TrackReport& report, const TrackClass& promise) {
+    if (!report.plan) return {};
+    const Vec3 turn = report.plan->acceleration - promise.planned_acceleration;
+    const Spread limit =
+        (Spread::cylinder(std::hypot(turn.x, turn.y), std::abs(turn.z)) + report.plan->acceleration_limit) *
+        (1.0 + rounding::margin);
+    if (turn == Vec3{} && is_within(report.plan->acceleration_limit, promise.acceleration_limit)) return {};
+    if (is_within(limit, promise.acceleration_limit)) return {};
+    return {largest(limit, promise.acceleration_limit), report.plan->valid_until};
+  }
+
+  /// The largest difference from the class's planned acceleration at any time from `time` on.
+  const Spread& limit_from(double time, const TrackClass& promise) const {
+    return time < end ? limit : promise.acceleration_limit;
+  }
+  /// What holds under the others' plans holds under these.
+  bool include(const PlansBeyondClass& other) const {
+    return other.end == -infinity || (other.end <= end && is_within(other.limit, limit));
+  }
+  friend PlansBeyondClass joined(const PlansBeyondClass& a, const PlansBeyondClass& b) {
+    return {largest(a.limit, b.limit), std::max(a.end, b.end)};
+  }
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    auto& [limit, end] = self;
+    archive(limit, end);
+  }
+
+ private:
+  static bool is_within(const Spread& one, const Spread& other) { return least(one, other) == one; }
+};
+
+}  // namespace kinesphere
