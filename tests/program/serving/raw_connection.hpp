@@ -7,6 +7,8 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdint>
 #include <cstdlib>
 #include <string>
 #include <string_view>
@@ -43,6 +45,7 @@ class RawConnection {
     std::size_t sent = 0;
     while (sent < bytes.size()) {
       const ssize_t count = ::send(socket_, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
+      if (count < 0 && errno == EINTR) continue;
       if (count <= 0) break;
       sent += static_cast<std::size_t>(count);
     }
@@ -54,8 +57,12 @@ class RawConnection {
   std::string response() const {
     std::string text;
     char piece[1 << 16];
-    for (ssize_t count; (count = ::recv(socket_, piece, sizeof piece, 0)) > 0;)
+    while (true) {
+      const ssize_t count = ::recv(socket_, piece, sizeof piece, 0);
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) break;
       text.append(piece, static_cast<std::size_t>(count));
+    }
     return text;
   }
 
