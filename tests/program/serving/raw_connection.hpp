@@ -33,7 +33,12 @@ class RawConnection {
     address.sin_family = AF_INET;
     address.sin_port = htons(static_cast<std::uint16_t>(port));
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    is_open_ = ::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+    // A signal interrupts it (libFuzzer's alarm, for one); another call then waits for the same connection.
+    int result;
+    do {
+      result = ::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+    } while (result != 0 && errno == EINTR);
+    is_open_ = result == 0 || errno == EISCONN;
   }
   ~RawConnection() { ::close(socket_); }
   RawConnection(const RawConnection&) = delete;
