@@ -308,6 +308,32 @@ TEST_F(LocalServerTest, SlowSendersLockNobodyOut) {
   drip.join();
 }
 
+/// A connection is closed for a new one only when 64 newer ones are open.
+TEST_F(LocalServerTest, ClosesTheOldestFirst) {
+  std::vector<std::unique_ptr<RawConnection>> slow;
+  const auto open = [&](int count) {
+    for (int k = 0; k < count; ++k) {
+      slow.push_back(std::make_unique<RawConnection>(port_));
+      slow.back()->send("GET /");
+    }
+  };
+  open(64);
+  const RawConnection patient(port_);
+  patient.send("GET /fixed");
+  open(40);
+  expect_open_to_others();
+  patient.send(" HTTP/1.1\r\n" + host() + "\r\n");
+  EXPECT_EQ(body_of(patient.response()), fixed);
+}
+
+/// Clients that send a body before they read get their response all the same.
+TEST_F(LocalServerTest, LetsClientsFinishABodyThatItDiscards) {
+  const RawConnection connection(port_);
+  const std::string bytes = request("POST /fixed", "Content-Length: 300000\r\n") + std::string(300'000, 'x');
+  EXPECT_EQ(connection.send(bytes), bytes.size());
+  EXPECT_EQ(status_of(connection.response()), 405);
+}
+
 /// Clients that ask for much and read nothing hold up neither others nor the end of the server.
 TEST_F(LocalServerTest, SlowReadersLockNobodyOut) {
   std::vector<std::unique_ptr<RawConnection>> slow;
