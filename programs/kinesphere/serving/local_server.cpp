@@ -239,8 +239,8 @@ class LocalServer::Serving {
                        type.empty() ? "" : fmt::format("Content-Type: {}\r\n", type), length);
   }
 
-  const std::string option_;
-  const std::string fields_;  ///< of every response
+  std::string option_;
+  std::string fields_;  ///< of every response
   ServedContent content_;
   std::string address_;
   int port_ = 0;
