@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
-# Lets both fuzzers look for failures, each for so many seconds (default 60), starting from their corpora, and adds
+# Lets each fuzzer look for failures, each for so many seconds (default 60), starting from their corpora, and adds
 # to those what reaches code that they did not reach. Fails, and keeps the input in build/fuzz/, when one is found.
 # Usage: fuzz.sh [seconds]
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 seconds=${1:-60}
+# Each target, and the longest input that it is given, in bytes.
+declare -A longest=([operations]=2404 [snapshot]=1024 [http]=20000)
 cmake --preset fuzz >/dev/null
-cmake --build --preset fuzz --target fuzz_operations fuzz_snapshot
+cmake --build --preset fuzz --target "${!longest[@]/#/fuzz_}"
 
-declare -A longest=([operations]=2404 [snapshot]=1024)
-for target in operations snapshot; do
+for target in "${!longest[@]}"; do
   found=build/fuzz/found/$target
   mkdir -p "$found"
   echo "fuzz_$target: $seconds seconds"

@@ -37,10 +37,10 @@ std::string viewer_folder(const std::string& chosen) {
 
 /// `opened` must live as long as the server.
 void serve(LocalServer& server, const OpenedFiles& opened) {
-  server.serve("/opened/files\\.json", "application/json", [&opened] { return opened.index(); });
+  server.serve("/opened/files.json", "application/json", [&opened] { return opened.index(); });
   if (opened.recording)
     server.serve("/opened/recording", "application/octet-stream", opened.recording->content);
-  if (opened.tracks) server.serve("/opened/tracks\\.json", "application/json", opened.tracks->content);
+  if (opened.tracks) server.serve("/opened/tracks.json", "application/json", opened.tracks->content);
 }
 
 void open_browser(const std::string& address) {

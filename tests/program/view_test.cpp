@@ -174,6 +174,17 @@ TEST_F(View, ServesTheFilesOfItsFolderAlone) {
   EXPECT_EQ(served.stop(), 0);
 }
 
+/// Ranges that go beyond a file or a table bring nothing else.
+TEST_F(View, ServesWholeContentsWhateverRangeIsAskedFor) {
+  const Served served(viewer(), write("walk.csv", walk));
+  for (const char* const address : {"/", "/opened/tracks.json", "/opened/files.json"}) {
+    const std::string whole = served.client().Get(address)->body;
+    for (const char* const range :
+         {"bytes=1000-4000", "bytes=0-4000", "bytes=-4000", "bytes=3-1", "bytes=0-1,9-4000"})
+      EXPECT_EQ(served.client().Get(address, {{"Range", range}})->body, whole) << address << range;
+  }
+}
+
 TEST_F(View, TellsThatNoFileIsOpen) {
   const Served served(viewer());
   EXPECT_TRUE(served.address().ends_with("/")) << served.address();

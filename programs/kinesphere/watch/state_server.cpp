@@ -17,28 +17,9 @@ const char* const map_policy =
 
 }  // namespace
 
-/// Holds off changes, and comes first before any more of them.
-class StateServer::Reading {
- public:
-  explicit Reading(StateServer& server) : server_(server) {
-    ++server_.waiting_;
-    server_.mutex_.lock();
-  }
-  ~Reading() {
-    --server_.waiting_;
-    server_.mutex_.unlock();
-    server_.changed_.notify_one();
-  }
-  Reading(const Reading&) = delete;
-  Reading& operator=(const Reading&) = delete;
-
- private:
-  StateServer& server_;
-};
-
 StateServer::StateServer(const Watcher& watcher, int port)
     : watcher_(watcher), server_("--serve", map_policy) {
-  serve_state("/state\\.json", "application/json", watch_state_json);
+  serve_state("/state.json", "application/json", watch_state_json);
   serve_state("/metrics", "text/plain; version=0.0.4", watch_metrics);
   serve_map();
   server_.start(port);
@@ -46,13 +27,21 @@ StateServer::StateServer(const Watcher& watcher, int port)
 
 void StateServer::lock() {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return waiting_ == 0; });
-  lock.release();
+  const std::uint64_t ticket = next_ticket_++;
+  changed_.wait(lock, [&] { return ticket == served_ticket_; });
+}
+
+void StateServer::unlock() {
+  {
+    const std::lock_guard lock(mutex_);
+    ++served_ticket_;
+  }
+  changed_.notify_all();
 }
 
 void StateServer::serve_state(const char* address, const char* type, std::string (*text)(const Watcher&)) {
   server_.serve(address, type, [this, text] {
-    const Reading reading(*this);
+    const std::lock_guard guard(*this);
     return text(watcher_);
   });
 }

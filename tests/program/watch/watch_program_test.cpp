@@ -13,6 +13,8 @@
 
 #ifdef KINESPHERE_WITH_HTTPLIB
 #include <httplib.h>
+
+#include "program/serving/raw_connection.hpp"
 #endif
 
 namespace kinesphere::program::watch_program_test {
@@ -474,6 +476,62 @@ TEST_F(WatchProgram, ServesItsState) {
   expect_wrong_input("watch --separation sphere:30 --serve " + std::to_string(port) + promises,
                      {"--serve", std::to_string(port)}, "echo '{\"id\": 1, \"stamp\": 1}' | ");
   live.signal(SIGTERM);
+  EXPECT_EQ(live.wait(), 0);
+}
+
+/// Clients that want the watch no good see no memory of it, and hold up neither others nor its end.
+TEST_F(WatchProgram, ServesHostileClientsNothingElse) {
+  LiveWatch live("--format jsonl --separation sphere:30 --serve 0" + promises, path("err"));
+  const int port = live.port();
+  const std::string host = "Host: 127.0.0.1:" + std::to_string(port) + "\r\n";
+  const auto response = [&](const std::string& head) {
+    const RawConnection connection(port, 5);
+    connection.send(head);
+    return connection.response();
+  };
+  const std::string metrics = body_of(response("GET /metrics HTTP/1.1\r\n" + host + "\r\n"));
+  EXPECT_TRUE(metrics.starts_with("# "));
+  for (const char* const range : {"60000-120000", "-99999", "0-0,5-99999", "99999-"})
+    EXPECT_EQ(body_of(response("GET /metrics HTTP/1.1\r\n" + host + "Range: bytes=" + range + "\r\n\r\n")),
+              metrics);
+  EXPECT_EQ(
+      status_of(response("POST /state.json HTTP/1.1\r\n" + host + "Content-Length: 3000000000\r\n\r\n")),
+      405);
+  std::vector<std::unique_ptr<RawConnection>> slow;
+  for (int k = 0; k < 80; ++k) {
+    slow.push_back(std::make_unique<RawConnection>(port, 1));
+    slow.back()->send("GET /sta");
+  }
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(body_of(response("GET /metrics HTTP/1.1\r\n" + host + "\r\n")), metrics);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+  const auto asked = std::chrono::steady_clock::now();
+  live.signal(SIGTERM);
+  live.wait();
+  EXPECT_LT(std::chrono::steady_clock::now() - asked, std::chrono::seconds(2));
+}
+
+/// Clients that ask without a pause do not hold up the stream.
+TEST_F(WatchProgram, GoesOnWhileManyAsk) {
+  LiveWatch live("--format jsonl --separation sphere:30 --serve 0" + promises, path("err"));
+  const int port = live.port();
+  const std::string head = "GET /state.json HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) + "\r\n\r\n";
+  std::atomic<bool> is_over = false;
+  std::vector<std::thread> clients;
+  for (int k = 0; k < 4; ++k)
+    clients.emplace_back([&] {
+      while (!is_over) {
+        const RawConnection connection(port, 5);
+        connection.send(head);
+        connection.response();
+      }
+    });
+  live.write(head_on(9));
+  EXPECT_EQ(Json::parse(live.line())["verdict"], "undecided");
+  EXPECT_EQ(Json::parse(live.line())["verdict"], "within");
+  is_over = true;
+  for (std::thread& client : clients) client.join();
+  live.end_input();
   EXPECT_EQ(live.wait(), 0);
 }
 
