@@ -47,7 +47,7 @@ Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::u
   answer.since = state.since;
   answer.until =
       record == nullptr || now.verdict == state.verdict ? std::max(now.until, state.until) : state.until;
-  if (record == nullptr && now.verdict == Verdict::undecided)
+  if (record == nullptr && now.verdict != Verdict::apart)
     if (const auto until = certified_until(a, b)) {
       answer.verdict = Verdict::apart;
       answer.until = *until;

@@ -14,6 +14,17 @@ Space space_of(const MonitorDefinition& definition) {
   return Space(WorldDefinition{.dimensions = definition.dimensions});
 }
 
+std::vector<TrackClass> promises_of(const MonitorDefinition& definition) {
+  std::vector<TrackClass> promises = definition.classes;
+  if (definition.dimensions == 2)
+    for (TrackClass& promise : promises) {
+      promise.acceleration_limit = promise.acceleration_limit.flat();
+      promise.planned_acceleration.z = 0.0;
+      promise.largest_speed = promise.largest_speed.flat();
+    }
+  return promises;
+}
+
 auto order_of(const MonitorEvent& event) {
   return std::tuple(event.kind, event.first, event.second, event.level);
 }
@@ -22,6 +33,7 @@ auto order_of(const MonitorEvent& event) {
 
 Monitor::Engine::Engine(const MonitorDefinition& definition)
     : definition_(definition),
+      promises_(promises_of(definition)),
       levels_(definition),
       tier_(exponent_of(definition.window)),
       time_(definition.start_time.value_or(0.0)),

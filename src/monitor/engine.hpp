@@ -110,6 +110,7 @@ class Monitor::Engine {
   double resolution() const { return std::max(definition_.time_resolution, std::abs(time_) * 0x1p-50); }
 
   MonitorDefinition definition_;
+  std::vector<TrackClass> promises_;  ///< of the classes, flat in two dimensions
   Levels levels_;
   int tier_;  ///< of windows while reports come
   double time_;

@@ -27,10 +27,7 @@ TrackReport with_exact_stamp(TrackReport report, const TrackClass& promise, cons
   // A path that turns goes no farther than this, and no farther than the largest speed takes it.
   const Spread way = least((speed + turn * (0.5 * error)) * error, promise.largest_speed * error);
   report.position_error = report.position_error + way * (1.0 + rounding::margin);
-  // The plan may begin so much after the stamp; until then the acceleration may differ from the plan's by
-  // twice what it may be.
-  const double times = report.plan ? 3.0 : 1.0;
-  report.velocity_error = report.velocity_error + turn * (times * error * (1.0 + rounding::margin));
+  report.velocity_error = report.velocity_error + turn * (error * (1.0 + rounding::margin));
   report.stamp_error = 0.0;
   return report;
 }

@@ -50,7 +50,7 @@ Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const
                   subject("plan valid_until"), "must be later than the stamp", report.plan->valid_until);
   }
   if (check.error()) return *check.error();
-  const TrackClass& promise = definition_.classes[report.track_class];
+  const TrackClass& promise = promises_[report.track_class];
   check.require(
       std::isfinite(promise.largest_speed.total()) || (std::isfinite(report.velocity_error.total())),
       ErrorCode::out_of_range, subject("velocity_error"),
@@ -64,7 +64,7 @@ Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const
 
 /// Whoever calls it judges the open pairs of the track afterwards: of several reports, once all are taken.
 void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placing) {
-  const TrackClass& promise = definition_.classes[report.track_class];
+  const TrackClass& promise = promises_[report.track_class];
   const auto known = tracks_.find(id);
   const std::uint32_t number = known ? *known : tracks_.add(id, report.track_class);
   KnownTrack& track = tracks_[number];

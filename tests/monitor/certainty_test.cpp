@@ -110,22 +110,23 @@ TEST(MonitorCertainty, ReportsFromAfterNowCountInFullFromTheirStamp) {
 }
 
 TEST(MonitorCertainty, AnswersKeepWhatWasCertifiedBefore) {
-  // Apart until 2 1/2 2 t^2 = 90, or until the window ends.
+  // Apart until 2 1/2 2 t^2 = 10.
   Monitor monitor = Monitor::create({.classes = {{.acceleration_limit = 2.0}},
-                                     .separations = {{0, 0, {Separation::sphere(10.0)}}},
+                                     .separations = {{0, 0, {Separation::sphere(20.0)}}},
                                      .window = 4.0})
                         .value();
   monitor.report(1, {.stamp = 0.5}).value();
   monitor.report(2, {.stamp = 0.5, .state = {{30, 0, 0}, {}}}).value();
   EXPECT_TRUE(monitor.advance(1.0).value() == std::nullopt);
-  // By itself this report leaves open what the monitor has called apart.
-  TrackReport rough{.stamp = 1.0, .position_error = 25.0};
+  // By itself this report, which soon will say more than the first one, leaves open what was called apart.
+  TrackReport rough{.stamp = 1.0, .position_error = 15.0};
   rough.plan = TrackReport::Plan{.acceleration = {}, .acceleration_limit = 0.0};
   monitor.report(1, rough).value();
   EXPECT_TRUE(monitor.advance(1.0).value() == std::nullopt);
   const PairAnswer answer = monitor.answer(1, 2).value();
+  EXPECT_LT(answer.lower, 20.0);
   EXPECT_EQ(answer.verdict, Verdict::apart);
-  EXPECT_GT(answer.until, 1.5);
+  EXPECT_NEAR(answer.until, 0.5 + std::sqrt(5.0), 1e-6);
   const auto event = monitor.advance(10.0).value();
   ASSERT_TRUE(event.has_value());
   EXPECT_GE(event->time, answer.until);

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "stream/any_monitor.hpp"
+#include "stream/any_reports.hpp"
 #include "stream/any_snapshot.hpp"
 #include "stream/player.hpp"
 
@@ -44,6 +46,25 @@ TEST(Corpus, OfSnapshotsIsRefusedOrHarmless) {
   const auto files = corpus("snapshot");
   EXPECT_GT(files.size(), 10u);
   for (const auto& file : files) EXPECT_NO_THROW(try_as_snapshot(bytes_of(file))) << file;
+}
+
+TEST(Corpus, OfMonitorsIsNeverTakenWrongly) {
+  const auto files = corpus("monitor");
+  EXPECT_GT(files.size(), 10u);
+  std::size_t certain = 0;
+  for (const auto& file : files) {
+    const Bytes bytes = bytes_of(file);
+    ASSERT_FALSE(bytes.empty()) << file;
+    const auto rest = std::span(bytes).subspan(1);
+    if (bytes[0] % 2 == 1) {
+      EXPECT_NO_THROW(any_monitor::try_as_monitor(rest)) << file;
+      continue;
+    }
+    const watched_sky::WatchedSky watched = watched_sky::watch_sky(rest);
+    EXPECT_FALSE(watched.failure) << file << ": " << *watched.failure;
+    certain += watched.certain;
+  }
+  EXPECT_GT(certain, 1000u);
 }
 
 }  // namespace

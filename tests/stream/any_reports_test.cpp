@@ -1,0 +1,57 @@
+// Random skies, as bytes choose them, and damaged snapshots of monitors.
+#include "stream/any_reports.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <vector>
+
+#include "kinesphere/random.hpp"
+#include "stream/any_monitor.hpp"
+
+namespace kinesphere::any_reports_test {
+namespace {
+
+std::vector<std::uint8_t> random_bytes(std::uint64_t seed, std::size_t size) {
+  Random random(seed);
+  std::vector<std::uint8_t> bytes(size);
+  for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random.bits() >> 11);
+  return bytes;
+}
+
+/// How many, if not as many as usually: KINESPHERE_SKIES.
+std::uint64_t skies() {
+  const char* const set = std::getenv("KINESPHERE_SKIES");
+  return set != nullptr ? std::strtoull(set, nullptr, 10) : 200;
+}
+
+TEST(AnyReports, OfRandomSkiesAreNeverTakenWrongly) {
+  watched_sky::WatchedSky all;
+  for (std::uint64_t seed = 1; seed <= skies(); ++seed) {
+    const watched_sky::WatchedSky watched = watched_sky::watch_sky(random_bytes(seed, 4000));
+    ASSERT_FALSE(watched.failure) << "seed " << seed << ": " << *watched.failure;
+    all.reports += watched.reports;
+    all.events += watched.events;
+    all.certain += watched.certain;
+    all.promised += watched.promised;
+    all.plans += watched.plans;
+    all.wrong += watched.wrong;
+  }
+  std::printf("%zu reports, %zu events, %zu certain, %zu promised, %zu plans, %zu wrong\n", all.reports,
+              all.events, all.certain, all.promised, all.plans, all.wrong);
+  EXPECT_GT(all.events, 10 * skies());
+  EXPECT_GT(all.certain, 1000 * skies());
+  EXPECT_GT(all.promised, 100 * skies());
+  EXPECT_GT(all.plans, skies());
+  EXPECT_GT(all.wrong, skies());
+}
+
+TEST(AnyReports, DamagedSnapshotsOfMonitorsAreRefusedOrHarmless) {
+  for (std::uint64_t seed = 1; seed <= 10 * skies(); ++seed) {
+    const std::vector<std::uint8_t> edits = random_bytes(seed, 1 + 4 * (1 + seed % 3));
+    EXPECT_NO_THROW(any_monitor::try_as_monitor(edits)) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace kinesphere::any_reports_test
