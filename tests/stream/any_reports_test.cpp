@@ -22,7 +22,7 @@ std::vector<std::uint8_t> random_bytes(std::uint64_t seed, std::size_t size) {
 /// How many, if not as many as usually: KINESPHERE_SKIES.
 std::uint64_t skies() {
   const char* const set = std::getenv("KINESPHERE_SKIES");
-  return set != nullptr ? std::strtoull(set, nullptr, 10) : 200;
+  return set != nullptr ? std::strtoull(set, nullptr, 10) : 100;
 }
 
 TEST(AnyReports, OfRandomSkiesAreNeverTakenWrongly) {
