@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Lets both fuzzers look for failures, each for so many seconds (default 60), starting from their corpora, and adds
+# Lets the fuzzers look for failures, each for so many seconds (default 60), starting from their corpora, and adds
 # to those what reaches code that they did not reach. Fails, and keeps the input in build/fuzz/, when one is found.
 # Usage: fuzz.sh [seconds]
 set -euo pipefail
@@ -7,10 +7,10 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 seconds=${1:-60}
 cmake --preset fuzz >/dev/null
-cmake --build --preset fuzz --target fuzz_operations fuzz_snapshot
+cmake --build --preset fuzz --target fuzz_operations fuzz_snapshot fuzz_mended
 
-declare -A longest=([operations]=2404 [snapshot]=1024)
-for target in operations snapshot; do
+declare -A longest=([operations]=2404 [snapshot]=1024 [mended]=121)
+for target in operations snapshot mended; do
   found=build/fuzz/found/$target
   mkdir -p "$found"
   echo "fuzz_$target: $seconds seconds"

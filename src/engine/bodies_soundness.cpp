@@ -29,7 +29,7 @@ bool is_sound(const Bound& bound, const Vec3& place, double now, const WorldDefi
   as_body.velocity_error = bound.growth_speed;
   as_body.position = place;
   as_body.velocity = bound.velocity;
-  return std::isfinite(bound.time) && bound.time <= now && check_body(as_body, world, "restore");
+  return bound.time >= -limits::largest_time && bound.time <= now && check_body(as_body, world, "restore");
 }
 
 /// To the bit.
@@ -124,7 +124,7 @@ bool Bodies::is_sound_fixed(std::uint32_t number, double now) const {
   const BodyDefinition made = body_of(fixed_definition(*this, id_of(number)));
   return same(definition_of(number), made) &&
          same(body.bound, bound_of(made, {made.position, {}}, body.bound.time)) && body.bound.time <= now &&
-         std::isfinite(body.bound.time) && !body.settled && body.change_number == Body::none &&
+         body.bound.time >= -limits::largest_time && !body.settled && body.change_number == Body::none &&
          !body.is_resting() && !(body.dirty && !body.enabled);
 }
 

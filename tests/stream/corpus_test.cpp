@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "stream/any_snapshot.hpp"
+#include "stream/mended.hpp"
 #include "stream/player.hpp"
 
 namespace kinesphere::stream::corpus_test {
@@ -44,6 +45,12 @@ TEST(Corpus, OfSnapshotsIsRefusedOrHarmless) {
   const auto files = corpus("snapshot");
   EXPECT_GT(files.size(), 10u);
   for (const auto& file : files) EXPECT_NO_THROW(try_as_snapshot(bytes_of(file))) << file;
+}
+
+TEST(Corpus, OfMendedDamageIsRefusedOrHarmless) {
+  const auto files = corpus("mended");
+  EXPECT_GT(files.size(), 10u);
+  for (const auto& file : files) EXPECT_NO_THROW(try_mended(bytes_of(file))) << file;
 }
 
 }  // namespace
