@@ -79,8 +79,8 @@ Change& Bodies::change_of(std::uint32_t number) {
 
 void Bodies::bring_home(std::uint32_t number, double now, double length) {
   Body& body = table_[number];
-  // The middle of a box is rounded and can lie on the other side of the border; the centre of a fixed ball was
-  // wrapped when the ball was added.
+  // The middle of a box is rounded and can lie on the other side of the border; the centre of a fixed ball
+  // was wrapped when the ball was added.
   if (body.is_fixed()) {
     homes[number] = {.middle = body.bound.position};
     return;

@@ -108,10 +108,29 @@ bool Bodies::is_sound(std::uint32_t number, double now) const {
       !kinesphere::is_sound(body.bound, *place, now, unbounded) ||
       (space_.repeats() && !homes[number].is_sound(space_)))
     return false;
+  if (!promises_are_sound(body, definition)) return false;
   if (!body.enabled) return !body.dirty;
+  // The radius and an error; only that of a disabled body is stale.
+  if (body.bound.radius < body.radius) return false;
   // Before time moves on there is a report.
-  if (body.change_number != Body::none && !body.dirty) return false;
-  return true;
+  return body.change_number == Body::none || (body.dirty && !body.fresh(now));
+}
+
+/// Promises that come into force later: of these, definition_of() tells one.
+bool Bodies::promises_are_sound(const Body& body, BodyDefinition definition) const {
+  const auto is_promise = [&](const MotionLimits& limits) {
+    return static_cast<bool>(
+        check_promise(with_motion_limits(definition, limits), no_body, definition_, "restore"));
+  };
+  const Change* change = changes.find(body);
+  const Rest* rest = rests.find(body);
+  if (change &&
+      !(is_promise(change->promise) &&
+        (!change->kicked_to || check_velocity(*change->kicked_to, no_body, definition_, "restore"))))
+    return false;
+  if (rest && !is_promise(rest->limits)) return false;
+  definition.position_error = body.position_error;
+  return is_promise(motion_limits_of(definition));
 }
 
 /// It must equal what its shape makes of it.

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -371,7 +372,8 @@ void use(World world) {
   }
   const auto saved = world.save();
   demand(static_cast<bool>(saved), "what was used cannot be saved");
-  demand(static_cast<bool>(World::restore(*saved)), "what was used is refused when it is saved");
+  const auto again = World::restore(*saved);
+  if (!again) throw std::logic_error("what was used is refused when it is saved: " + again.error().message);
 }
 
 void replay(const Content& recording) {
@@ -379,7 +381,7 @@ void replay(const Content& recording) {
   auto opened = Replay::open(recording, [](BodyId, BodyId) { return true; });
   if (!opened) {
     demand(opened.error().code == ErrorCode::bad_recording || opened.error().code == ErrorCode::bad_snapshot,
-            "a recording is refused with another error");
+           "a recording is refused with another error");
     return;
   }
   demand(static_cast<bool>(read), "a recording that can be replayed cannot be read");
