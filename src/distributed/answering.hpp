@@ -35,7 +35,9 @@ class RankAnswerer final : public Answerer {
       : respond_(respond), mover_(mover), definition_(definition) {}
 
   Result<Answer> answer(const Event& event) override;
-  void turn(const Event& event, const Answer& answer) override { kinesphere::turn(mover_, event, answer); }
+  Result<void> turn(const Event& event, const Answer& answer) override {
+    return kinesphere::turn(mover_, definition_, event, answer);
+  }
   Departure departure(BodyId body) override { return mover_.departure(body); }
   void depart(BodyId body, const Departure& departure) override { mover_.depart(body, departure); }
 

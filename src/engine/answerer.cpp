@@ -1,29 +1,41 @@
 #include "engine/answerer.hpp"
 
+#include <optional>
 #include <span>
+
+#include "engine/validation.hpp"
 
 namespace kinesphere {
 
-void turn(Mover& mover, const Event& event, const Answer& answer) {
-  const auto turned = [&](BodyId body, const Vec3& velocity) {
-    State state;
+Result<void> turn(Mover& mover, const WorldDefinition& world, const Event& event, const Answer& answer) {
+  // Every state is known to be one before the first body departs.
+  std::optional<Departure> first, second;
+  const auto make = [&](BodyId body, const std::optional<Vec3>& velocity,
+                        std::optional<Departure>& departure) -> Result<void> {
+    if (!velocity) return {};
+    State state = no_answer;
     mover.states(std::span(&body, 1), event.time, std::span(&state, 1));
-    return Departure{event.time, {state.position, velocity}};
+    if (auto valid = check_report(state, body, event.time, world, "run"); !valid) return valid;
+    departure = Departure{event.time, {state.position, *velocity}};
+    return {};
   };
-  if (!answer.first_velocity || !answer.second_velocity) {
-    if (answer.first_velocity) mover.depart(event.first, turned(event.first, *answer.first_velocity));
-    if (answer.second_velocity) mover.depart(event.second, turned(event.second, *answer.second_velocity));
-    return;
+  auto made = make(event.second, answer.second_velocity, second);
+  if (made) made = make(event.first, answer.first_velocity, first);
+  if (!made) return made;
+  if (!first || !second) {
+    if (first) mover.depart(event.first, *first);
+    if (second) mover.depart(event.second, *second);
+    return {};
   }
-  const Departure second = turned(event.second, *answer.second_velocity);
   const Departure before = mover.departure(event.first);
-  mover.depart(event.first, turned(event.first, *answer.first_velocity));
+  mover.depart(event.first, *first);
   try {
-    mover.depart(event.second, second);
+    mover.depart(event.second, *second);
   } catch (...) {
     mover.depart(event.first, before);
     throw;
   }
+  return {};
 }
 
 }  // namespace kinesphere

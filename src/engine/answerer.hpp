@@ -3,6 +3,7 @@
 
 #include "kinesphere/result.hpp"
 #include "kinesphere/run.hpp"
+#include "kinesphere/world_definition.hpp"
 
 namespace kinesphere {
 
@@ -13,14 +14,16 @@ class Answerer {
 
   /// What the event does to its bodies. Errors: an answer that is none.
   virtual Result<Answer> answer(const Event& event) = 0;
-  /// The bodies move on from the event as the answer says. When it throws, none of them does.
-  virtual void turn(const Event& event, const Answer& answer) = 0;
+  /// Makes the bodies move on from the event as the answer says. Errors: a state that is none. After an error
+  /// or an exception no body has departed.
+  virtual Result<void> turn(const Event& event, const Answer& answer) = 0;
   virtual Departure departure(BodyId body) = 0;
   /// Takes turns back.
   virtual void depart(BodyId body, const Departure& departure) = 0;
 };
 
-/// Tells the mover of all new velocities or, if it throws, of none.
-void turn(Mover& mover, const Event& event, const Answer& answer);
+/// Tells the mover of all new velocities, or of none: where it throws, and where a state that it gives is
+/// refused as a report of a probe is (check_report), which is the error returned.
+Result<void> turn(Mover& mover, const WorldDefinition& world, const Event& event, const Answer& answer);
 
 }  // namespace kinesphere

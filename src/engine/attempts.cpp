@@ -81,7 +81,7 @@ Result<void> Attempts::answer(Runner& runner, const Event& event) {
   };
   note(event.first, answer->first_velocity);
   note(event.second, answer->second_velocity);
-  answerer_->turn(event, *answer);
+  if (auto turned = answerer_->turn(event, *answer); !turned) return turned;
   if (answer->first_velocity) runner.island.kick(event.first, *answer->first_velocity);
   if (answer->second_velocity) runner.island.kick(event.second, *answer->second_velocity);
   return {};

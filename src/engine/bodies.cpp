@@ -78,8 +78,15 @@ Change& Bodies::change_of(std::uint32_t number) {
 }
 
 void Bodies::bring_home(std::uint32_t number, double now, double length) {
+  Body& body = table_[number];
+  // The middle of a box is rounded and can lie on the other side of the border; the centre of a fixed ball
+  // was wrapped when the ball was added.
+  if (body.is_fixed()) {
+    homes[number] = {.middle = body.bound.position};
+    return;
+  }
   const Box way = roomy_bound(*this, number, now).box_of_way(length);
-  table_[number].bound.position -= homes[number].bring(space_, way);
+  body.bound.position -= homes[number].bring(space_, way);
 }
 
 }  // namespace kinesphere

@@ -113,6 +113,7 @@ class Bodies {
   bool is_sound(std::uint32_t number, double now) const;
   bool is_sound_fixed(std::uint32_t number, double now) const;
   bool rest_is_sound(const Body& body) const;
+  bool promises_are_sound(const Body& body, BodyDefinition definition) const;
 
   WorldDefinition definition_;
   Space space_;

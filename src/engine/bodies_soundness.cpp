@@ -1,25 +1,35 @@
 // Whether bodies that were read from a snapshot can have come about.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "archive/archive.hpp"
 #include "archive/fields.hpp"
 #include "engine/bodies.hpp"
 #include "engine/fixed.hpp"
 #include "engine/validation.hpp"
+#include "kinesphere/limits.hpp"
 
 namespace kinesphere {
 namespace {
 
-bool is_sound(const Bound& bound, double now, const WorldDefinition& world) {
+/// A place as a report can give it. Where space repeats a bound is in the image that the middle of its way
+/// chooses, which is any number of periods away from there at times that are too coarse for short windows.
+std::optional<Vec3> reported_place(const Vec3& position, const Space& space) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(std::abs(position[axis]) <= limits::largest_size)) return std::nullopt;
+  return space.wrapped(position).position;
+}
+
+bool is_sound(const Bound& bound, const Vec3& place, double now, const WorldDefinition& world) {
   BodyDefinition as_body;
   as_body.radius = 0.5 * bound.radius;  // the sum of a radius and an error
   as_body.acceleration_limit = bound.growth_acceleration;
   as_body.planned_acceleration = bound.planned_acceleration;
   as_body.velocity_error = bound.growth_speed;
-  as_body.position = bound.position;
+  as_body.position = place;
   as_body.velocity = bound.velocity;
-  return std::isfinite(bound.time) && bound.time <= now && check_body(as_body, world, "restore");
+  return bound.time >= -limits::largest_time && bound.time <= now && check_body(as_body, world, "restore");
 }
 
 /// To the bit.
@@ -89,26 +99,51 @@ bool Bodies::is_sound(std::uint32_t number, double now) const {
   if (!body.alive) return !body.dirty && body.change_number == Body::none;
   WorldDefinition unbounded = definition_;
   unbounded.box.reset();
-  const BodyDefinition definition = definition_of(number);
+  BodyDefinition definition = definition_of(number);
+  const auto place = reported_place(body.bound.position, space_);
+  if (!place) return false;
+  definition.position = *place;
   if (!check_body(definition, unbounded, "restore") ||
       !check_radius(definition, no_body, definition_, "restore") ||
-      !kinesphere::is_sound(body.bound, now, unbounded) ||
-      (space_.repeats() && !homes[number].image_is_sound(space_)))
+      !kinesphere::is_sound(body.bound, *place, now, unbounded) ||
+      (space_.repeats() && !homes[number].is_sound(space_)))
     return false;
+  if (!promises_are_sound(body, definition)) return false;
   if (!body.enabled) return !body.dirty;
+  // The radius and an error; only that of a disabled body is stale.
+  if (body.bound.radius < body.radius) return false;
   // Before time moves on there is a report.
-  if (body.change_number != Body::none && !body.dirty) return false;
-  return true;
+  return body.change_number == Body::none || (body.dirty && !body.fresh(now));
+}
+
+/// Promises that come into force later: of these, definition_of() tells one.
+bool Bodies::promises_are_sound(const Body& body, BodyDefinition definition) const {
+  const auto is_promise = [&](const MotionLimits& limits) {
+    return static_cast<bool>(
+        check_promise(with_motion_limits(definition, limits), no_body, definition_, "restore"));
+  };
+  const Change* change = changes.find(body);
+  const Rest* rest = rests.find(body);
+  if (change &&
+      !(is_promise(change->promise) &&
+        (!change->kicked_to || check_velocity(*change->kicked_to, no_body, definition_, "restore"))))
+    return false;
+  if (rest && !is_promise(rest->limits)) return false;
+  definition.position_error = body.position_error;
+  return is_promise(motion_limits_of(definition));
 }
 
 /// It must equal what its shape makes of it.
 bool Bodies::is_sound_fixed(std::uint32_t number, double now) const {
   const Body& body = table_[number];
   if (!check_shape(shapes.of(body), definition_, "restore")) return false;
+  if (space_.repeats() && !(homes[number].is_sound(space_) && homes[number].image == Vec3{} &&
+                            same(as_kept(shapes.of(body), definition_), shapes.of(body))))
+    return false;
   const BodyDefinition made = body_of(fixed_definition(*this, id_of(number)));
   return same(definition_of(number), made) &&
          same(body.bound, bound_of(made, {made.position, {}}, body.bound.time)) && body.bound.time <= now &&
-         std::isfinite(body.bound.time) && !body.settled && body.change_number == Body::none &&
+         body.bound.time >= -limits::largest_time && !body.settled && body.change_number == Body::none &&
          !body.is_resting() && !(body.dirty && !body.enabled);
 }
 

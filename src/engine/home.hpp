@@ -6,6 +6,7 @@
 // bounds at rest.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "space/space.hpp"
@@ -14,6 +15,9 @@ namespace kinesphere {
 
 struct Home {
   Vec3 middle{};  ///< of the body's capsule, which tells in which image it can meet others
+  /// Largest magnitude of an image count; fits into 64 bits.
+  static constexpr double most_images = 0x1p62;
+
   /// Whole numbers: bound.position + image * period is on the path since the caller placed the body.
   Vec3 image{};
 
@@ -23,12 +27,16 @@ struct Home {
     middle = home;
     if (images == Vec3{}) return {};
     image += images;
+    // Counts saturate: at times that cannot tell a period from the next, ways are as long as any number of
+    // periods.
+    for (int axis = 0; axis < 3; ++axis) image[axis] = std::clamp(image[axis], -most_images, most_images);
     return space.shift_of(images);
   }
-  /// Whole numbers, and none on axes that do not repeat.
-  bool image_is_sound(const Space& space) const {
+  /// Whole numbers, and none on axes that do not repeat; the middle is a point.
+  bool is_sound(const Space& space) const {
+    if (!is_finite(middle)) return false;
     for (int axis = 0; axis < 3; ++axis) {
-      if (!(std::abs(image[axis]) <= 0x1p62) || std::floor(image[axis]) != image[axis]) return false;
+      if (!(std::abs(image[axis]) <= most_images) || std::floor(image[axis]) != image[axis]) return false;
       if (!space.repeats(axis) && image[axis] != 0.0) return false;
     }
     return true;

@@ -1,7 +1,6 @@
 #include "engine/reports.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <mutex>
 #include <optional>
 
@@ -12,9 +11,6 @@
 namespace kinesphere {
 namespace {
 
-constexpr double not_said = std::numeric_limits<double>::quiet_NaN();
-/// A probe that forgets to answer is told so.
-constexpr State unanswered{{not_said, not_said, not_said}, {not_said, not_said, not_said}};
 /// So many are worth the while of a thread.
 constexpr std::size_t reports_at_once = 512;
 
@@ -42,7 +38,7 @@ void Reports::ask_for(const Bodies& bodies, double time, std::span<const std::ui
   states_.resize(numbers.size());
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     ids_[k] = bodies.id_of(numbers[k]);
-    states_[k] = unanswered;
+    states_[k] = no_answer;
   }
   const WhileTrue guard(asking_);
   shift.for_each(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {

@@ -16,6 +16,7 @@
 #include "engine/fixed.hpp"
 #include "engine/validation.hpp"
 #include "input/input_check.hpp"
+#include "kinesphere/limits.hpp"
 #include "number/infinity.hpp"
 
 namespace kinesphere {
@@ -29,6 +30,9 @@ constexpr Envelope world_envelope{{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'},
                                   "World::restore",
                                   "snapshot",
                                   ErrorCode::bad_snapshot};
+
+/// The end of a window that has a beginning within the limits of times, or infinity.
+bool is_time_of_window_end(double end) { return end == infinity || std::abs(end) <= Window::latest_end; }
 
 Error refusal(const std::string& what) { return world_envelope.refusal(what); }
 
@@ -80,7 +84,10 @@ Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const st
 /// The part of a state that was read, if any, that cannot have come about. What passes may be another world
 /// than the one that was saved, but is one in which every call is safe.
 const char* World::Engine::contradiction() const {
-  if (!std::isfinite(time()) || std::isnan(everybody_.phase_end())) return "time";
+  if (!(std::abs(time()) <= limits::largest_time) || !is_time_of_window_end(everybody_.phase_end()))
+    return "time";
+  // Windows that many bodies share have lengths that the tempo chose.
+  if (!tables_.tempo.is_chosen() && everybody_.phase_end() < infinity) return "windows";
   if (const char* where = bodies().contradiction(time(), everybody_.unsettled().numbers())) return where;
   const auto known = [this](BodyId id) { return bodies().table().was_given_out(id); };
   if (!book().is_sound(bodies().numbers(), bodies().walls()) ||
@@ -107,7 +114,8 @@ bool World::Engine::agenda_is_sound() const {
     return number < bodies().numbers() && bodies()[number].present() && windows().contains(number);
   };
   const auto is_sound = [&](const HotPair& pair) {
-    if (!(pair.time < infinity) || !takes_part(pair.first)) return false;
+    if (!(pair.time >= -limits::largest_time && pair.time < infinity) || !takes_part(pair.first))
+      return false;
     if (pair.second == HotPair::renewal)
       return !bodies()[pair.first].is_fixed() && !everybody_.facts().is_void(pair);
     if (pair.second == HotPair::walls)

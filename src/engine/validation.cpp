@@ -153,7 +153,7 @@ Result<void> check_world(const WorldDefinition& definition) {
                 static_cast<double>(dimensions));
   if (definition.box) {
     Box box = *definition.box;
-    if (dimensions == 2) std::tie(box.lower.z, box.upper.z) = std::pair(0.0, 1.0);
+    if (dimensions == 2) std::tie(box.lower.z, box.upper.z) = std::pair(0.0, coordinate_limit(definition));
     check.box({"box"}, box)
         .within({"box", no_body, "lower"}, box.lower, coordinate_limit(definition))
         .within({"box", no_body, "upper"}, box.upper, coordinate_limit(definition));

@@ -1,6 +1,7 @@
 // Is this input fit for the promise? The one place that says no.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -29,6 +30,10 @@ Result<void> check_velocity(const Vec3& velocity, BodyId body, const WorldDefini
                             std::string_view call);
 Result<void> check_report(const State& state, BodyId body, double time, const WorldDefinition& world,
                           std::string_view call = "advance");
+/// What a probe or a mover is handed to fill in: check_report refuses it, so one that forgets to answer is
+/// told so.
+inline constexpr double not_said = std::numeric_limits<double>::quiet_NaN();
+inline constexpr State no_answer{{not_said, not_said, not_said}, {not_said, not_said, not_said}};
 Result<void> check_time(double until, double now);
 /// A world that has been moved from cannot do anything.
 Error moved_from_error(std::string_view call);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "kinesphere/limits.hpp"
 #include "number/powers.hpp"
 
 namespace kinesphere {
@@ -31,6 +32,7 @@ constexpr double enough_cheaper = 0.9;
 /// A body is much faster than most if it goes so many times as far.
 constexpr double much_farther = 4.0;
 constexpr int most_powers = 300;
+constexpr double shortest_way = power_of_two(-most_powers);
 /// At once, to shorter windows.
 constexpr int most_change = 6;
 /// Those that are much faster than most change what they do after so many starts.
@@ -273,7 +275,7 @@ void Tempo::adapt_main(const Kicks& kicks, double windows) {
     faster += main_.ways_gone[--magnitude];
   const double way = typical_way_ * power_of_two(static_cast<int>(magnitude) - least_magnitude + change);
   const double before = typical_way_;
-  typical_way_ = std::clamp(way, power_of_two(-most_powers), longest_way_);
+  typical_way_ = std::clamp(way, shortest_way, longest_way_);
   const double fast_way = before > 0.0 ? fast_way_ * (typical_way_ / before) : much_farther * typical_way_;
   fast_way_ = std::clamp(fast_way, typical_way_, longest_way_);
 }
@@ -295,14 +297,17 @@ void Tempo::adapt_fast() {
 }
 
 bool Tempo::is_sound() const {
-  const auto is_way = [this](double way) { return way >= 0.0 && way <= longest_way_; };
+  // Before it is chosen, nothing has started.
+  const bool is_first = typical_way_ == 0.0 && fast_way_ == 0.0 && main_.bodies == 0 && fast_.bodies == 0;
+  const bool are_ways =
+      typical_way_ >= shortest_way && typical_way_ <= fast_way_ && fast_way_ <= longest_way_;
   const auto are_sound = [](const Starts& starts) {
     return starts.widths >= 0.0 && starts.ways >= 0.0 && starts.growths >= 0.0;
   };
   const bool is_price =
       price_.short_side >= 0.0 && price_.long_side >= price_.short_side && price_.pairs >= 0.0;
-  return is_price && std::abs(main_tier_) <= most_powers && is_way(typical_way_) && is_way(fast_way_) &&
-         are_sound(main_) && are_sound(fast_) && std::isfinite(main_start_);
+  return is_price && std::abs(main_tier_) <= most_powers && (is_first || are_ways) && are_sound(main_) &&
+         are_sound(fast_) && std::abs(main_start_) <= limits::largest_time;
 }
 
 }  // namespace kinesphere

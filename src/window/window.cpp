@@ -33,7 +33,8 @@ Window Window::free_at(double now, int tier, std::span<const int> held) {
 double Window::begin() const { return end - power_of_two(tier); }
 
 bool Window::is_sound() const {
-  return tier == endless().tier ? end == infinity : std::abs(tier) <= longest_tier && std::isfinite(end);
+  return tier == endless().tier ? end == infinity
+                                : std::abs(tier) <= longest_tier && std::abs(end) <= latest_end;
 }
 
 }  // namespace kinesphere

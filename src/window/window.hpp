@@ -13,6 +13,9 @@ struct Window {
   /// A tier that no window is shorter than.
   static constexpr int shortest = std::numeric_limits<int>::min();
   static constexpr int longest_tier = 300;
+  /// No window that ends does so later: twice the length of the longest one, which is far longer than any
+  /// time.
+  static constexpr double latest_end = 0x1p301;
 
   int tier = 0;
   double end = 0.0;

@@ -47,7 +47,9 @@ class World::Run final : private Answerer {
   Result<std::optional<Event>> next();
   Result<void> answer_one(const Event& event);
   Result<Answer> answer(const Event& event) override;
-  void turn(const Event& event, const Answer& answer) override { kinesphere::turn(*mover_, event, answer); }
+  Result<void> turn(const Event& event, const Answer& answer) override {
+    return kinesphere::turn(*mover_, world_.definition(), event, answer);
+  }
   Departure departure(BodyId body) override { return mover_->departure(body); }
   void depart(BodyId body, const Departure& departure) override { mover_->depart(body, departure); }
   Result<void> check(const Event& event, const Answer& answer) const;

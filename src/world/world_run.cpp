@@ -140,7 +140,7 @@ Result<std::optional<Event>> World::Run::next() {
 Result<void> World::Run::answer_one(const Event& event) {
   const auto checked = answer(event);
   if (!checked) return checked.error();
-  turn(event, *checked);
+  if (auto turned = turn(event, *checked); !turned) return turned;
   const auto kick = [this](BodyId body, const std::optional<Vec3>& velocity) {
     if (velocity) world_.changing(step::SetVelocity{body, *velocity}).set_velocity(body, *velocity);
   };

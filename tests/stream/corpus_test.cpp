@@ -9,6 +9,7 @@
 #include "stream/any_monitor.hpp"
 #include "stream/any_reports.hpp"
 #include "stream/any_snapshot.hpp"
+#include "stream/mended.hpp"
 #include "stream/player.hpp"
 
 namespace kinesphere::stream::corpus_test {
@@ -65,6 +66,12 @@ TEST(Corpus, OfMonitorsIsNeverTakenWrongly) {
     certain += watched.certain;
   }
   EXPECT_GT(certain, 1000u);
+}
+
+TEST(Corpus, OfMendedDamageIsRefusedOrHarmless) {
+  const auto files = corpus("mended");
+  EXPECT_GT(files.size(), 10u);
+  for (const auto& file : files) EXPECT_NO_THROW(try_mended(bytes_of(file))) << file;
 }
 
 }  // namespace

@@ -372,7 +372,8 @@ bool ToldContacts::may_meet(const Ball& a, const Ball& b) const {
 }
 
 bool ToldContacts::any_told(const Contact& contact) const {
-  const auto [first, second] = std::pair(contact.first.index, contact.second.index);
+  const std::uint32_t first = contact.first.index;
+  const std::uint32_t second = contact.second.index;
   return pairs_(first, second) != Told{} ||
          std::any_of(sensed_.begin(), sensed_.end(),
                      [=](const PairTable<Told>& pairs) { return pairs(first, second) != Told{}; });

@@ -1,0 +1,417 @@
+#include "stream/mended.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kinesphere/kinesphere.hpp"
+#include "stream/player.hpp"
+#include "support/sealed_snapshot.hpp"
+
+namespace kinesphere::stream {
+namespace {
+
+using Content = std::vector<std::byte>;
+
+void demand(bool holds, const char* what) {
+  if (!holds) throw std::logic_error(what);
+}
+
+/// A snapshot, or a recording in its two parts: the snapshot that it begins with, and its steps.
+struct Original {
+  Content snapshot;
+  Content recording_header{};
+  Content steps{};
+
+  bool is_recording() const { return !recording_header.empty(); }
+};
+
+Original parts_of(const Content& recording) {
+  const auto at = [&](std::size_t from, std::size_t to) {
+    return Content(recording.begin() + static_cast<std::ptrdiff_t>(from),
+                   recording.begin() + static_cast<std::ptrdiff_t>(to));
+  };
+  std::uint64_t size = 0;
+  for (std::size_t k = 8; k-- > 0;)
+    size = size << 8 | static_cast<std::uint64_t>(recording[snapshot_header_size + k]);
+  const std::size_t begin = snapshot_header_size + 8;
+  return {at(begin, begin + size), at(0, snapshot_header_size), at(begin + size, recording.size() - 8)};
+}
+
+Content whole(const Original& parts) {
+  Content snapshot = sealed(parts.snapshot);
+  if (!parts.is_recording()) return snapshot;
+  Content all = parts.recording_header;
+  all.resize(snapshot_header_size + 8);
+  write_number(all, snapshot_header_size, snapshot.size());
+  all.insert(all.end(), snapshot.begin(), snapshot.end());
+  all.insert(all.end(), parts.steps.begin(), parts.steps.end());
+  all.resize(all.size() + 8);
+  return sealed(std::move(all));
+}
+
+Content of_stream(std::uint64_t seed, int operations, bool many) {
+  Bytes bytes = random_stream(seed, static_cast<std::size_t>(operations));
+  if (!many) bytes[1] = 9;
+  Player player(kind_of(bytes));
+  for (const Operation& operation : operations_of(bytes)) player.perform(operation);
+  return player.world().save().value();
+}
+
+/// Bodies that move straight on and bounce, in a space of some kind.
+class Crowd {
+ public:
+  Crowd(const WorldDefinition& definition, int bodies, std::uint64_t seed)
+      : random_(seed), world_(World::create(definition).value()) {
+    const bool flat = definition.dimensions == 2;
+    world_.set_sensor(1, {.distances = {0.2, 0.1}}).value();
+    for (int k = 0; k < bodies; ++k) {
+      State state{{random_.uniform(0.5, 7.5), random_.uniform(0.5, 7.5), random_.uniform(0.5, 7.5)},
+                  (k % 9 == 0 ? 20.0 : 2.0) * random_.point_in_ball()};
+      if (k % 7 == 0) state.velocity = {};
+      if (flat) state.position.z = state.velocity.z = 0.0;
+      BodyDefinition body{.radius = random_.uniform(0.01, 0.25),
+                          .acceleration_limit = k % 4 == 0 ? 1.0 : 0.0,
+                          .position_error = k % 11 == 0 ? 0.01 : 0.0,
+                          .position = state.position,
+                          .velocity = state.velocity,
+                          .filter = {.category = 1u << (k % 3), .group = k % 5 == 0 ? 1 : 0},
+                          .solid = k % 6 != 0,
+                          .sensor_class = static_cast<SensorClass>(k % 2),
+                          .user_data = std::uint64_t(k)};
+      if (const auto id = world_.add(body)) keep(*id, state);
+    }
+    const bool repeats = definition.periodic.x || definition.periodic.y;
+    for (int k = 0; k < 3; ++k) {
+      Vec3 place{2.0 * k + 1.0, k == 0 ? 8.0 : 4.0, flat ? 0.0 : 4.0};
+      Shape shape = Ball{place, 0.3};
+      if (!repeats && k == 1) shape = Box{place, place + Vec3{1, 1, flat ? 0.0 : 1.0}};
+      if (!repeats && k == 2) shape = HalfSpace{{0, 1, 0}, 0.1};
+      if (const auto id = world_.add_fixed({.shape = shape})) keep(*id, {place, {}});
+    }
+  }
+
+  void go(double duration, bool bounces = true) {
+    const double until = world_.time() + duration;
+    while (const auto event = world_.advance(until, probe()).value()) {
+      if (!bounces || event->kind != EventKind::contact_begin) continue;
+      const Bounce after = bounce(*event, 1.0, 1.0, 0.9);
+      kick(event->first, after.first_velocity);
+      kick(event->second, after.second_velocity);
+    }
+  }
+  void kick(BodyId id, const Vec3& velocity) {
+    const Vec3 place = place_of(id, world_.time());
+    if (world_.set_velocity(id, velocity)) keep(id, {place, velocity});
+  }
+  /// Leaves the world in the middle of an instant, with changes that no probe has confirmed.
+  void disturb() {
+    for (const BodyId id : world_.bodies()) {
+      const auto what = id.index % 8;
+      if (what == 1) kick(id, {1, 1, 0});
+      if (what == 2 && world_.rest(id)) keep(id, {place_of(id, world_.time()), {}});
+      if (what == 3) (void)world_.disable(id);
+      if (what == 4) (void)world_.set_motion_limits(id, {.acceleration_limit = 2.0});
+      if (what == 5) (void)world_.remove(id);
+    }
+  }
+  /// An advance that a bad answer ends.
+  void fail() {
+    (void)world_.advance(world_.time() + 1.0, [](std::span<const BodyId>, double, std::span<State>) {});
+  }
+  World& world() { return world_; }
+
+ private:
+  void keep(BodyId id, const State& state) {
+    if (id.index >= starts_.size()) starts_.resize(id.index + 1u);
+    starts_[id.index] = {world_.time(), state};
+  }
+  Vec3 place_of(BodyId id, double time) const {
+    const Departure& from = starts_[id.index];
+    return from.state.position + from.state.velocity * (time - from.time);
+  }
+  Probe probe() {
+    return [this](std::span<const BodyId> ids, double time, std::span<State> states) {
+      for (std::size_t k = 0; k < ids.size(); ++k)
+        states[k] = {place_of(ids[k], time), starts_[ids[k].index].state.velocity};
+    };
+  }
+
+  Random random_;
+  World world_;
+  std::vector<Departure> starts_;
+};
+
+std::vector<Original> make_originals() {
+  const Box box{{0, 0, 0}, {8, 8, 8}};
+  const std::vector<WorldDefinition> definitions{
+      {.allow_overlap = true},
+      {.box = box, .contacts = ContactMode::impacts, .start_time = 1e9},
+      {.box = box, .periodic = {true, true, true}, .allow_overlap = true},
+      {.box = box, .periodic = {true, false, false}, .dimensions = 2, .separation_distance = 1e-3},
+  };
+  std::vector<Original> all;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) all.push_back({of_stream(seed, 60, seed % 4 == 0)});
+  for (std::size_t k = 0; k < definitions.size(); ++k) {
+    Crowd few(definitions[k], 8, k + 1);
+    few.go(0.5);
+    few.world().start_recording().value();
+    few.go(0.5, false);
+    few.disturb();
+    all.push_back({few.world().save().value()});
+    few.go(0.5);
+    all.push_back(parts_of(few.world().stop_recording().value()));
+    // Enough for sorted layers.
+    Crowd many(definitions[k], 150, k + 11);
+    many.go(0.3);
+    if (k % 2 == 1) {
+      many.disturb();
+      many.fail();
+    }
+    all.push_back({many.world().save().value()});
+  }
+  return all;
+}
+
+const Original& original(std::uint8_t number) {
+  static const std::vector<Original> all = make_originals();
+  return all[number % all.size()];
+}
+
+double number_of(const Content& bytes, std::size_t at) {
+  double value;
+  std::memcpy(&value, bytes.data() + at, sizeof value);
+  return value;
+}
+
+/// The first place from here on where eight bytes are a double as worlds have them.
+std::size_t next_double(const Content& bytes, std::size_t at) {
+  for (std::size_t k = at; k + 8 <= bytes.size(); ++k) {
+    const double value = std::abs(number_of(bytes, k));
+    if ((value > 1e-12 && value < 1e12) || std::isinf(value)) return k;
+  }
+  return at;
+}
+
+/// The first place from here on where eight bytes are a small whole number, as the size of a list is.
+std::size_t next_count(const Content& bytes, std::size_t at) {
+  for (std::size_t k = at; k + 8 <= bytes.size(); ++k) {
+    std::uint64_t value;
+    std::memcpy(&value, bytes.data() + k, sizeof value);
+    if (value > 0 && value < 4096) return k;
+  }
+  return at;
+}
+
+double strange_double(std::uint8_t number, double before) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  static const double all[] = {0.0,     -0.0,      1.0,     -1.0,     std::nan(""), inf,    -inf,   5e-324,
+                               1e-310,  0x1p-1022, 1e-300,  0x1p-300, 0x1p-301,     1e-77,  1e-30,  1e30,
+                               -1e30,   1e31,      -1e31,   1e76,     -3e231,       0x1p62, 0x1p63, -0x1p63,
+                               0x1p300, 0x1p301,   1.7e308, -1.7e308, 1e100,        1e101,  0x1p41, 0x1p480};
+  constexpr std::size_t count = sizeof all / sizeof *all;
+  if (number < count) return all[number];
+  switch (number % 6) {
+    case 0:
+      return std::nextafter(before, inf);
+    case 1:
+      return std::nextafter(before, -inf);
+    case 2:
+      return -before;
+    case 3:
+      return before * 2.0;
+    case 4:
+      return before + 1.0;
+    default:
+      return before * 1e12;
+  }
+}
+
+void overwrite(Content& bytes, std::size_t at, const void* with, std::size_t size) {
+  if (at + size <= bytes.size()) std::memcpy(bytes.data() + at, with, size);
+}
+
+/// `first` is where the content begins; `behind` bytes at the end are not part of it.
+void edit(Content& bytes, std::size_t first, std::size_t behind, std::span<const std::uint8_t> how) {
+  if (bytes.size() <= first + behind) return;
+  const std::size_t room = bytes.size() - first - behind;
+  std::size_t at = first + (65536u * how[0] + 256u * how[1] + how[2]) % room;
+  const auto place = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+  const auto value = how.subspan(4, 8);
+  static const std::uint32_t whole[] = {
+      0,   1,          2,          0x7fffffff, 0x80000000, 0xffffffff, 0xfffffffe, 300,
+      301, 0xfffffed4, 0xfffffed3, 0x7f800000, 0x7fc00000, 0xff800000, 0x00000001, 0x7f7fffff};
+  switch (how[3] % 9) {
+    case 0:
+      *place = std::byte{value[0]};
+      break;
+    case 1:
+      *place ^= std::byte{value[0]};
+      break;
+    case 2:
+      bytes.insert(place, std::byte{value[0]});
+      break;
+    case 3:
+      bytes.erase(place);
+      break;
+    case 4:
+      overwrite(bytes, at, value.data(), 8);
+      break;
+    case 5:
+    case 6: {
+      at = next_double(bytes, at);
+      if (at + 8 > bytes.size() - behind) return;
+      const double strange = strange_double(value[0], number_of(bytes, at));
+      overwrite(bytes, at, &strange, sizeof strange);
+      break;
+    }
+    case 7:
+      overwrite(bytes, at, &whole[value[0] % std::size(whole)], 4);
+      break;
+    default: {
+      at = next_count(bytes, at);
+      if (at + 8 > bytes.size() - behind) return;
+      bytes[at] = static_cast<std::byte>(static_cast<std::uint8_t>(bytes[at]) + value[0]);
+    }
+  }
+}
+
+/// Asks a world all that it can be asked.
+void ask(World& world, Random& random, const Probe& probe) {
+  const Vec3 point = 8.0 * random.point_in_ball();
+  (void)world.audit();
+  (void)world.cells();
+  (void)world.certificates();
+  (void)world.safe_until();
+  (void)world.overlapping(point, 2.0);
+  (void)world.overlapping(Box{point, point + Vec3{1, 1, 1}});
+  (void)world.nearest(point, 3);
+  (void)world.ray_cast(point, {1, 0.5, 0}, 10.0);
+  (void)world.sphere_cast(point, 0.5, {0, 1, 0}, 10.0);
+  const auto bodies = world.bodies();
+  for (std::size_t k = 0; k < bodies.size() && k < 24; ++k) {
+    const BodyId id = bodies[k];
+    const BodyId other = bodies[random.bits() % bodies.size()];
+    (void)world.body(id);
+    (void)world.shape_of(id);
+    (void)world.touching(id);
+    (void)world.sensed(id);
+    (void)world.safe_until(id);
+    (void)world.earliest_contact(id);
+    (void)world.earliest_approach(id, 0.5);
+    (void)world.safe_until(id, other, 0.5);
+    (void)world.distance_limits(id, other, world.time() + 1.0);
+  }
+  (void)world.nearest(point, 2, probe);
+}
+
+void change(World& world, Random& random) {
+  const auto bodies = world.bodies();
+  if (bodies.empty()) return;
+  const BodyId id = bodies[random.bits() % bodies.size()];
+  const State state{8.0 * random.point_in_ball(), random.point_in_ball()};
+  switch (random.bits() % 12) {
+    case 0:
+      return (void)world.remove(id);
+    case 1:
+      return (void)world.teleport(id, state);
+    case 2:
+      return (void)world.rest(id);
+    case 3:
+      return (void)world.wake(id);
+    case 4:
+      return (void)(world.disable(id) && world.enable(id, state));
+    case 5:
+      return (void)world.set_filter(id, {.category = 2, .mask = 3});
+    case 6:
+      return (void)world.set_sensor_class(id, 1);
+    case 7:
+      return (void)world.add({.radius = 0.1, .position = state.position, .velocity = state.velocity});
+    case 8:
+      return (void)world.add_fixed({.shape = Ball{state.position, 0.2}});
+    case 9:
+      return (void)world.set_motion_limits(id, {.acceleration_limit = 1.0});
+    case 10:
+      return (void)world.set_radius(id, 0.2);
+    default:
+      return (void)world.set_velocity(id, state.velocity);
+  }
+}
+
+struct Enough {};
+
+void use(World world) {
+  Random random(7);
+  int left = 400;
+  const bool flat = world.definition().dimensions == 2;
+  const auto answers = [&](std::span<const BodyId> ids, double, std::span<State> states) {
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      demand(world.contains(ids[k]), "a probe asks for a body that is not there");
+      if (--left < 0) throw Enough();
+      states[k] = {8.0 * random.point_in_ball(), random.point_in_ball()};
+      if (flat) states[k].position.z = states[k].velocity.z = 0.0;
+    }
+  };
+  const Probe probe = answers;
+  const auto restored = World::restore(world.save().value());
+  demand(static_cast<bool>(restored), "what was restored is refused when it is saved");
+  try {
+    ask(world, random, probe);
+    for (int k = 0; k < 30; ++k) {
+      const double step = k % 4 == 0 ? 1e-3 : k % 4 == 1 ? 10.0 : 0.5;
+      const auto event = world.advance(std::min(1e30, world.time() + step), probe);
+      if (!event) break;
+      if (k % 3 == 0) change(world, random);
+    }
+    ask(world, random, probe);
+  } catch (const Enough&) {
+  }
+  const auto saved = world.save();
+  demand(static_cast<bool>(saved), "what was used cannot be saved");
+  const auto again = World::restore(*saved);
+  if (!again) throw std::logic_error("what was used is refused when it is saved: " + again.error().message);
+}
+
+void replay(const Content& recording) {
+  const auto read = read_recording(recording);
+  auto opened = Replay::open(recording, [](BodyId, BodyId) { return true; });
+  if (!opened) {
+    demand(opened.error().code == ErrorCode::bad_recording || opened.error().code == ErrorCode::bad_snapshot,
+           "a recording is refused with another error");
+    return;
+  }
+  demand(static_cast<bool>(read), "a recording that can be replayed cannot be read");
+  while (!opened->finished()) {
+    const auto event = opened->advance();
+    if (event) continue;
+    demand(event.error().code == ErrorCode::diverged, "a replay ends with another error");
+    break;
+  }
+  if (auto copy = opened->world().clone()) use(std::move(*copy));
+}
+
+}  // namespace
+
+void try_mended(std::span<const std::uint8_t> bytes) {
+  if (bytes.empty()) return;
+  Original damaged = original(bytes[0]);
+  for (std::size_t at = 1; at + 12 <= bytes.size(); at += 12) {
+    const auto how = bytes.subspan(at, 12);
+    if (damaged.is_recording() && how[3] % 2 == 0) {
+      edit(damaged.steps, 0, 0, how);
+    } else {
+      edit(damaged.snapshot, snapshot_header_size, 8, how);
+    }
+  }
+  const Content all = whole(damaged);
+  if (damaged.is_recording()) return replay(all);
+  auto restored = World::restore(all, [](BodyId, BodyId) { return true; });
+  if (restored) return use(std::move(*restored));
+  demand(restored.error().code == ErrorCode::bad_snapshot, "a snapshot is refused with another error");
+}
+
+}  // namespace kinesphere::stream
