@@ -19,7 +19,8 @@ apply() { (cd "$copy" && GIT_CEILING_DIRECTORIES=$PWD/.. git apply "$@"); }
 caught_by() { sed -n 's/^Caught by: //p' "$1"; }
 # Three processes run what is distributed, also as root and on fewer cores.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 \
-  OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_btl_vader_single_copy_mechanism=none
+  OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_btl_vader_single_copy_mechanism=none \
+  HWLOC_COMPONENTS=-gl
 # A hang counts as noticed.
 run_test() {
   local command=("$build/tests/$1")
