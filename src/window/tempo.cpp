@@ -297,17 +297,17 @@ void Tempo::adapt_fast() {
 }
 
 bool Tempo::is_sound() const {
-  // Before it is chosen, nothing has started.
-  const bool is_first = typical_way_ == 0.0 && fast_way_ == 0.0 && main_.bodies == 0 && fast_.bodies == 0;
-  const bool are_ways =
-      typical_way_ >= shortest_way && typical_way_ <= fast_way_ && fast_way_ <= longest_way_;
+  // Zero before it is chosen.
+  const auto is_way = [this](double way) {
+    return way == 0.0 || (way >= shortest_way && way <= longest_way_);
+  };
   const auto are_sound = [](const Starts& starts) {
     return starts.widths >= 0.0 && starts.ways >= 0.0 && starts.growths >= 0.0;
   };
   const bool is_price =
       price_.short_side >= 0.0 && price_.long_side >= price_.short_side && price_.pairs >= 0.0;
-  return is_price && std::abs(main_tier_) <= most_powers && (is_first || are_ways) && are_sound(main_) &&
-         are_sound(fast_) && std::abs(main_start_) <= limits::largest_time;
+  return is_price && std::abs(main_tier_) <= most_powers && is_way(typical_way_) && is_way(fast_way_) &&
+         are_sound(main_) && are_sound(fast_) && std::abs(main_start_) <= limits::largest_time;
 }
 
 }  // namespace kinesphere
