@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 
-#include "kinesphere/limits.hpp"
 #include "number/powers.hpp"
 
 namespace kinesphere {
@@ -307,7 +306,7 @@ bool Tempo::is_sound() const {
   const bool is_price =
       price_.short_side >= 0.0 && price_.long_side >= price_.short_side && price_.pairs >= 0.0;
   return is_price && std::abs(main_tier_) <= most_powers && is_way(typical_way_) && is_way(fast_way_) &&
-         are_sound(main_) && are_sound(fast_) && std::abs(main_start_) <= limits::largest_time;
+         are_sound(main_) && are_sound(fast_) && std::isfinite(main_start_);
 }
 
 }  // namespace kinesphere
