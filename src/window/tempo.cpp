@@ -166,7 +166,7 @@ void Tempo::start_main(double now, const Kicks& kicks) {
 /// Far less than the typical way.
 double Tempo::Round::quantum() const {
   constexpr int quanta_in_way = 12;
-  return power_of_two(exponent_of(tempo_->typical_way_) - quanta_in_way);
+  return power_of_two(exponent_of(std::max(tempo_->typical_way_, shortest_way)) - quanta_in_way);
 }
 
 /// Lengths far beyond the typical way say no more than that they are, and those far below it no less; 2^30 of
@@ -296,10 +296,7 @@ void Tempo::adapt_fast() {
 }
 
 bool Tempo::is_sound() const {
-  // Zero before it is chosen.
-  const auto is_way = [this](double way) {
-    return way == 0.0 || (way >= shortest_way && way <= longest_way_);
-  };
+  const auto is_way = [this](double way) { return way >= 0.0 && way <= longest_way_; };
   const auto are_sound = [](const Starts& starts) {
     return starts.widths >= 0.0 && starts.ways >= 0.0 && starts.growths >= 0.0;
   };
