@@ -6,16 +6,12 @@
 #include <algorithm>
 #include <optional>
 
+#include "ascii_text.hpp"
+
 namespace kinesphere::program {
 namespace {
 
 constexpr std::string_view line_end = "\r\n";
-
-char lower_case(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-bool is_same_name(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, {}, lower_case, lower_case);
-}
 
 /// Returns the text up to `separator` and takes it and the separator off `rest`; nothing if there is no
 /// separator.
@@ -35,12 +31,6 @@ bool is_token(std::string_view text) {
 }
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }
-
-std::string_view without_padding(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 std::optional<int> hexadecimal(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -95,13 +85,13 @@ std::optional<Fields> parse_fields(std::string_view lines) {
     const auto name = take_until(*line, ":");
     if (!name || !is_token(*name)) return std::nullopt;
     if (std::ranges::any_of(*line, [](char c) { return is_control(c) && c != '\t'; })) return std::nullopt;
-    const std::string_view value = without_padding(*line);
-    if (is_same_name(*name, "Host")) {
+    const std::string_view value = trimmed(*line);
+    if (same_name(*name, "Host")) {
       ++fields.hosts;
       fields.host = value;
-    } else if (is_same_name(*name, "Sec-Fetch-Site")) {
+    } else if (same_name(*name, "Sec-Fetch-Site")) {
       fields.fetch_site = value;
-    } else if (is_same_name(*name, "Sec-Fetch-Mode")) {
+    } else if (same_name(*name, "Sec-Fetch-Mode")) {
       fields.fetch_mode = value;
     }
   }

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <utility>
+
+#include "ascii_text.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -71,11 +72,9 @@ constexpr KnownName known_names[] = {
     {"altitude", Quantity::z},
 };
 
-char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
-
 std::string lower(std::string_view text) {
   std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(), [](char c) { return lower(c); });
+  std::transform(result.begin(), result.end(), result.begin(), lower_case);
   return result;
 }
 
@@ -137,11 +136,6 @@ std::optional<ColumnMeaning> meaning_of(std::string_view column_name) {
   const auto quantity = quantity_named(std::string_view(name).substr(0, cut));
   if (!quantity || !is_unit_of(*quantity, unit)) return std::nullopt;
   return ColumnMeaning{*quantity, std::move(unit)};
-}
-
-bool same_name(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](char c, char d) { return lower(c) == lower(d); });
 }
 
 }  // namespace kinesphere::program

@@ -29,7 +29,4 @@ struct ColumnMeaning {
 /// By the usual names in any case, with or without blanks, - and _ between their words; none for others.
 std::optional<ColumnMeaning> meaning_of(std::string_view column_name);
 
-/// Without distinction of case.
-bool same_name(std::string_view a, std::string_view b);
-
 }  // namespace kinesphere::program

@@ -10,6 +10,7 @@
 #include <numeric>
 #include <utility>
 
+#include "ascii_text.hpp"
 #include "number_text.hpp"
 #include "program_error.hpp"
 #include "tracks/text_table.hpp"

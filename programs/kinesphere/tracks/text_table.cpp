@@ -6,19 +6,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "ascii_text.hpp"
 #include "number_text.hpp"
 #include "program_error.hpp"
 
 namespace kinesphere::program {
 namespace {
-
-constexpr std::string_view blanks = " \t\r";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 /// Of the row that `text` begins with.
 char separator_of(std::string_view text) {

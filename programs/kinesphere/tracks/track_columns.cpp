@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "ascii_text.hpp"
 #include "number_text.hpp"
 #include "program_error.hpp"
 

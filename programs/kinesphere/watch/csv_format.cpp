@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "ascii_text.hpp"
 #include "number_text.hpp"
 #include "program_error.hpp"
 #include "tracks/column_names.hpp"

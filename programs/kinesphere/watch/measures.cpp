@@ -7,9 +7,9 @@
 #include <span>
 #include <string>
 
+#include "ascii_text.hpp"
 #include "number_text.hpp"
 #include "program_error.hpp"
-#include "tracks/column_names.hpp"
 
 namespace kinesphere::program {
 namespace {

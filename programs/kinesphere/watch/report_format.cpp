@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "tracks/column_names.hpp"
+#include "ascii_text.hpp"
 #include "watch/measures.hpp"
 
 namespace kinesphere::program {

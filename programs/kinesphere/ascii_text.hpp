@@ -1,0 +1,27 @@
+// Text of formats that are ASCII, whatever the locale.
+#pragma once
+
+#include <algorithm>
+#include <string_view>
+
+namespace kinesphere::program {
+
+/// What stands around fields of a line.
+inline constexpr std::string_view blanks = " \t\r";
+
+/// Returns the small letter of a capital A to Z, and all else as it is.
+constexpr char lower_case(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+/// True if the names are the same but for capital and small letters.
+constexpr bool same_name(std::string_view a, std::string_view b) {
+  return std::ranges::equal(a, b, {}, lower_case, lower_case);
+}
+
+/// Returns the text without the blanks at its ends.
+constexpr std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+}  // namespace kinesphere::program
