@@ -13,9 +13,9 @@ namespace kinesphere {
 /// less do not end; nothing if that is to be decided anew now. Cost: O(pairs that are near).
 std::optional<double> Monitor::Engine::certified_until(std::uint32_t a, std::uint32_t b) const {
   double until = windows_.next_end();
-  const auto [first, second] = std::minmax(a, b);
-  agenda_.for_each([&, one = first, other = second](const HotPair& pair) {
-    if (pair.first == one && pair.second == other && !is_void(pair)) until = std::min(until, pair.time);
+  const std::uint32_t first = std::min(a, b), second = std::max(a, b);
+  agenda_.for_each([&](const HotPair& pair) {
+    if (pair.first == first && pair.second == second && !is_void(pair)) until = std::min(until, pair.time);
   });
   return until > time_ ? std::optional(until) : std::nullopt;
 }

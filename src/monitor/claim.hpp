@@ -28,26 +28,23 @@ struct Claim {
     const double s = t - time;
     return position + (velocity + acceleration * (0.5 * s)) * s;
   }
-  Spread radius_at(double t) const {
-    const double s = t - time;
-    return radius + (speed + growth * (0.5 * s)) * s;
-  }
+  Vec3 velocity_at(double t) const { return velocity + acceleration * (t - time); }
+  Spread radius_at(double t) const { return radius_after(t - time); }
   /// The same motion, told as of another time, before or after its own; it holds for as long. The errors have
   /// room for the roundings of this: margins of all that is added up, which may cancel.
   Claim moved_to(double t) const {
-    const double way = t - time, s = std::abs(way);
+    const double s = std::abs(t - time);
     const double speeds = norm_one(velocity) + norm_one(acceleration) * s;
     const double lengths = norm_one(position) + speeds * s;
     constexpr double more = 1.0 + rounding::margin;
     Claim moved = *this;
     moved.time = t;
-    moved.position = position + (velocity + acceleration * (0.5 * way)) * way;
+    moved.position = centre_at(t);
     moved.velocity = velocity_at(t);
-    moved.radius = (radius + (speed + growth * (0.5 * s)) * s) * more + Spread(lengths * rounding::margin);
+    moved.radius = radius_after(s) * more + Spread(lengths * rounding::margin);
     moved.speed = (speed + growth * s) * more + Spread(speeds * rounding::margin);
     return moved;
   }
-  Vec3 velocity_at(double t) const { return velocity + acceleration * (t - time); }
   /// As a ball.
   Bound bound() const {
     return {time, position, velocity, acceleration, radius.total(), speed.total(), growth.total()};
@@ -58,6 +55,9 @@ struct Claim {
     auto& [time, end, position, velocity, acceleration, radius, speed, growth] = self;
     archive(time, end, position, velocity, acceleration, radius, speed, growth);
   }
+
+ private:
+  Spread radius_after(double s) const { return radius + (speed + growth * (0.5 * s)) * s; }
 };
 
 /// One of the distances that a separation is about: in space, where lengths along z count `stretch` times, in
@@ -68,7 +68,7 @@ struct Component {
   double stretch = 1.0;
   double limit = 0.0;
   /// A point of which this length, measured along these axes, is the excess over `limit` is no farther
-  /// outside of the separation than the tolerance (docs/monitoring.md, Lemma 1).
+  /// outside of the separation than the tolerance (docs/monitoring.md, Lemma 4).
   double tolerance = 0.0;
 
   double length(const Spread& spread) const {

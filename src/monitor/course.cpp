@@ -154,7 +154,7 @@ Course course_of(const Knowledge& a, const Knowledge& b, const Components& separ
   if (all.apart >= enough && all.apart >= all.within) return {Verdict::apart, all.apart};
   if (all.within >= enough) return {Verdict::within, all.within};
   double until = enough;
-  // One that is open says when the earliest is; several are looked at again soon.
+  // A pair of which a track has several hypotheses is decided again when a report comes, not by time alone.
   if (a.hypotheses().size() == 1 && b.hypotheses().size() == 1)
     until = std::max(until,
                      decided_from(a.hypotheses().front(), b.hypotheses().front(), separation, now, infinity));

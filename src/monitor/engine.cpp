@@ -52,10 +52,11 @@ bool Monitor::Engine::is_void(const HotPair& pair) const {
 }
 
 Result<std::optional<MonitorEvent>> Monitor::Engine::advance(double until, const Poll* poll) {
-  // Taking what has happened so far, which is nothing, starts no clock.
-  if (!has_started_ && until == time_) return std::optional<MonitorEvent>{};
-  if (!has_started_) time_ = until;
-  has_started_ = true;
+  if (!has_started_) {
+    // A caller that takes the events up to time() does not choose a time, so the clock does not start.
+    if (until == time_) return std::optional<MonitorEvent>{};
+    start_clock(until);
+  }
   for (;;) {
     agenda_.open([this](const HotPair& pair) { return is_void(pair); });
     const double next = std::min(windows_.next_end(), agenda_.next_time());
@@ -95,12 +96,11 @@ RoomyBound Monitor::Engine::roomy_bound(std::uint32_t number, const Hypothesis& 
   return {moved, levels_.room(tracks_[number].track_class)};
 }
 
-/// Windows get twice as long with each few that pass without a report, so that a gap of any length has few.
+/// The window that starts now. Its length doubles with every eight windows that start without a report, so
+/// the windows of a gap are few: eight times the binary logarithm of its length in windows.
 Window Monitor::Engine::next_window() const {
   constexpr std::uint32_t windows_of_a_length = 8;
-  const auto lengthened =
-      std::min<std::uint32_t>(quiet_windows_ / windows_of_a_length, 2 * Window::longest_tier);
-  return Window::at(time_, std::min(tier_ + static_cast<int>(lengthened), Window::longest_tier));
+  return Window::at(time_, tier_ + static_cast<int>(quiet_windows_ / windows_of_a_length));
 }
 
 Result<void> Monitor::Engine::start_windows(const Poll* poll) {

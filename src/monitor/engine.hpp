@@ -73,6 +73,10 @@ class Monitor::Engine {
   void is_due(std::uint32_t number);
 
   bool is_void(const HotPair& pair) const;
+  void start_clock(double time) {
+    time_ = time;
+    has_started_ = true;
+  }
   Window next_window() const;
   Result<void> start_windows(const Poll* poll);
   Result<void> look(const Poll* poll);
@@ -104,9 +108,10 @@ class Monitor::Engine {
   }
   static std::uint32_t track_at(std::uint32_t place) { return place / Knowledge::slots; }
   RoomyBound roomy_bound(std::uint32_t number, const Hypothesis& hypothesis, double end) const;
-  /// That in which all tracks are registered now, or would be.
+  /// The window in which tracks are registered: the present one or, once it has ended, the one that follows.
   Window window() const { return time_ < window_.end ? window_ : Window::at(time_, tier_); }
-  /// The next time that can be told from now, or later: MonitorDefinition::time_resolution.
+  /// The shortest duration for which an answer counts as certain: MonitorDefinition::time_resolution or,
+  /// where doubles of the size of time() are coarser, 2^-50 of it.
   double resolution() const { return std::max(definition_.time_resolution, std::abs(time_) * 0x1p-50); }
 
   MonitorDefinition definition_;
@@ -114,9 +119,9 @@ class Monitor::Engine {
   Levels levels_;
   int tier_;  ///< of windows while reports come
   double time_;
-  bool has_started_;  ///< false until a report or advance() sets the time, if the definition does not
+  bool has_started_;  ///< false until start_clock(), if the definition gives no start
   Window window_{.tier = 0, .end = -infinity};
-  std::uint32_t quiet_windows_ = 0;  ///< that have started since a report came or was asked for
+  std::uint32_t quiet_windows_ = 0;  ///< windows that have started since a report came or was asked for
   MonitorCounters counters_;
   TrackTable tracks_;
   OpenRecords open_;

@@ -17,13 +17,10 @@ constexpr std::size_t most_hypotheses = Knowledge::slots - 1;
 TrackReport with_exact_stamp(TrackReport report, const TrackClass& promise, const PlansBeyondClass& plans) {
   const double error = report.stamp_error;
   if (error == 0.0) return report;
-  const Vec3& velocity = report.state.velocity;
-  const Spread speed = least(
-      Spread::cylinder(std::hypot(velocity.x, velocity.y), std::abs(velocity.z)) + report.velocity_error,
-      promise.largest_speed);
-  const Vec3& planned = promise.planned_acceleration;
-  const Spread turn = plans.limit_from(report.stamp - error, promise) +
-                      Spread::cylinder(std::hypot(planned.x, planned.y), std::abs(planned.z));
+  const Spread speed =
+      least(lengths_of(report.state.velocity) + report.velocity_error, promise.largest_speed);
+  const Spread turn =
+      plans.limit_from(report.stamp - error, promise) + lengths_of(promise.planned_acceleration);
   // A path that turns goes no farther than this, and no farther than the largest speed takes it.
   const Spread way = least((speed + turn * (0.5 * error)) * error, promise.largest_speed * error);
   report.position_error = report.position_error + way * (1.0 + rounding::margin);
@@ -131,14 +128,16 @@ double beyond(const Vec3& way, const Spread& limit, double size) {
   return std::max({0.0, flat - room, upright - room, all - room});
 }
 
-/// What `report` has beyond what an earlier or later state leaves possible.
-Excess excess_of(const TrackReport& report, const Hypothesis& believed, const TrackClass& promise) {
+/// What `report` has beyond what an earlier or later state leaves possible. `own`: its plan, beyond its
+/// class.
+Excess excess_of(const TrackReport& report, const PlansBeyondClass& own, const Hypothesis& believed,
+                 const TrackClass& promise) {
   const double way = report.stamp - believed.stamp;
   const double s = std::abs(way);
   const Claim& from = believed.motion;
-  // Its own plan counts before the other one's stamp only if it is older.
-  const PlansBeyondClass plans =
-      way < 0.0 ? joined(believed.plans, PlansBeyondClass::of(report, promise)) : believed.plans;
+  // A report's plan is in force from its stamp on, so it counts between the two if the report is the older
+  // one.
+  const PlansBeyondClass plans = way < 0.0 ? joined(believed.plans, own) : believed.plans;
   const Spread& limit = plans.limit_from(std::min(report.stamp, believed.stamp), promise);
   Excess excess;
   const double size = norm_one(report.state.position) + norm_one(from.position) +
@@ -217,7 +216,7 @@ Knowledge::Learned Knowledge::learn(const TrackReport& report, const TrackClass&
       learned = {.outcome = Outcome::repeated};
       return learned;
     }
-    const Excess excess = excess_of(exact, believed, promise);
+    const Excess excess = excess_of(exact, own, believed, promise);
     if (!excess.any()) agreeing.push_back(k);
     if (excess.position + excess.velocity < learned.excess.position + learned.excess.velocity)
       learned.excess = excess;

@@ -10,20 +10,21 @@
 
 namespace kinesphere {
 
+/// The lengths of a vector: in the plane, along z, and altogether.
+inline Spread lengths_of(const Vec3& v) { return Spread::cylinder(std::hypot(v.x, v.y), std::abs(v.z)); }
+
 /// The plans of a track that go beyond the promise of its class, summed up: until `end`, accelerations differ
 /// from the class's planned acceleration by at most `limit`, whichever plan is in force or none. From then on
 /// they differ by at most the class's limit.
 struct PlansBeyondClass {
   Spread limit{};
-  double end = -infinity;  ///< there is no such plan
+  double end = -infinity;  ///< -infinity if there is no such plan
 
   /// Of the plan of a report, if it has one.
   static PlansBeyondClass of(const TrackReport& report, const TrackClass& promise) {
     if (!report.plan) return {};
     const Vec3 turn = report.plan->acceleration - promise.planned_acceleration;
-    const Spread limit =
-        (Spread::cylinder(std::hypot(turn.x, turn.y), std::abs(turn.z)) + report.plan->acceleration_limit) *
-        (1.0 + rounding::margin);
+    const Spread limit = (lengths_of(turn) + report.plan->acceleration_limit) * (1.0 + rounding::margin);
     if (turn == Vec3{} && is_within(report.plan->acceleration_limit, promise.acceleration_limit)) return {};
     if (is_within(limit, promise.acceleration_limit)) return {};
     return {largest(limit, promise.acceleration_limit), report.plan->valid_until};
@@ -33,7 +34,7 @@ struct PlansBeyondClass {
   const Spread& limit_from(double time, const TrackClass& promise) const {
     return time < end ? limit : promise.acceleration_limit;
   }
-  /// What holds under the others' plans holds under these.
+  /// True if these allow every acceleration, at every time, that `other` allows.
   bool include(const PlansBeyondClass& other) const {
     return other.end == -infinity || (other.end <= end && is_within(other.limit, limit));
   }

@@ -12,8 +12,7 @@ namespace kinesphere {
 
 Result<void> Monitor::Engine::report(TrackId id, const TrackReport& report) {
   if (Result<void> checked = check(id, report, "report"); !checked) return checked;
-  if (!has_started_) time_ = report.stamp;
-  has_started_ = true;
+  if (!has_started_) start_clock(report.stamp);
   take(id, report, Placing::now);
   judge_open_pairs(*tracks_.find(id));
   return {};
