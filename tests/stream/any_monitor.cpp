@@ -2,8 +2,6 @@
 #include "stream/any_monitor.hpp"
 
 #include <array>
-#include <cstring>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -11,6 +9,7 @@
 
 #include "kinesphere/monitor/monitor.hpp"
 #include "kinesphere/random.hpp"
+#include "stream/damage.hpp"
 #include "support/sealed_snapshot.hpp"
 
 namespace kinesphere::any_monitor {
@@ -74,33 +73,6 @@ void use(Monitor monitor, Random& random) {
   static_cast<void>(Monitor::restore(monitor.save()));
 }
 
-void edit(Snapshot& snapshot, std::span<const std::uint8_t> edit) {
-  static constexpr double largest = std::numeric_limits<double>::max();
-  static constexpr std::array<double, 16> numbers{0.0,      -0.0,      1.0,    -1.0,   1e6,     -1e6,
-                                                  1e30,     -1e30,     1e300,  -1e300, largest, -largest,
-                                                  HUGE_VAL, -HUGE_VAL, 1e-300, NAN};
-  const std::size_t room = snapshot.size() - snapshot_frame_size;
-  const std::size_t offset = (256u * edit[0] + edit[1]) % room, at = snapshot_header_size + offset;
-  const auto place = snapshot.begin() + static_cast<std::ptrdiff_t>(at);
-  const std::byte value{edit[3]};
-  switch (edit[2] % 5) {
-    case 0:
-      *place = value;
-      break;
-    case 1:
-      *place ^= value;
-      break;
-    case 2:
-      if (offset + 8 <= room) std::memcpy(&*place, &numbers[edit[3] % numbers.size()], 8);
-      break;
-    case 3:
-      snapshot.insert(place, value);
-      break;
-    default:
-      if (room > 1) snapshot.erase(place);
-  }
-}
-
 }  // namespace
 
 void try_as_monitor(std::span<const std::uint8_t> bytes) {
@@ -111,7 +83,8 @@ void try_as_monitor(std::span<const std::uint8_t> bytes) {
     return all;
   }();
   Snapshot snapshot = snapshots[bytes[0] % snapshots.size()];
-  for (std::size_t at = 1; at + 4 <= bytes.size(); at += 4) edit(snapshot, bytes.subspan(at, 4));
+  for (std::size_t at = 1; at + stream::damage_size <= bytes.size(); at += stream::damage_size)
+    stream::damage(snapshot, snapshot_header_size, 8, bytes.subspan(at, stream::damage_size));
   auto restored = Monitor::restore(sealed(std::move(snapshot)));
   if (!restored) {
     require(restored.error().code == ErrorCode::bad_snapshot, "a snapshot is refused for another reason");

@@ -8,6 +8,7 @@
 
 #include "kinesphere/random.hpp"
 #include "stream/any_monitor.hpp"
+#include "stream/damage.hpp"
 
 namespace kinesphere::any_reports_test {
 namespace {
@@ -48,7 +49,7 @@ TEST(AnyReports, OfRandomSkiesAreNeverTakenWrongly) {
 
 TEST(AnyReports, DamagedSnapshotsOfMonitorsAreRefusedOrHarmless) {
   for (std::uint64_t seed = 1; seed <= 10 * skies(); ++seed) {
-    const std::vector<std::uint8_t> edits = random_bytes(seed, 1 + 4 * (1 + seed % 3));
+    const std::vector<std::uint8_t> edits = random_bytes(seed, 1 + stream::damage_size * (1 + seed % 3));
     EXPECT_NO_THROW(any_monitor::try_as_monitor(edits)) << "seed " << seed;
   }
 }

@@ -1,14 +1,13 @@
 #include "stream/mended.hpp"
 
-#include <cmath>
-#include <cstring>
-#include <limits>
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "kinesphere/kinesphere.hpp"
+#include "stream/damage.hpp"
 #include "stream/player.hpp"
 #include "support/sealed_snapshot.hpp"
 
@@ -182,104 +181,6 @@ const Original& original(std::uint8_t number) {
   return all[number % all.size()];
 }
 
-double number_of(const Content& bytes, std::size_t at) {
-  double value;
-  std::memcpy(&value, bytes.data() + at, sizeof value);
-  return value;
-}
-
-/// The first place from here on where eight bytes are a double as worlds have them.
-std::size_t next_double(const Content& bytes, std::size_t at) {
-  for (std::size_t k = at; k + 8 <= bytes.size(); ++k) {
-    const double value = std::abs(number_of(bytes, k));
-    if ((value > 1e-12 && value < 1e12) || std::isinf(value)) return k;
-  }
-  return at;
-}
-
-/// The first place from here on where eight bytes are a small whole number, as the size of a list is.
-std::size_t next_count(const Content& bytes, std::size_t at) {
-  for (std::size_t k = at; k + 8 <= bytes.size(); ++k) {
-    std::uint64_t value;
-    std::memcpy(&value, bytes.data() + k, sizeof value);
-    if (value > 0 && value < 4096) return k;
-  }
-  return at;
-}
-
-double strange_double(std::uint8_t number, double before) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  static const double all[] = {0.0,     -0.0,      1.0,     -1.0,     std::nan(""), inf,    -inf,   5e-324,
-                               1e-310,  0x1p-1022, 1e-300,  0x1p-300, 0x1p-301,     1e-77,  1e-30,  1e30,
-                               -1e30,   1e31,      -1e31,   1e76,     -3e231,       0x1p62, 0x1p63, -0x1p63,
-                               0x1p300, 0x1p301,   1.7e308, -1.7e308, 1e100,        1e101,  0x1p41, 0x1p480};
-  constexpr std::size_t count = sizeof all / sizeof *all;
-  if (number < count) return all[number];
-  switch (number % 6) {
-    case 0:
-      return std::nextafter(before, inf);
-    case 1:
-      return std::nextafter(before, -inf);
-    case 2:
-      return -before;
-    case 3:
-      return before * 2.0;
-    case 4:
-      return before + 1.0;
-    default:
-      return before * 1e12;
-  }
-}
-
-void overwrite(Content& bytes, std::size_t at, const void* with, std::size_t size) {
-  if (at + size <= bytes.size()) std::memcpy(bytes.data() + at, with, size);
-}
-
-/// `first` is where the content begins; `behind` bytes at the end are not part of it.
-void edit(Content& bytes, std::size_t first, std::size_t behind, std::span<const std::uint8_t> how) {
-  if (bytes.size() <= first + behind) return;
-  const std::size_t room = bytes.size() - first - behind;
-  std::size_t at = first + (65536u * how[0] + 256u * how[1] + how[2]) % room;
-  const auto place = bytes.begin() + static_cast<std::ptrdiff_t>(at);
-  const auto value = how.subspan(4, 8);
-  static const std::uint32_t whole[] = {
-      0,   1,          2,          0x7fffffff, 0x80000000, 0xffffffff, 0xfffffffe, 300,
-      301, 0xfffffed4, 0xfffffed3, 0x7f800000, 0x7fc00000, 0xff800000, 0x00000001, 0x7f7fffff};
-  switch (how[3] % 9) {
-    case 0:
-      *place = std::byte{value[0]};
-      break;
-    case 1:
-      *place ^= std::byte{value[0]};
-      break;
-    case 2:
-      bytes.insert(place, std::byte{value[0]});
-      break;
-    case 3:
-      bytes.erase(place);
-      break;
-    case 4:
-      overwrite(bytes, at, value.data(), 8);
-      break;
-    case 5:
-    case 6: {
-      at = next_double(bytes, at);
-      if (at + 8 > bytes.size() - behind) return;
-      const double strange = strange_double(value[0], number_of(bytes, at));
-      overwrite(bytes, at, &strange, sizeof strange);
-      break;
-    }
-    case 7:
-      overwrite(bytes, at, &whole[value[0] % std::size(whole)], 4);
-      break;
-    default: {
-      at = next_count(bytes, at);
-      if (at + 8 > bytes.size() - behind) return;
-      bytes[at] = static_cast<std::byte>(static_cast<std::uint8_t>(bytes[at]) + value[0]);
-    }
-  }
-}
-
 /// Asks a world all that it can be asked.
 void ask(World& world, Random& random, const Probe& probe) {
   const Vec3 point = 8.0 * random.point_in_ball();
@@ -399,12 +300,12 @@ void replay(const Content& recording) {
 void try_mended(std::span<const std::uint8_t> bytes) {
   if (bytes.empty()) return;
   Original damaged = original(bytes[0]);
-  for (std::size_t at = 1; at + 12 <= bytes.size(); at += 12) {
-    const auto how = bytes.subspan(at, 12);
+  for (std::size_t at = 1; at + damage_size <= bytes.size(); at += damage_size) {
+    const auto how = bytes.subspan(at, damage_size);
     if (damaged.is_recording() && how[3] % 2 == 0) {
-      edit(damaged.steps, 0, 0, how);
+      damage(damaged.steps, 0, 0, how);
     } else {
-      edit(damaged.snapshot, snapshot_header_size, 8, how);
+      damage(damaged.snapshot, snapshot_header_size, 8, how);
     }
   }
   const Content all = whole(damaged);
