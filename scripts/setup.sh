@@ -3,7 +3,7 @@
 # Usage: setup.sh run | mpi | browser | python | bench | prove | test | coverage
 set -euo pipefail
 
-packages=(g++ cmake ninja-build libhwy-dev libcli11-dev libfmt-dev nlohmann-json3-dev libsimdjson-dev zlib1g-dev libgeographiclib-dev libcpp-httplib-dev libnats-dev)
+packages=(g++ cmake ninja-build libhwy-dev libcli11-dev libfmt-dev nlohmann-json3-dev libsimdjson-dev zlib1g-dev libgeographiclib-dev libnats-dev)
 mpi=(libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev)
 browser=(emscripten nodejs)
 # That of Node.js itself brings npm along.
@@ -11,7 +11,7 @@ if ! command -v npm >/dev/null; then browser+=(npm); fi
 python=(python3-dev python3-pip python3-venv python3-setuptools python3-wheel python3-skbuild pybind11-dev python3-numpy)
 python_testing=(python3-pytest python3-pandas python3-matplotlib python3-scipy mypy black)
 proving=(coq libcoq-flocq)
-testing=("${proving[@]}" "${mpi[@]}" "${browser[@]}" "${python[@]}" "${python_testing[@]}" chromium libgtest-dev libtbb-dev nats-server librapidcheck-dev clang libclang-rt-dev clang-format clang-tidy pkg-config valgrind)
+testing=("${proving[@]}" "${mpi[@]}" "${browser[@]}" "${python[@]}" "${python_testing[@]}" chromium libcpp-httplib-dev libgtest-dev libtbb-dev nats-server librapidcheck-dev clang libclang-rt-dev clang-format clang-tidy pkg-config valgrind)
 case ${1:-} in
   run) ;;
   mpi) packages+=("${mpi[@]}") ;;
