@@ -120,5 +120,39 @@ TEST(Audit, FindsASensorDistanceThatNoEventHasToldOf) {
   EXPECT_EQ(finding->where, "sensor") << finding->what;
 }
 
+/// A body that moves along a period of 8, at a time in whose shortest window it goes no farther than a few.
+World in_a_period(double time, double speed) {
+  World world =
+      World::create({.box = Box{{0, 0, 0}, {8, 8, 8}}, .periodic = {true, true, true}, .start_time = time})
+          .value();
+  const Vec3 position{4, 4, 4}, velocity{speed, 0, 0};
+  world.add({.radius = 0.1, .position = position, .velocity = velocity}).value();
+  const auto probe = [&](std::span<const BodyId>, double now, std::span<State> states) {
+    for (State& state : states) state = {position + velocity * (now - time), velocity};
+  };
+  static_cast<void>(world.advance(time, probe).value());
+  return world;
+}
+
+TEST(Audit, FindsABoxThatIsTooWideForItsPeriod) {
+  constexpr double speed = 1.015625;
+  for (const double time : {-100.0, 1.0, 1e6}) {
+    const World world = in_a_period(time, speed);
+    EXPECT_EQ(world.audit(), std::nullopt) << time;
+    // The window is 2^-13 long: at 1e6 the shortest would be 2^-31.
+    for (const double faster : {1e5, 0x1p30}) {
+      const auto finding = with_number(world, speed, faster).audit();
+      ASSERT_TRUE(finding) << time << ", " << faster;
+      EXPECT_NE(finding->what.find("too wide"), std::string::npos) << finding->what;
+    }
+  }
+}
+
+/// At 2^60 windows are 2^10 long, or longer.
+TEST(Audit, AllowsTheShortestWindowThatThereIs) {
+  EXPECT_EQ(in_a_period(0x1p60, 0x1p-4).audit(), std::nullopt);
+  EXPECT_EQ(in_a_period(-0x1p60, 0x1p-4).audit(), std::nullopt);
+}
+
 }  // namespace
 }  // namespace kinesphere::audit_test
