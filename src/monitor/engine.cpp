@@ -106,9 +106,10 @@ Window Monitor::Engine::next_window() const {
 Result<void> Monitor::Engine::start_windows(const Poll* poll) {
   const Window next = next_window();
   ++quiet_windows_;
-  // Tracks by number: the places of one follow one another.
+  // Every track starts, also one that was added after a poll had failed here, in a window that goes on: what
+  // starts takes a layer for itself. Tracks by number: the places of one follow one another.
   std::vector<std::uint32_t> numbers;
-  for (const std::uint32_t place : windows_.ended(time_, false))
+  for (const std::uint32_t place : windows_.ended(time_, true))
     if (numbers.empty() || numbers.back() != track_at(place)) numbers.push_back(track_at(place));
   if (poll != nullptr) {
     // Whose plan ends, and who is in a pair that is undecided.
@@ -130,7 +131,7 @@ Result<void> Monitor::Engine::start_windows(const Poll* poll) {
   close_records();
   window_ = next;
   ++counters_.windows;
-  windows_.end_windows(time_, false);
+  windows_.end_windows(time_, true);
   std::vector<Windows::Starter> starters;
   bounds_.resize(std::size_t{tracks_.numbers()} * Knowledge::slots);
   for (const std::uint32_t number : numbers) {

@@ -62,6 +62,7 @@ class Monitor::Engine {
   static void transfer(Self& self, Archive& archive);
   /// What cannot have come about of a state that was read, if anything.
   const char* contradiction() const;
+  bool window_is_sound() const;
 
   Result<void> check(TrackId id, const TrackReport& report, const char* call) const;
   /// When a track gets another capsule that needs one: as the windows start, perhaps.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bound/rounding.hpp"
+#include "kinesphere/limits.hpp"
 
 namespace kinesphere {
 namespace {
@@ -57,10 +58,11 @@ void widen(Claim& claim) {
 }
 
 /// From when on the largest speed counts, as it would be exceeded after a time `after` of speeding up: the
-/// track is within the motion's radius then, and goes on from there by its largest speed.
+/// track is within the motion's radius then, and goes on from there by its largest speed. Nothing if that is
+/// later than a monitor can come to be.
 std::optional<Claim> range_after(const Claim& motion, double after, const TrackClass& promise) {
   const double begin = motion.time + after;
-  if (!(after > 0.0 && begin < motion.end)) return std::nullopt;
+  if (!(after > 0.0 && begin < motion.end && begin <= limits::largest_time)) return std::nullopt;
   const Claim then = motion.moved_to(begin);
   return Claim{
       .time = begin, .position = then.position, .radius = then.radius, .speed = promise.largest_speed};
@@ -73,8 +75,10 @@ std::vector<Claim> motions_of(const TrackReport& report, const TrackClass& promi
   std::vector<Claim> motions;
   if (!is_finite(report.velocity_error)) return motions;
   const bool has_limit = is_finite(promise.acceleration_limit);
-  // Accelerations change from one limit to another then.
+  // Accelerations change from one limit to another at `time`. Monitors end before later times than the
+  // largest, at which lengths would overflow.
   const auto go_on = [&](const Claim& motion, double time) {
+    if (!(time <= limits::largest_time)) return;
     Claim rest = motion.moved_to(time);
     rest.acceleration = promise.planned_acceleration;
     rest.growth = plans.limit_from(time, promise);
@@ -85,7 +89,7 @@ std::vector<Claim> motions_of(const TrackReport& report, const TrackClass& promi
     Claim planned = motion_of(report, report.plan->acceleration, report.plan->acceleration_limit);
     planned.end = report.plan->valid_until;
     motions.push_back(planned);
-    if (planned.end < infinity && has_limit) go_on(planned, planned.end);
+    if (has_limit) go_on(planned, planned.end);
   }
   if (!has_limit) return motions;
   const Claim motion =
@@ -96,7 +100,7 @@ std::vector<Claim> motions_of(const TrackReport& report, const TrackClass& promi
     motions.push_back(back.moved_to(now));
   }
   motions.push_back(motion);
-  if (report.stamp < plans.end && plans.end < infinity) go_on(motion, plans.end);
+  if (report.stamp < plans.end) go_on(motion, plans.end);
   return motions;
 }
 
@@ -191,6 +195,50 @@ Hypothesis joined(Hypothesis latest, Hypothesis other, double now, double soon) 
   if (best.radius_at(soon).total() < Knowledge::tightest(latest, now, soon).radius_at(soon).total())
     latest.claims.push_back(best);
   return latest;
+}
+
+// What a snapshot may hold. Claims of reports and classes within limits come to no larger numbers than these:
+// an acceleration by 2e30 of time makes 1e131 of speed and 1e161 of length. In the longest window, of 2^300,
+// nothing that is computed from them overflows.
+constexpr double largest_length = 1e170;
+constexpr double largest_speed = 1e140;
+constexpr double largest_acceleration = 1e110;
+
+bool is_time(double time) { return std::abs(time) <= limits::largest_time; }
+
+bool is_within(const Vec3& v, double most) {
+  return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most;
+}
+
+/// False for what is not a number.
+bool is_within(const Spread& spread, double most) {
+  const auto is_length = [most](double value) { return value >= 0.0 && value <= most; };
+  return is_length(spread.horizontal()) && is_length(spread.vertical()) && is_length(spread.total());
+}
+
+bool is_sound(const Claim& claim) {
+  return is_time(claim.time) && !std::isnan(claim.end) && is_within(claim.position, largest_length) &&
+         is_within(claim.velocity, largest_speed) && is_within(claim.acceleration, largest_acceleration) &&
+         is_within(claim.radius, largest_length) && is_within(claim.speed, largest_speed) &&
+         is_within(claim.growth, largest_acceleration);
+}
+
+/// What the latest report says by itself holds now and for ever: tightest() finds something even when a later
+/// report replaces all other claims.
+bool is_sound(const Hypothesis& hypothesis, double now) {
+  const auto& [stamp, slot, motion, state, plans, claims, latest_claims] = hypothesis;
+  // Neither the velocity nor the acceleration of a report need have a limit.
+  Claim limited = motion;
+  for (Spread* spread : {&limited.speed, &limited.growth})
+    if (is_within(*spread, infinity)) *spread = 0.0;
+  if (!is_time(stamp) || !is_sound(limited) || !is_within(state.position, largest_length) ||
+      !is_within(state.velocity, largest_speed) || std::isnan(plans.end) ||
+      !is_within(plans.limit, infinity) || latest_claims > claims.size())
+    return false;
+  const auto latest_end = claims.begin() + static_cast<std::ptrdiff_t>(latest_claims);
+  const auto holds = [now](const Claim& claim) { return claim.time <= now && claim.end == infinity; };
+  return std::all_of(claims.begin(), claims.end(), [](const Claim& claim) { return is_sound(claim); }) &&
+         std::any_of(claims.begin(), latest_end, holds);
 }
 
 }  // namespace
@@ -295,26 +343,14 @@ double Knowledge::stamp() const {
 }
 
 bool Knowledge::is_sound(double now) const {
-  const auto is_length = [](double value) { return value >= 0.0; };
-  const auto is_spread = [&](const Spread& spread) {
-    return is_length(spread.horizontal()) && is_length(spread.vertical()) && is_length(spread.total());
-  };
-  const auto is_claim = [&](const Claim& claim) {
-    return std::isfinite(claim.time) && !std::isnan(claim.end) && kinesphere::is_finite(claim.position) &&
-           kinesphere::is_finite(claim.velocity) && kinesphere::is_finite(claim.acceleration) &&
-           is_spread(claim.radius) && is_spread(claim.speed) && is_spread(claim.growth);
-  };
-  return !hypotheses_.empty() && hypotheses_.size() <= most_hypotheses &&
-         std::all_of(hypotheses_.begin(), hypotheses_.end(), [&](const Hypothesis& hypothesis) {
-           const std::vector<Claim>& claims = hypothesis.claims;
-           return std::isfinite(hypothesis.stamp) && !std::isnan(hypothesis.plans.end) &&
-                  is_spread(hypothesis.plans.limit) && hypothesis.slot < slots &&
-                  is_claim(hypothesis.motion) && hypothesis.latest_claims <= claims.size() &&
-                  std::all_of(claims.begin(), claims.end(), is_claim) &&
-                  std::any_of(claims.begin(), claims.end(), [now](const Claim& claim) {
-                    return claim.time <= now && claim.end == infinity;
-                  });
-         });
+  std::uint32_t taken = 0;
+  for (const Hypothesis& hypothesis : hypotheses_) {
+    // Two hypotheses with one slot would have one capsule.
+    if (hypothesis.slot >= slots || (taken & 1u << hypothesis.slot) != 0) return false;
+    taken |= 1u << hypothesis.slot;
+    if (!kinesphere::is_sound(hypothesis, now)) return false;
+  }
+  return !hypotheses_.empty() && hypotheses_.size() <= most_hypotheses;
 }
 
 double Knowledge::first_end() const {

@@ -79,7 +79,8 @@ class Knowledge {
   /// B are to be certain to the same sum of radii, the fewest reports are needed where their ages are as
   /// A^(-1/3) : B^(-1/3). Then this, radius by age, is the same for both.
   double worth_asking(double time) const;
-  /// For what was read: there is always a claim to go by.
+  /// For what was read: each hypothesis has a slot of its own, and at every time from `now` on a claim that
+  /// holds.
   bool is_sound(double now) const;
   /// When the first claim that `bound` may rest upon ends.
   double first_end() const;

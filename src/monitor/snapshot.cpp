@@ -22,6 +22,13 @@ constexpr Envelope monitor_envelope{{'K', 'i', 'n', 'M', 'o', 'n', '\r', '\n'},
                                     "snapshot",
                                     ErrorCode::bad_snapshot};
 
+/// True for a number of no track: it is as TrackTable::remove() leaves it.
+bool is_blank(const KnownTrack& track) {
+  const auto& [id, track_class, present, silent, life, placed, expected, knowledge, open] = track;
+  return id == 0 && track_class == 0 && !present && !silent && life == 0 && placed == 0 && expected == 0 &&
+         knowledge.hypotheses().empty() && open.empty();
+}
+
 }  // namespace
 
 template <class Self, class Archive>
@@ -80,10 +87,18 @@ Result<std::unique_ptr<Monitor::Engine>> Monitor::Engine::restore(std::span<cons
   return engine;
 }
 
+/// A window that has not ended is one that Window::at() gives for a time since it began.
+bool Monitor::Engine::window_is_sound() const {
+  if (!(window_.end > time_)) return !std::isnan(window_.end);
+  return window_.tier != Window::endless().tier && window_.is_sound() &&
+         (Window::at(time_, window_.tier) == window_ ||
+          (window_.begin() <= time_ && Window::at(window_.begin(), window_.tier) == window_));
+}
+
 const char* Monitor::Engine::contradiction() const {
   if (!std::isfinite(time_) || std::abs(time_) > limits::largest_time) return "time";
   if (!has_started_ && (time_ != 0.0 || definition_.start_time || tracks_.size() > 0)) return "time";
-  if (std::isnan(window_.end) || (window_.end > time_ && !window_.is_sound())) return "windows";
+  if (!window_is_sound()) return "windows";
   if (!windows_.is_sound(std::size_t{tracks_.numbers()} * Knowledge::slots)) return "windows";
   const auto is_present = [this](std::uint32_t number) {
     return number < tracks_.numbers() && tracks_[number].present;
@@ -93,13 +108,18 @@ const char* Monitor::Engine::contradiction() const {
     const KnownTrack& track = tracks_[number];
     bool placed = false;
     for (std::uint32_t slot = 0; slot < Knowledge::slots; ++slot) {
-      const bool contains = windows_.contains(number * Knowledge::slots + slot);
+      const std::uint32_t place = number * Knowledge::slots + slot;
+      const bool contains = windows_.contains(place);
       placed = placed || contains;
       if ((track.placed & 1u << slot) != 0 && !contains) return "windows";
+      // All start together when the first of their windows ends.
+      if (contains && windows_.end_of(place) > time_ && windows_.window_of(place) != window_)
+        return "windows";
     }
-    if (placed != track.present) return "windows";
+    if (placed != track.present || track.placed >> Knowledge::slots != 0) return "windows";
     if (!track.present) {
-      if (!track.open.empty()) return "pairs";
+      // The next track that gets the number goes on from what is here.
+      if (!is_blank(track)) return "tracks";
       continue;
     }
     if (track.track_class >= definition_.classes.size() || !track.knowledge.is_sound(time_)) return "tracks";
@@ -117,8 +137,9 @@ const char* Monitor::Engine::contradiction() const {
   open_.for_each([&](std::uint32_t a, std::uint32_t b, const OpenRecord& record) {
     sound = sound && a < b && is_present(a) && is_present(b) && record.version <= open_.last_version() &&
             record.levels.size() == levels_of(a, b).size() &&
-            std::all_of(record.levels.begin(), record.levels.end(),
-                        [](const LevelState& state) { return state.verdict <= Verdict::within; });
+            std::all_of(record.levels.begin(), record.levels.end(), [](const LevelState& state) {
+              return state.verdict <= Verdict::within && !std::isnan(state.since) && !std::isnan(state.until);
+            });
   });
   if (!sound) return "pairs";
   const auto is_pair = [&](const HotPair& pair) {
@@ -128,7 +149,8 @@ const char* Monitor::Engine::contradiction() const {
   };
   if (!std::all_of(read_pairs_.begin(), read_pairs_.end(), is_pair)) return "agenda";
   const auto is_event = [this](const MonitorEvent& event) {
-    return event.time == time_ && event.kind <= MonitorEventKind::left;
+    return event.time == time_ && event.kind <= MonitorEventKind::left && event.verdict <= Verdict::within &&
+           event.before <= Verdict::within;
   };
   return std::all_of(events_.begin(), events_.end(), is_event) ? nullptr : "events";
 }

@@ -139,15 +139,18 @@ std::optional<std::string> Windows::check(std::uint32_t number) const {
 }
 
 bool Windows::is_sound(std::size_t bodies) const {
-  if (registrations_.size() > bodies || !levels_.is_sound() || !is_finite(base_)) return false;
+  if (registrations_.size() > bodies || !levels_.is_sound() || !is_finite(base_) || std::isnan(next_end_))
+    return false;
   std::size_t registered = 0;
   for (std::uint32_t number = 0; number < registrations_.size(); ++number) {
     if (!contains(number)) continue;
     ++registered;
     if (std::isnan(registrations_[number].end) || check(number)) return false;
   }
-  return registered == size() && std::all_of(layers_.begin(), layers_.end(),
-                                             [](const WindowLayer& layer) { return layer.is_sound(); });
+  return registered == size() &&
+         std::all_of(layers_.begin(), layers_.end(), [this](const WindowLayer& layer) {
+           return layer.is_sound() && (layer.is_empty() || next_end_ <= layer.window.end);
+         });
 }
 
 }  // namespace kinesphere

@@ -1,11 +1,14 @@
 // A monitor that is restored goes on as the one that was saved, and nothing else can be restored.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
 #include <vector>
 
 #include "kinesphere/kinesphere.hpp"
 #include "kinesphere/monitor/monitor.hpp"
 #include "kinesphere/random.hpp"
+#include "number/infinity.hpp"
 #include "support/sealed_snapshot.hpp"
 
 namespace kinesphere::snapshot_test {
@@ -139,6 +142,104 @@ TEST(MonitorSnapshot, RefusesDamage) {
     static_cast<void>(restored->open_pairs());
   }
   EXPECT_GT(refused, 100);
+}
+
+using Bytes = std::vector<std::byte>;
+
+template <class T>
+void put(Bytes& bytes, std::size_t at, const T& value) {
+  std::memcpy(bytes.data() + at, &value, sizeof value);
+}
+
+/// Where these values stand one behind the other.
+template <class... Values>
+std::vector<std::size_t> places_of(const Bytes& bytes, const Values&... values) {
+  Bytes sought((sizeof values + ...));
+  std::size_t at = 0;
+  ((put(sought, at, values), at += sizeof values), ...);
+  std::vector<std::size_t> places;
+  for (auto k = bytes.begin(); k != bytes.end(); ++k) {
+    k = std::search(k, bytes.end(), sought.begin(), sought.end());
+    if (k == bytes.end()) break;
+    places.push_back(static_cast<std::size_t>(k - bytes.begin()));
+  }
+  return places;
+}
+
+bool is_refused(const Bytes& damaged) {
+  const auto restored = Monitor::restore(sealed(damaged));
+  EXPECT_TRUE(restored || restored.error().code == ErrorCode::bad_snapshot);
+  return !restored;
+}
+
+/// Two hypotheses with one slot had one capsule: when windows started, the place of the other stayed empty,
+/// and a capsule without a bound was looked up.
+TEST(MonitorSnapshot, RefusesTwoHypothesesOfOneSlot) {
+  constexpr double stamp = 0.15625;
+  Monitor monitor = made();
+  monitor.report(3, {.stamp = 0.0}).value();
+  monitor.report(3, {.stamp = stamp, .state = {{500, 0, 0}, {}}}).value();
+  Bytes snapshot = monitor.save();
+  const auto places = places_of(snapshot, stamp, std::uint32_t{1});
+  ASSERT_EQ(places.size(), 1u);
+  put(snapshot, places.front() + sizeof stamp, std::uint32_t{0});
+  EXPECT_TRUE(is_refused(snapshot));
+}
+
+/// All tracks start together when the window of the first ends, so all windows end then.
+TEST(MonitorSnapshot, RefusesWindowsThatEndApart) {
+  constexpr double end = 6.0;
+  Monitor monitor = Monitor::create({.start_time = 5.0,
+                                     .classes = {{.acceleration_limit = 4.0, .largest_speed = 20.0}},
+                                     .separations = {{0, 0, {Separation::sphere(2.0)}}}})
+                        .value();
+  monitor.report(1, {.stamp = 5.0}).value();
+  // In a layer of larger capsules.
+  monitor.report(2, {.stamp = 5.0, .state = {{900, 0, 0}, {}}, .position_error = 300.0}).value();
+  const Bytes snapshot = monitor.save();
+  const auto places = places_of(snapshot, end);
+  // The monitor's, two tracks', two layers', and that of the window which ends next.
+  ASSERT_EQ(places.size(), 6u);
+  for (const double other : {5.0 + 0x1p-50, 7.0, 0x1p300, infinity})
+    for (unsigned some = 1; some < 1u << places.size(); ++some) {
+      Bytes damaged = snapshot;
+      for (std::size_t k = 0; k < places.size(); ++k)
+        if ((some & 1u << k) != 0) put(damaged, places[k], other);
+      // That the next window ends sooner is possible: it was that of one who has left.
+      const bool is_sooner = some == 1u << 5 && other < end;
+      EXPECT_NE(is_refused(damaged), is_sooner) << other << ", " << some;
+    }
+}
+
+/// What a number without a track held was taken over by the next track of that number.
+TEST(MonitorSnapshot, RefusesWhatIsLeftOfATrack) {
+  constexpr TrackId id = 0x1122334455667788;
+  constexpr std::size_t size_of_none = 46;
+  Monitor monitor = made();
+  monitor.report(1, {.stamp = 0.0}).value();
+  monitor.report(id, {.stamp = 0.0}).value();
+  monitor.remove(1).value();
+  while (monitor.advance(0.0).value()) continue;
+  const Bytes snapshot = monitor.save();
+  const auto places = places_of(snapshot, id);
+  ASSERT_EQ(places.size(), 1u);
+  EXPECT_FALSE(is_refused(snapshot));
+  for (std::size_t at = places.front() - size_of_none; at < places.front(); ++at) {
+    ASSERT_EQ(snapshot[at], std::byte{0});
+    Bytes damaged = snapshot;
+    damaged[at] = std::byte{1};
+    EXPECT_TRUE(is_refused(damaged)) << places.front() - at << " before the next one";
+  }
+}
+
+/// Lengths overflowed where a plan ended, or the largest speed was reached, after all times that there are.
+TEST(MonitorSnapshot, IsNotRefusedWhenAPlanOutlivesAllTimes) {
+  Monitor monitor = made();
+  TrackReport report{.stamp = 0.0, .plan = TrackReport::Plan{{0, 0, 1}, 0.1, 1e200}};
+  monitor.report(1, report).value();
+  static_cast<void>(monitor.advance(1.0).value());
+  const auto restored = Monitor::restore(monitor.save());
+  EXPECT_TRUE(restored) << restored.error().message;
 }
 
 }  // namespace

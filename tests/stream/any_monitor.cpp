@@ -2,6 +2,7 @@
 #include "stream/any_monitor.hpp"
 
 #include <array>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -73,6 +74,16 @@ void use(Monitor monitor, Random& random) {
   static_cast<void>(Monitor::restore(monitor.save()));
 }
 
+void restore_and_use(Snapshot snapshot, std::uint64_t seed) {
+  auto restored = Monitor::restore(sealed(std::move(snapshot)));
+  if (!restored) {
+    require(restored.error().code == ErrorCode::bad_snapshot, "a snapshot is refused for another reason");
+    return;
+  }
+  Random random(seed);
+  use(std::move(*restored), random);
+}
+
 }  // namespace
 
 void try_as_monitor(std::span<const std::uint8_t> bytes) {
@@ -85,13 +96,24 @@ void try_as_monitor(std::span<const std::uint8_t> bytes) {
   Snapshot snapshot = snapshots[bytes[0] % snapshots.size()];
   for (std::size_t at = 1; at + stream::damage_size <= bytes.size(); at += stream::damage_size)
     stream::damage(snapshot, snapshot_header_size, 8, bytes.subspan(at, stream::damage_size));
-  auto restored = Monitor::restore(sealed(std::move(snapshot)));
-  if (!restored) {
-    require(restored.error().code == ErrorCode::bad_snapshot, "a snapshot is refused for another reason");
-    return;
+  restore_and_use(std::move(snapshot), bytes.size());
+}
+
+void try_small_numbers(std::uint64_t seed) {
+  constexpr std::uint32_t small = 4;
+  const Snapshot snapshot = snapshot_of_monitor(seed);
+  for (std::size_t at = snapshot_header_size; at + 12 <= snapshot.size(); ++at) {
+    std::uint32_t before;
+    std::memcpy(&before, snapshot.data() + at, sizeof before);
+    if (before >= small) continue;
+    for (std::uint32_t other = 0; other < small; ++other) {
+      // Most are parts of larger numbers.
+      if (other == before || (before == 0 && (at + other) % 8 != seed % 8)) continue;
+      Snapshot damaged = snapshot;
+      std::memcpy(damaged.data() + at, &other, sizeof other);
+      restore_and_use(std::move(damaged), at);
+    }
   }
-  Random random(bytes.size());
-  use(std::move(*restored), random);
 }
 
 }  // namespace kinesphere::any_monitor

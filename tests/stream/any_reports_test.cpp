@@ -54,5 +54,10 @@ TEST(AnyReports, DamagedSnapshotsOfMonitorsAreRefusedOrHarmless) {
   }
 }
 
+TEST(AnyReports, OtherSmallNumbersInSnapshotsOfMonitorsAreRefusedOrHarmless) {
+  for (const std::uint64_t seed : {1u, 3u})
+    EXPECT_NO_THROW(any_monitor::try_small_numbers(seed)) << "seed " << seed;
+}
+
 }  // namespace
 }  // namespace kinesphere::any_reports_test
