@@ -117,8 +117,10 @@ std::vector<TrackId> Monitor::Engine::crowd(std::size_t pairs) const {
   std::vector<bool> is_chosen(tracks_.numbers(), false);
   for (std::size_t left = open_.size(), k = 0; left > pairs; ++k) {
     const KnownTrack& track = tracks_[numbers[k]];
-    left -= static_cast<std::size_t>(std::count_if(track.open.begin(), track.open.end(),
-                                                   [&](std::uint32_t other) { return !is_chosen[other]; }));
+    const auto closed = std::count_if(track.open.begin(), track.open.end(),
+                                      [&](std::uint32_t other) { return !is_chosen[other]; });
+    if (closed == 0) continue;
+    left -= static_cast<std::size_t>(closed);
     is_chosen[numbers[k]] = true;
     crowd.push_back(track.id);
   }
