@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "program_error.hpp"
+#include "standard_streams.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -30,6 +31,7 @@ struct Close {
 std::string read_input(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) fail(path, "expected a file, but it is a folder");
+  if (path == "-" && standard_input_is_closed()) fail("standard input", "it is closed");
   errno = 0;
   // zlib hands a file through unchanged when it is not gzipped.
   const std::unique_ptr<std::remove_pointer_t<gzFile>, Close> file(

@@ -14,6 +14,7 @@
 #include "replay.hpp"
 #include "run.hpp"
 #include "standard_output.hpp"
+#include "standard_streams.hpp"
 #include "tracks.hpp"
 #include "verify.hpp"
 #include "view.hpp"
@@ -24,7 +25,7 @@ namespace {
 
 int complain(std::string message) {
   std::replace(message.begin(), message.end(), '\n', ' ');
-  fmt::print(stderr, "kinesphere: {}\n", message);
+  print_message("kinesphere: {}\n", message);
   return exit_wrong_input;
 }
 
@@ -60,6 +61,7 @@ int main(int argc, char** argv) {
   }
   const auto finished = [](int exit_code) {
     finish_output();
+    if (exit_code == exit_fine) check_messages();
     return exit_code;
   };
   if (*run_command) return finished(run(run_options));
@@ -80,6 +82,7 @@ int main(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace kinesphere::program;
   try {
+    reserve_standard_streams();
     return kinesphere::program::main(argc, argv);
   } catch (const ProgramError& error) {
     return complain(error.what());

@@ -30,7 +30,7 @@ int replay(const ReplayOptions& options) {
   const auto result = kinesphere::replay(std::as_bytes(std::span(bytes)));
   const std::chrono::duration<double> real_time = std::chrono::steady_clock::now() - started;
   if (!result && result.error().code == ErrorCode::diverged) {
-    fmt::print(stderr, "kinesphere: {}: {}\n", options.file, result.error().message);
+    print_message("kinesphere: {}: {}\n", options.file, result.error().message);
     return exit_disagreement;
   }
   if (!result) throw ProgramError(fmt::format("{}: {}", options.file, result.error().message));

@@ -220,8 +220,8 @@ int run(const RunOptions& options) {
   }
   if (failure) throw ProgramError(*failure);
   if (!attached.finding) return exit_fine;
-  fmt::print(stderr, "kinesphere: audit at time {}: {}: {}\n", attached.finding_time, attached.finding->where,
-             attached.finding->what);
+  print_message("kinesphere: audit at time {}: {}: {}\n", attached.finding_time, attached.finding->where,
+                attached.finding->what);
   return exit_disagreement;
 }
 

@@ -9,20 +9,34 @@
 namespace kinesphere::program {
 namespace {
 
-[[noreturn]] void fail(int error) {
-  throw ProgramError(fmt::format("standard output: cannot write: {}", std::strerror(error)));
+/// Why the first message that was lost could not be written; 0 if none was.
+int message_error = 0;
+
+[[noreturn]] void fail(const char* stream, int error) {
+  throw ProgramError(fmt::format("{}: cannot write: {}", stream, std::strerror(error)));
 }
 
 }  // namespace
 
 void write_output(std::string_view text) {
   errno = 0;
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) fail(errno != 0 ? errno : EIO);
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size())
+    fail("standard output", errno != 0 ? errno : EIO);
 }
 
 void finish_output() {
   errno = 0;
-  if (std::fflush(stdout) != 0) fail(errno != 0 ? errno : EIO);
+  if (std::fflush(stdout) != 0) fail("standard output", errno != 0 ? errno : EIO);
+}
+
+void write_message(std::string_view text) {
+  errno = 0;
+  if (std::fwrite(text.data(), 1, text.size(), stderr) == text.size() && std::fflush(stderr) == 0) return;
+  if (message_error == 0) message_error = errno != 0 ? errno : EIO;
+}
+
+void check_messages() {
+  if (message_error != 0) fail("standard error", message_error);
 }
 
 }  // namespace kinesphere::program

@@ -149,7 +149,7 @@ int tracks(const TracksOptions& options) {
       {.distance = distance, .tolerance = options.tolerance, .interpolation = options.reading.interpolation});
   const Scene& scene = scene_and_notes.scene;
   for (const std::string& warning : warnings_of(recording, scene_and_notes))
-    fmt::print(stderr, "kinesphere: warning: {}\n", warning);
+    print_message("kinesphere: warning: {}\n", warning);
 
   std::vector<Event> events;
   SimulationObserver observer;

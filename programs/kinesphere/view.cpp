@@ -46,7 +46,7 @@ void serve(LocalServer& server, const OpenedFiles& opened) {
 void open_browser(const std::string& address) {
   const std::string command = fmt::format("xdg-open {} >/dev/null 2>&1", address);
   if (std::system(command.c_str()) != 0)
-    fmt::print(stderr, "kinesphere: no browser could be opened: open {} in one\n", address);
+    print_message("kinesphere: no browser could be opened: open {} in one\n", address);
 }
 
 }  // namespace

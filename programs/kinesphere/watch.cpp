@@ -9,6 +9,7 @@
 #include "output_file.hpp"
 #include "output_paths.hpp"
 #include "program_error.hpp"
+#include "standard_output.hpp"
 #include "validators.hpp"
 #include "watch/nats/nats_address.hpp"
 #include "watch/watch_report.hpp"
@@ -137,6 +138,18 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
                    "More malformed lines end it; any number when not given")
       ->check(whole_number(std::uint64_t{1} << 53))
       ->group(reading);
+  command
+      ->add_option("--most-tracks", options.most_tracks,
+                   "At most so many tracks are watched: reports of more are not taken; 50000 when not given")
+      ->check(whole_number(std::uint64_t{1} << 28, 1))
+      ->group(reading);
+  command
+      ->add_option(
+          "--most-pairs", options.most_pairs,
+          "At most so many pairs may be not certainly apart: from half of them on new tracks are not "
+          "taken, beyond all of them the tracks in most of them leave; 1000000 when not given")
+      ->check(whole_number(std::uint64_t{1} << 32, 1))
+      ->group(reading);
   command->add_option("--summary", options.summary, "Write the summary to this file, as JSON")
       ->type_name("FILE");
   command
@@ -163,7 +176,7 @@ int watch(const WatchOptions& options) {
     watch.close();
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     const std::string_view format = watch.format_name();
-    if (!options.quiet) fmt::print(stderr, "{}", watch_summary_text(watch.watcher(), format, seconds));
+    if (!options.quiet) write_message(watch_summary_text(watch.watcher(), format, seconds));
     if (!summary) return;
     summary->write(watch_summary_json(watch.watcher(), format, seconds));
     summary->commit();

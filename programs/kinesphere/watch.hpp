@@ -23,6 +23,7 @@ struct WatchOptions {
   std::string clock = "stream";
   std::string origin, radius;
   std::optional<std::size_t> most_malformed;
+  std::optional<std::size_t> most_tracks, most_pairs;
   std::string snapshot, snapshot_every;
   std::string alerts;  ///< empty: standard output
   std::string share;

@@ -104,6 +104,29 @@ std::vector<OpenPair> Monitor::Engine::open_pairs() const {
   return pairs;
 }
 
+std::vector<TrackId> Monitor::Engine::crowd(std::size_t pairs) const {
+  std::vector<std::uint32_t> numbers;
+  for (std::uint32_t number = 0; number < tracks_.numbers(); ++number)
+    if (tracks_[number].present && !tracks_[number].open.empty()) numbers.push_back(number);
+  std::sort(numbers.begin(), numbers.end(), [this](std::uint32_t a, std::uint32_t b) {
+    const KnownTrack& one = tracks_[a];
+    const KnownTrack& other = tracks_[b];
+    return one.open.size() != other.open.size() ? one.open.size() > other.open.size() : one.id < other.id;
+  });
+  std::vector<TrackId> crowd;
+  std::vector<bool> is_chosen(tracks_.numbers(), false);
+  for (std::size_t left = open_.size(), k = 0; left > pairs; ++k) {
+    const KnownTrack& track = tracks_[numbers[k]];
+    const auto closed = std::count_if(track.open.begin(), track.open.end(),
+                                      [&](std::uint32_t other) { return !is_chosen[other]; });
+    if (closed == 0) continue;
+    left -= static_cast<std::size_t>(closed);
+    is_chosen[numbers[k]] = true;
+    crowd.push_back(track.id);
+  }
+  return crowd;
+}
+
 std::vector<ReportNeed> Monitor::Engine::needed(double until) const {
   std::vector<ReportNeed> needs;
   agenda_.for_each([&](const HotPair& pair) {

@@ -97,7 +97,8 @@ RoomyBound Monitor::Engine::roomy_bound(std::uint32_t number, const Hypothesis& 
 }
 
 /// The window that starts now. Its length doubles with every eight windows that start without a report, so
-/// the windows of a gap are few: eight times the binary logarithm of its length in windows.
+/// the windows of a gap are few: eight times the binary logarithm of its length in windows. It doubles
+/// more slowly while windows find many pairs.
 Window Monitor::Engine::next_window() const {
   constexpr std::uint32_t windows_of_a_length = 8;
   return Window::at(time_, tier_ + static_cast<int>(quiet_windows_ / windows_of_a_length));
@@ -105,7 +106,7 @@ Window Monitor::Engine::next_window() const {
 
 Result<void> Monitor::Engine::start_windows(const Poll* poll) {
   const Window next = next_window();
-  ++quiet_windows_;
+  const std::uint64_t pairs_before = counters_.near_pairs;
   // Every track starts, also one that was added after a poll had failed here, in a window that goes on: what
   // starts takes a layer for itself. Tracks by number: the places of one follow one another.
   std::vector<std::uint32_t> numbers;
@@ -153,6 +154,11 @@ Result<void> Monitor::Engine::start_windows(const Poll* poll) {
     for (const auto& [a, b] :
          search_.near_started(windows_, from, std::min(started, from + at_once), time_, bound_of))
       find_pair(track_at(a), track_at(b));
+  // Longer windows find more pairs, which take memory: a window that finds many counts as an eighth of one.
+  constexpr std::size_t many_pairs_for_each = 16;
+  constexpr std::uint64_t slower = 8;
+  const bool finds_many = counters_.near_pairs - pairs_before > many_pairs_for_each * numbers.size();
+  if (!finds_many || counters_.windows % slower == 0) ++quiet_windows_;
   return {};
 }
 }  // namespace kinesphere

@@ -49,6 +49,8 @@ class Monitor::Engine {
 
   Result<PairAnswer> answer(TrackId first, TrackId second, std::uint32_t level) const;
   std::vector<OpenPair> open_pairs() const;
+  std::size_t open_pair_count() const { return open_.size(); }
+  std::vector<TrackId> crowd(std::size_t pairs) const;
   std::vector<ReportNeed> needed(double until) const;
 
   std::vector<std::byte> save() const;
@@ -122,7 +124,8 @@ class Monitor::Engine {
   double time_;
   bool has_started_;  ///< false until start_clock(), if the definition gives no start
   Window window_{.tier = 0, .end = -infinity};
-  std::uint32_t quiet_windows_ = 0;  ///< windows that have started since a report came or was asked for
+  /// Windows that have started since a report came or was asked for; those that find many pairs count less.
+  std::uint32_t quiet_windows_ = 0;
   MonitorCounters counters_;
   TrackTable tracks_;
   OpenRecords open_;

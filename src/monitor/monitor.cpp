@@ -128,6 +128,8 @@ Result<PairAnswer> Monitor::answer(TrackId first, TrackId second, std::uint32_t 
   return engine("answer").answer(first, second, level);
 }
 std::vector<OpenPair> Monitor::open_pairs() const { return engine("open_pairs").open_pairs(); }
+std::size_t Monitor::open_pair_count() const { return engine("open_pair_count").open_pair_count(); }
+std::vector<TrackId> Monitor::crowd(std::size_t pairs) const { return engine("crowd").crowd(pairs); }
 std::vector<ReportNeed> Monitor::needed(double until) const { return engine("needed").needed(until); }
 
 std::vector<std::byte> Monitor::save() const { return engine("save").save(); }

@@ -411,6 +411,27 @@ TEST(Monitor, CannotBeChangedByWhomItAsks) {
   monitor.report(1, at(5.0, {0, 0, 0})).value();
 }
 
+TEST(Monitor, NamesTheTracksOfACrowd) {
+  Monitor monitor = Monitor::create({.classes = {{.acceleration_limit = 1.0}},
+                                     .separations = {{0, 0, {Separation::sphere(10.0)}}}})
+                        .value();
+  const auto report = [&](TrackId id, double x) {
+    monitor.report(id, {.stamp = 0.0, .state = {{x, 0, 0}, {}}, .position_error = 1.0}).value();
+  };
+  // Five at one spot make ten pairs, and two elsewhere one.
+  for (TrackId id = 1; id <= 5; ++id) report(id, 0.1 * static_cast<double>(id));
+  report(8, 1000.0);
+  report(9, 1001.0);
+  while (monitor.advance(0.0).value()) continue;
+  EXPECT_EQ(monitor.open_pair_count(), 11u);
+  EXPECT_TRUE(monitor.crowd(11).empty());
+  EXPECT_EQ(monitor.crowd(7), std::vector<TrackId>{1});
+  EXPECT_EQ(monitor.crowd(4), (std::vector<TrackId>{1, 2}));
+  EXPECT_EQ(monitor.crowd(0).size(), 5u) << "four of the five, and one of the two";
+  for (const TrackId id : monitor.crowd(4)) monitor.remove(id).value();
+  EXPECT_EQ(monitor.open_pair_count(), 4u);
+}
+
 TEST(Monitor, ThatHasBeenMovedFromSaysSo) {
   Monitor monitor = made(definition(2.0));
   Monitor other = std::move(monitor);

@@ -208,6 +208,12 @@ class Monitor {
   Result<PairAnswer> answer(TrackId first, TrackId second, std::uint32_t level = 0) const;
   /// Pairs that are not certainly apart, by their ids and levels.
   std::vector<OpenPair> open_pairs() const;
+  /// Pairs of tracks that are not certainly apart, or were not at some time of the present window: what takes
+  /// memory besides the tracks, about 200 bytes each. Reports count from the next advance() on. Cost: O(1).
+  std::size_t open_pair_count() const;
+  /// Tracks without which open_pair_count() is at most `pairs`: those with most open pairs first, of equal
+  /// ones the lower id. Cost: O(tracks log tracks + open pairs).
+  std::vector<TrackId> crowd(std::size_t pairs) const;
   /// Whose reports are needed by `until` so that nothing turns undecided before, in the order of those times,
   /// each track once. Pairs are known ahead until the window ends, no further. Cost: O(pairs that are near).
   std::vector<ReportNeed> needed(double until) const;

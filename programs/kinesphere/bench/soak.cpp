@@ -73,9 +73,9 @@ int write_reports(const SoakSettings& settings) {
     write_output(line + "\n");
   }
   finish_output();
-  fmt::print(stderr, "{} reports, {} malformed lines, {} repeated, {} outliers, {} swapped, {} gaps\n",
-             reports.counts().reports, malformed, reports.counts().repeated, reports.counts().outliers,
-             reports.counts().swapped, reports.counts().gaps);
+  print_message("{} reports, {} malformed lines, {} repeated, {} outliers, {} swapped, {} gaps\n",
+                reports.counts().reports, malformed, reports.counts().repeated, reports.counts().outliers,
+                reports.counts().swapped, reports.counts().gaps);
   return exit_fine;
 }
 

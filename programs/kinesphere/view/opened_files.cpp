@@ -12,6 +12,7 @@
 #include "kinesphere/recording.hpp"
 #include "program_error.hpp"
 #include "recording/format.hpp"
+#include "standard_output.hpp"
 #include "tracks/reading_summary.hpp"
 #include "tracks/track_file.hpp"
 #include "view/track_table.hpp"
@@ -42,7 +43,7 @@ OpenedFile opened_tracks(std::vector<NamedText> files, const TrackOptions& readi
   if (files.size() > 1) name += fmt::format(" and {} more", files.size() - 1);
   const Recording recording = parse_tracks(std::move(files), reading);
   for (const std::string& warning : warnings_of(recording))
-    fmt::print(stderr, "kinesphere: warning: {}\n", warning);
+    print_message("kinesphere: warning: {}\n", warning);
   std::string table = track_table(recording, name);
   return {std::move(name), std::move(table)};
 }

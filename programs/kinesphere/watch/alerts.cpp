@@ -68,12 +68,14 @@ std::string declarations_of(const NamedTrack& track) {
   return text;
 }
 
-std::string alert_line(const AlertContext& context, const MonitorEvent& event) {
+std::string alert_line(const AlertContext& context, const MonitorEvent& event, bool is_dropped) {
   std::string line = fmt::format(R"({{"event": "{}", "time": {}, )", name_of(event.kind),
                                  json_time(context.times, event.time));
   if (event.kind == MonitorEventKind::verdict) return line + verdict_fields(context, event) + "}\n";
   line += fmt::format(R"("track": {})", json_text(context.names.text(event.first)));
   const NamedTrack* const track = context.names.find(event.first);
+  if (event.kind == MonitorEventKind::left)
+    line += is_dropped ? R"(, "reason": "crowd")" : R"(, "reason": "silence")";
   if (event.kind == MonitorEventKind::contradiction) {
     line += fmt::format(R"(, "position_excess": {}, "velocity_excess": {})",
                         json_number(event.position_excess), json_number(event.velocity_excess));

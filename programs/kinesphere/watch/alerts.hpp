@@ -34,7 +34,8 @@ OrderedPair in_text_order(const TrackNames& names, TrackId a, TrackId b);
 std::string answer_fields(const AlertContext& context, const PairAnswer& answer);
 /// What the bounds of a track rest upon.
 std::string declarations_of(const NamedTrack& track);
-/// One line. The monitor stands at the time of the event.
-std::string alert_line(const AlertContext& context, const MonitorEvent& event);
+/// One line. The monitor stands at the time of the event. `is_dropped` says of a track that left that it was
+/// dropped from a crowd.
+std::string alert_line(const AlertContext& context, const MonitorEvent& event, bool is_dropped);
 
 }  // namespace kinesphere::program

@@ -14,6 +14,7 @@
 #include <filesystem>
 
 #include "program_error.hpp"
+#include "standard_streams.hpp"
 #include "watch/checksum.hpp"
 #include "watch/file_bytes.hpp"
 
@@ -82,6 +83,7 @@ FileSource::FileSource(const std::string& path, const StopSignals& stop, const S
     : path_(path), stop_(stop), buffer_(source_block) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) fail("expected a file, but it is a folder");
+  if (path == "-" && standard_input_is_closed()) fail("it is closed");
   descriptor_ = path == "-" ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor_ < 0) fail(std::strerror(errno));
   struct stat status {};

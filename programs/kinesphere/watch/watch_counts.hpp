@@ -24,9 +24,11 @@ struct WatchCounts {
   std::uint64_t no_position = 0;
   std::uint64_t no_height = 0;
   std::uint64_t no_bound = 0;
+  std::uint64_t crowded = 0;  ///< of new tracks, while there were as many tracks or open pairs as may be
   std::uint64_t malformed = 0;
   std::vector<MalformedLine> first_malformed;  ///< ten at most
 
+  std::uint64_t dropped = 0;  ///< tracks, because there were more open pairs than may be
   std::uint64_t alerts = 0;
   std::array<std::uint64_t, 6> events{};  ///< by MonitorEventKind
   /// Verdicts, by separation: that two turned undecided, within, and apart again.

@@ -131,6 +131,8 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
     throw ProgramError(fmt::format("--radius: expected a radius > 0, at most {:.0f} km, but got '{}'",
                                    LocalFrame::largest_radius / 1e3, options.radius));
   if (options.most_malformed) settings.most_malformed = *options.most_malformed;
+  if (options.most_tracks) settings.most_tracks = *options.most_tracks;
+  if (options.most_pairs) settings.most_pairs = *options.most_pairs;
   settings.share = parse_share(options.share);
   return settings;
 }
@@ -158,6 +160,8 @@ GivenOptions given_options(const WatchOptions& options) {
        {"--radius", options.radius},
        {"--clock", options.clock},
        {"--leap", options.leap},
+       {"--most-tracks", options.most_tracks ? fmt::to_string(*options.most_tracks) : ""},
+       {"--most-pairs", options.most_pairs ? fmt::to_string(*options.most_pairs) : ""},
        {"--share", options.share}});
   return given;
 }

@@ -33,6 +33,8 @@ std::vector<WatchCount> counts_of(const Watcher& watcher) {
       {"no_position", "", "without a position or its time", counts.no_position},
       {"no_height", "", "without a height, on the ground for example", counts.no_height},
       {"no_bound", "", "of unknown accuracy", counts.no_bound},
+      {"crowded", "", "of new tracks when there was no room for more (--most-tracks, --most-pairs)",
+       counts.crowded},
       {"malformed", "", "malformed", counts.malformed},
       {"alerts", "alerts", "", counts.alerts},
       {"verdicts", "", "changes of what is certain", events(MonitorEventKind::verdict)},
@@ -41,6 +43,7 @@ std::vector<WatchCount> counts_of(const Watcher& watcher) {
       {"silent", "", "tracks fell silent", events(MonitorEventKind::silent)},
       {"heard", "", "were heard again", events(MonitorEventKind::heard)},
       {"left", "", "left", events(MonitorEventKind::left)},
+      {"dropped", "", "of them dropped: more pairs were open than --most-pairs", counts.dropped},
   };
 }
 

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "program_error.hpp"
+#include "standard_output.hpp"
 #include "watch/file_source.hpp"
 #include "watch/nats/nats_streams.hpp"
 #include "watch/watch_options.hpp"
@@ -126,7 +127,7 @@ WatchRun::WatchRun(const WatchOptions& options)
   alerts_ = open_alerts();
   begun_from_.reset();
   if (server_)
-    fmt::print(stderr, "kinesphere: the map is at {} (beside it: state.json, metrics)\n", server_->address());
+    print_message("kinesphere: the map is at {} (beside it: state.json, metrics)\n", server_->address());
 }
 
 void WatchRun::go_on_from(const WatchSnapshot& snapshot) {
@@ -221,6 +222,7 @@ void WatchRun::read(const Record& record) {
   // Who asks for the state does not wait for a server that is to take alerts.
   alerts_->flush(position);
   if (watcher_.counts().malformed > malformed) complain();
+  warn_of_crowds();
 }
 
 void WatchRun::pass_time() {
@@ -237,8 +239,19 @@ FileTime WatchRun::now() const { return source_->has_clock() ? source_->arrival(
 void WatchRun::complain() {
   const auto& lines = watcher_.counts().first_malformed;
   for (; complaints_ < lines.size() && !options_.quiet; ++complaints_)
-    fmt::print(stderr, "kinesphere: warning: {}:{}: {}\n", source_->name(), lines[complaints_].line,
-               lines[complaints_].reason);
+    print_message("kinesphere: warning: {}:{}: {}\n", source_->name(), lines[complaints_].line,
+                  lines[complaints_].reason);
+}
+
+void WatchRun::warn_of_crowds() {
+  const WatchCounts& counts = watcher_.counts();
+  if (has_warned_of_crowds_ || counts.crowded + counts.dropped == 0) return;
+  has_warned_of_crowds_ = true;
+  if (!options_.quiet)
+    print_message(
+        "kinesphere: warning: {}: there are more tracks than --most-tracks or more open pairs than "
+        "--most-pairs: some tracks are not watched\n",
+        source_->name());
 }
 
 bool WatchRun::is_time_for_snapshot() const {

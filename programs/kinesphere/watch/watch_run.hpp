@@ -42,6 +42,7 @@ class WatchRun {
   void pass_time();
   FileTime now() const;
   void complain();
+  void warn_of_crowds();
   bool is_time_for_snapshot() const;
   void keep_snapshot();
 
@@ -56,6 +57,7 @@ class WatchRun {
   std::unique_ptr<ReportFormat> reader_;
   std::unique_ptr<StateServer> server_;
   std::size_t complaints_ = 0;
+  bool has_warned_of_crowds_ = false;
   std::chrono::duration<double> snapshot_interval_;
   std::optional<std::chrono::steady_clock::time_point> last_snapshot_;
   /// Nothing is written before all else is found to be right.

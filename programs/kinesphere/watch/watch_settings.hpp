@@ -41,7 +41,10 @@ struct WatchSettings {
   std::optional<Origin> origin;  ///< empty: the first position
   double radius = 500e3;
   std::size_t most_malformed = std::numeric_limits<std::size_t>::max();
-  std::string source;  ///< the stream's name, for messages
+  // Memory and alerts are bounded by these, whoever sends reports.
+  std::size_t most_tracks = 50'000;
+  std::size_t most_pairs = 1'000'000;  ///< that are not certainly apart
+  std::string source;                  ///< the stream's name, for messages
 };
 
 }  // namespace kinesphere::program

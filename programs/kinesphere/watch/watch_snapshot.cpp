@@ -19,7 +19,7 @@ namespace {
 
 /// The file begins with this, the length of what follows and its checksum, both as eight digits of base 16 or
 /// more; then comes CBOR. Raise the number when the fields change.
-constexpr std::string_view snapshot_title = "kinesphere watch snapshot 2\n";
+constexpr std::string_view snapshot_title = "kinesphere watch snapshot 3\n";
 
 std::string heading(std::uint64_t size, std::uint32_t check) {
   return fmt::format("{}{:016x} {:08x}\n", snapshot_title, size, check);

@@ -200,6 +200,21 @@ void Watcher::advance(double until) {
     const auto event = require(monitor_->advance(until));
     if (!event) return;
     tell(*event);
+    drop_crowd();
+  }
+}
+
+bool Watcher::has_room() const {
+  // The other half is for tracks that are watched already and come near each other.
+  return names_.size() < settings_.most_tracks && monitor_->open_pair_count() < settings_.most_pairs / 2 + 1;
+}
+
+void Watcher::drop_crowd() {
+  if (monitor_->open_pair_count() <= settings_.most_pairs) return;
+  for (const TrackId id : monitor_->crowd(settings_.most_pairs / 2)) {
+    require(monitor_->remove(id));
+    dropped_.insert(id);
+    ++counts_.dropped;
   }
 }
 
@@ -207,7 +222,9 @@ void Watcher::tell(const MonitorEvent& event) {
   // Who watches other shares tells of this track.
   const bool is_told = settings_.share.contains(event.first);
   if (is_told) count_and_tell(event);
-  if (event.kind == MonitorEventKind::left) names_.remove(event.first);
+  if (event.kind != MonitorEventKind::left) return;
+  names_.remove(event.first);
+  dropped_.erase(event.first);
 }
 
 void Watcher::count_and_tell(const MonitorEvent& event) {
@@ -219,7 +236,7 @@ void Watcher::count_and_tell(const MonitorEvent& event) {
        : event.verdict == Verdict::undecided ? turns.undecided
                                              : turns.within);
   }
-  tell_(event.first % settings_.share.of, alert_line(context(), event));
+  tell_(event.first % settings_.share.of, alert_line(context(), event, dropped_.contains(event.first)));
 }
 
 AlertContext Watcher::context() const {
@@ -312,6 +329,10 @@ void Watcher::deliver(const SourceReport& report) {
       ++counts_.repeated;
       return;
     }
+  }
+  if (known == nullptr && !has_room()) {
+    ++counts_.crowded;
+    return;
   }
   NamedTrack track;
   const auto on_map = this->on_map(report, track);

@@ -89,6 +89,10 @@ class Watcher final : public ReportSink {
   double velocity_age_of(const SourceReport& report) const;
   double needed_bound(const FallbackError& fallback, const char* option) const;
   void advance(double until);
+  /// Whether the limits allow another track.
+  bool has_room() const;
+  /// Removes the tracks in most open pairs, where more pairs are open than may be, until half of that are.
+  void drop_crowd();
   void tell(const MonitorEvent& event);
   void count_and_tell(const MonitorEvent& event);
 
@@ -105,6 +109,7 @@ class Watcher final : public ReportSink {
   bool is_geographic_ = false;
   int dimensions_ = 3;
   TrackNames names_;
+  std::set<TrackId> dropped_;  ///< of which has not been told yet that they leave
   WatchCounts counts_;
   std::size_t line_ = 0;
   std::set<std::string, std::less<>> declarations_;  ///< of a snapshot

@@ -43,7 +43,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StreamClock::Memory, source, has_begun, now, 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MalformedLine, line, reason)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WatchCounts::Turns, apart, undecided, within)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WatchCounts, repeated, stale, ahead, outside, no_position, no_height,
-                                   no_bound, malformed, first_malformed, alerts, events, turns)
+                                   no_bound, crowded, malformed, first_malformed, dropped, alerts, events,
+                                   turns)
 
 namespace {
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program_error.hpp"
+#include "standard_output.hpp"
 
 namespace kinesphere::program {
 
@@ -102,7 +103,7 @@ NatsStreamInfo NatsConnection::stream_info(const std::string& stream, natsStatus
 }
 
 void NatsConnection::warn(const std::string& what) const {
-  if (!is_quiet_) fmt::print(stderr, "kinesphere: warning: {}: {}\n", address_.name, what);
+  if (!is_quiet_) print_message("kinesphere: warning: {}: {}\n", address_.name, what);
 }
 
 void NatsConnection::check_open() const {
