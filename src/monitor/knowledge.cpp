@@ -200,9 +200,9 @@ Hypothesis joined(Hypothesis latest, Hypothesis other, double now, double soon) 
 // What a snapshot may hold. Claims of reports and classes within limits come to no larger numbers than these:
 // an acceleration by 2e30 of time makes 1e131 of speed and 1e161 of length. In the longest window, of 2^300,
 // nothing that is computed from them overflows.
-constexpr double largest_length = 1e170;
-constexpr double largest_speed = 1e140;
-constexpr double largest_acceleration = 1e110;
+constexpr double most_length = 1e170;
+constexpr double most_speed = 1e140;
+constexpr double most_acceleration = 1e110;
 
 bool is_time(double time) { return std::abs(time) <= limits::largest_time; }
 
@@ -217,10 +217,10 @@ bool is_within(const Spread& spread, double most) {
 }
 
 bool is_sound(const Claim& claim) {
-  return is_time(claim.time) && !std::isnan(claim.end) && is_within(claim.position, largest_length) &&
-         is_within(claim.velocity, largest_speed) && is_within(claim.acceleration, largest_acceleration) &&
-         is_within(claim.radius, largest_length) && is_within(claim.speed, largest_speed) &&
-         is_within(claim.growth, largest_acceleration);
+  return is_time(claim.time) && !std::isnan(claim.end) && is_within(claim.position, most_length) &&
+         is_within(claim.velocity, most_speed) && is_within(claim.acceleration, most_acceleration) &&
+         is_within(claim.radius, most_length) && is_within(claim.speed, most_speed) &&
+         is_within(claim.growth, most_acceleration);
 }
 
 /// What the latest report says by itself holds now and for ever: tightest() finds something even when a later
@@ -231,9 +231,9 @@ bool is_sound(const Hypothesis& hypothesis, double now) {
   Claim limited = motion;
   for (Spread* spread : {&limited.speed, &limited.growth})
     if (is_within(*spread, infinity)) *spread = 0.0;
-  if (!is_time(stamp) || !is_sound(limited) || !is_within(state.position, largest_length) ||
-      !is_within(state.velocity, largest_speed) || std::isnan(plans.end) ||
-      !is_within(plans.limit, infinity) || latest_claims > claims.size())
+  if (!is_time(stamp) || !is_sound(limited) || !is_within(state.position, most_length) ||
+      !is_within(state.velocity, most_speed) || std::isnan(plans.end) || !is_within(plans.limit, infinity) ||
+      latest_claims > claims.size())
     return false;
   const auto latest_end = claims.begin() + static_cast<std::ptrdiff_t>(latest_claims);
   const auto holds = [now](const Claim& claim) { return claim.time <= now && claim.end == infinity; };
