@@ -41,8 +41,8 @@ int main(int argc, char** argv) {
   // The same on all processes, from the event alone.
   const auto respond = [](const Event& event) {
     const Bounce after = bounce(event, 1.0, 1.0, 1.0);
-    if (event.second == no_body) return Answer{after.first_velocity, std::nullopt};
-    return Answer{after.first_velocity, after.second_velocity};
+    if (event.second == no_body) return Response{after.first_velocity, std::nullopt};
+    return Response{after.first_velocity, after.second_velocity};
   };
   // Told of events whose first body is this process's.
   const auto sink = [](const OrderedEvent&) {};

@@ -1,7 +1,7 @@
 // A game at 60 frames a second. It moves its balls as games do, v += g dt, x += v dt, and hands each frame
 // over. Contacts come with their exact times between the last two frames and are answered there: fast balls
 // never pass through each other or the walls.
-#include <kinesphere/motion/frames.hpp>
+#include <kinesphere/motion/frame_motion.hpp>
 #include <kinesphere/random.hpp>
 #include <kinesphere/response.hpp>
 #include <kinesphere/world.hpp>
@@ -28,11 +28,12 @@ int main() {
         velocity.push_back(60 * random.point_in_ball());  // up to a unit, five radii, a frame
       }
 
-  Frames frames = Frames::create({.start = position,
-                                  .velocities = velocity,
-                                  .acceleration_limits = std::vector(position.size(), 1.01 * norm(gravity)),
-                                  .interval = dt})
-                      .value();
+  FrameMotion frames =
+      FrameMotion::create({.start = position,
+                           .velocities = velocity,
+                           .acceleration_limits = std::vector(position.size(), 1.01 * norm(gravity)),
+                           .interval = dt})
+          .value();
   World world =
       World::create({.box = room, .contact_tolerance = 1e-3, .contacts = ContactMode::impacts}).value();
   for (std::uint32_t k = 0; k < frames.size(); ++k) {

@@ -24,7 +24,7 @@ class Homing final : public PiecewiseAcceleration {
 
   Result<void> write_body(std::uint32_t body, std::vector<std::byte>& bytes) const override {
     if (!contains(body)) return Error{ErrorCode::unknown_body, "body", {body, 0}, "Homing: no such drone"};
-    for (const std::uint64_t word : std::bit_cast<Words>(Drone{departure(body), stations_[body]}))
+    for (const std::uint64_t word : std::bit_cast<Words>(Drone{origin(body), stations_[body]}))
       for (int k = 0; k < 64; k += 8) bytes.push_back(std::byte(word >> k));
     return {};
   }
@@ -45,7 +45,7 @@ class Homing final : public PiecewiseAcceleration {
  private:
   /// All that is known of one drone and its future depends on.
   struct Drone {
-    Departure last;
+    MotionOrigin last;
     Vec3 station;
   };
   /// Its numbers, which go with the least significant byte first, whatever the machine.

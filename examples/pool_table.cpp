@@ -40,7 +40,7 @@ int main() {
   };
   for (int row = 0; row < 5; ++row)
     for (int k = 0; k <= row; ++k)
-      table.rest(place(1.9 + row * std::sqrt(3.0) * spacing, 0.635 + (2 * k - row) * spacing, {})).value();
+      table.sleep(place(1.9 + row * std::sqrt(3.0) * spacing, 0.635 + (2 * k - row) * spacing, {})).value();
   place(0.6, 0.62, {4, 0, 0});
 
   const auto probe = [&](std::span<const BodyId> ids, double time, std::span<State> states) {
@@ -55,11 +55,11 @@ int main() {
   for (BodyId stopping{};;) {
     double until = 1e9;  // when the next ball stops
     for (const BodyId ball : table.bodies())
-      if (!table.body(ball)->resting && balls[ball.index].stops() < until)
+      if (!table.body(ball)->sleeping && balls[ball.index].stops() < until)
         until = balls[(stopping = ball).index].stops();
     if (until == 1e9) break;
     const auto event = table.advance(until, probe).value();
-    if (!event) table.rest(stopping).value();
+    if (!event) table.sleep(stopping).value();
     if (!event || (event->kind != EventKind::contact_begin && event->kind != EventKind::wall_begin)) continue;
     ++(event->second == no_body ? cushions : clicks);
     const Bounce after = bounce(*event, 1, 1, 0.95);

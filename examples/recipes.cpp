@@ -1,7 +1,7 @@
 // A level of a game in small: a plate that is passed from below and stands from above, resting and walking
 // off its edge, a pit that sends back to the start, and a platform that carries.
 #include <kinesphere/body_map.hpp>
-#include <kinesphere/motion/steered.hpp>
+#include <kinesphere/motion/steered_motion.hpp>
 #include <kinesphere/world.hpp>
 
 #include <cstdio>
@@ -13,18 +13,19 @@ int main() {
   const Vec3 gravity{0, 0, -10};
   constexpr std::uint32_t player = 0, platform = 1;
   const State start{{0, 0, 0.3}, {0, 0, 8}}, respawn{{4, 0, 5}, {}};
-  Steered motion =
-      Steered::create({.start = {start, {{4, 0, -3}, {0, 0, 0.5}}}, .acceleration_limits = {10, 0}}).value();
+  SteeredMotion motion =
+      SteeredMotion::create({.start = {start, {{4, 0, -3}, {0, 0, 0.5}}}, .acceleration_limits = {10, 0}})
+          .value();
   motion.steer(player, 0.0, gravity).value();
 
   World world = World::create({.contact_tolerance = 1e-4}).value();
   BodyMap bodies;
   const std::vector<BodyId> ids = bodies.add_all(world, motion, std::vector{0.3, 1.0}).value();
-  const BodyId plate = world.add_fixed({.shape = Box{{-1, -1, 2}, {1, 1, 2.2}}}).value();
+  const BodyId plate = world.add_static({.shape = Box{{-1, -1, 2}, {1, 1, 2.2}}}).value();
   constexpr SensorClass pit = 1;
   world.set_sensor(pit, {.distances = {0.0}}).value();
   const Box below{{-50, -50, -12}, {50, 50, -10}};
-  world.add_fixed({.shape = below, .solid = false, .sensor_class = pit}).value();
+  world.add_static({.shape = below, .solid = false, .sensor_class = pit}).value();
 
   int landings = 0, falls = 0, rides = 0;
   const auto play_until = [&](double until) {
@@ -38,7 +39,7 @@ int main() {
         if (event->normal.z > 0) continue;  // from below: it passes
         bodies.set_velocity(world, ids[player], {}).value();
         motion.steer(player, event->time, {}).value();
-        world.rest(ids[player]).value();
+        world.sleep(ids[player]).value();
         ++landings;
       } else if (event->kind == EventKind::contact_begin) {
         bodies.set_velocity(world, ids[player], motion.state(platform, event->time).velocity).value();

@@ -37,7 +37,7 @@ int main() {
   };
 
   if (world.advance(1.0, probe).value()) return 1;
-  for (const BodyId ball : still) world.rest(ball).value();
+  for (const BodyId ball : still) world.sleep(ball).value();
   // Where each of them rests is asked once more.
   if (world.advance(1.0, probe).value()) return 1;
   const auto awake_probes = world.counters().probes;
@@ -47,7 +47,7 @@ int main() {
   add({-20, 0.1, 0}, {10, 0, 0});
   int awake = 0, hits = 0;
   while (auto event = world.advance(1003.0, probe).value()) {
-    if (event->kind == EventKind::woken) ++awake;
+    if (event->kind == EventKind::woke) ++awake;
     if (event->kind != EventKind::contact_begin) continue;
     const Bounce after = bounce(*event, 1.0, 1.0, 0.95);
     turn(event->first, after.first_velocity);

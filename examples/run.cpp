@@ -29,9 +29,9 @@ int main() {
     world.add(ball).value();
   }
 
-  MotionMover mover(motion);
+  SingleMotionSource mover(motion);
   // Of the event alone: the same event gets the same answer, whenever and in whichever thread it is asked.
-  const auto respond = [&](const Event& event) -> Answer {
+  const auto respond = [&](const Event& event) -> Response {
     const double first = mass[event.first.index];
     if (event.kind == EventKind::wall_begin) return {bounce(event, first, 0.0, 0.9).first_velocity, {}};
     if (event.kind != EventKind::contact_begin) return {};

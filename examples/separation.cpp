@@ -10,7 +10,7 @@ int main() {
   // In metres and seconds. Aircraft turn with at most 0.5 g, and keep 1000 m apart or 100 m in height.
   Monitor sky = Monitor::create({.classes = {{.acceleration_limit = 5.0, .largest_speed = 80.0}},
                                  .separations = {{0, 0, {Separation::cylinder(1000.0, 100.0)}}},
-                                 .silence_after = 10.0})
+                                 .stale_after = 10.0})
                     .value();
   const auto tell = [&](double until) {
     for (const MonitorEvent& event : sky.events(until)) {
@@ -23,8 +23,8 @@ int main() {
     }
   };
   const auto report = [&](TrackId id, double stamp, const Vec3& position, const Vec3& velocity) {
-    TrackReport it{.stamp = stamp, .state = {position, velocity}};
-    it.position_error = Spread::cylinder(30.0, 10.0);
+    TrackReport it{.timestamp = stamp, .state = {position, velocity}};
+    it.position_error = ErrorBound::cylinder(30.0, 10.0);
     it.velocity_error = 1.0;
     sky.report(id, it).value();
   };
@@ -48,7 +48,7 @@ int main() {
     report(3, stamp, {9000, 9000, 120}, {0, 0, 0});
     if (now <= 20.0) report(2, stamp, {4000 - 60 * stamp, 50, 510 + 2 * stamp}, {-60, 0, 2});
   }
-  for (const ReportNeed& need : sky.needed(50.0))
+  for (const ReportRequest& need : sky.needed(50.0))
     std::printf("a report of %llu is needed by %.2f s, for %llu\n", (unsigned long long)need.track, need.by,
                 (unsigned long long)need.other);
 }

@@ -1,7 +1,7 @@
 // Some four hundred drones wander about. Each knows how long it is certain to touch nobody, whatever the
 // others do, and asks the world again only when that time runs out; it turns away from whom it may meet too
 // soon.
-#include <kinesphere/motion/steered.hpp>
+#include <kinesphere/motion/steered_motion.hpp>
 #include <kinesphere/random.hpp>
 #include <kinesphere/world.hpp>
 
@@ -21,8 +21,9 @@ int main() {
     for (int y = 0; y < 8; ++y)
       for (int z = 0; z < 6; ++z)
         start.push_back({{20.0 * x, 20.0 * y, 20.0 * z}, 3 * random.point_in_ball()});
-  Steered drones =
-      Steered::create({.start = start, .acceleration_limits = std::vector(start.size(), agility)}).value();
+  SteeredMotion drones =
+      SteeredMotion::create({.start = start, .acceleration_limits = std::vector(start.size(), agility)})
+          .value();
   World world = World::create({.contact_tolerance = 1e-3}).value();
   std::vector<BodyId> ids;
   for (std::uint32_t k = 0; k < drones.size(); ++k) {

@@ -43,9 +43,9 @@ int main() {
     ball.radius = 0.5;
     world.add(ball).value();
   }
-  MotionMover mover(motion);
+  SingleMotionSource mover(motion);
   std::size_t impacts = 0;
-  const auto respond = [](const Event& event) -> Answer {
+  const auto respond = [](const Event& event) -> Response {
     const Bounce after = bounce(event, 1.0, 1.0, 1.0);
     return {after.first_velocity, after.second_velocity};
   };

@@ -37,7 +37,7 @@ int main() {
   World plane = World::create({.dimensions = 2}).value();
   const BodyId a = w.add(motion.definition(0, 0.0)).value(), b = w.add(motion.definition(1, 0.0)).value();
   const BodyId gone = w.add(motion.definition(2, 0.0)).value(), foreign = another.add({}).value();
-  const BodyId post = w.add_fixed({.shape = Ball{{50, 0, 0}, 1}}).value();
+  const BodyId post = w.add_static({.shape = Ball{{50, 0, 0}, 1}}).value();
   w.remove(gone).value();
   tight.add({}).value();
   std::vector<std::byte> half = w.save().value();
@@ -49,7 +49,7 @@ int main() {
   refused(w.remove_all(std::vector{a, a}), stale_body);     refused(w.safe_until(a, a), out_of_range);
   refused(w.safe_until(a, foreign, 50.0), foreign_body);    refused(w.earliest_approach(a, -1.0), out_of_range);
   refused(w.add({.velocity = {0, nan, 0}}), not_finite);    refused(w.add({.radius = -0.5}), out_of_range);
-  refused(w.set_radius(a, nan), not_finite);                refused(w.rest(post), fixed_body);
+  refused(w.set_radius(a, nan), not_finite);                refused(w.sleep(post), static_body);
   refused(w.set_motion_limits(a, {.acceleration_limit = -1}), out_of_range);
   refused(w.set_velocity(a, bounce(hit, nan, 1, 1).first_velocity), not_finite);
   refused(w.add({.position = {500, 0, 0}}), outside_domain); refused(w.teleport(a, {{0, 0, -101}, {}}), outside_domain);
@@ -58,10 +58,10 @@ int main() {
   refused(World::create({.box = Box{{0, 0, 0}, {1, 0, 1}}}), out_of_range);
   refused(World::create({.periodic = {true, false, false}}), out_of_range);
   refused(plane.add({.position = {0, 0, 1}}), out_of_range); refused(plane.add_zone(Triangle{}), unsupported);
-  refused(w.add_fixed({.shape = Box{{1, 1, 1}, {0, 2, 2}}}), out_of_range);
+  refused(w.add_static({.shape = Box{{1, 1, 1}, {0, 2, 2}}}), out_of_range);
   refused(w.add_zone(Triangle{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}), out_of_range);
   refused(w.set_sensor(1, {.distances = {5.0, -1.0}}), out_of_range);
-  refused(w.set_velocity(post, {}), fixed_body);            refused(w.enable(a, {}), enabled_body);
+  refused(w.set_velocity(post, {}), static_body);            refused(w.enable(a, {}), enabled_body);
   refused(w.ray_cast({}, {}, 1.0), out_of_range);           refused(w.nearest({nan, 0, 0}, 1), not_finite);
   refused(w.advance(nan, motion.probe()), not_finite);      refused(w.advance(-1, motion.probe()), time_backwards);
   refused(w.advance(1, Probe::Function{nullptr}), null_probe);

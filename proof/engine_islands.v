@@ -1,9 +1,9 @@
-(* Islands: what one of them does beside others, and that what became of all of them is what the world keeps. *)
+(* SpeculativeRunner: what one of them does beside others, and that what became of all of them is what the world keeps. *)
 From Coq Require Import Reals Lra Lia Bool Arith.
 From Kinesphere Require Import engine_machine engine_keeps.
 Open Scope R_scope.
 
-Section Islands.
+Section SpeculativeRunner.
 Context {W : World} {L : Lemmas W}.
 Variable on : rule -> Prop.
 Hypothesis obeyed : forall r, on r.
@@ -220,4 +220,4 @@ Proof.
   induction 1; intros K No B; [exact B|]. eapply step_beside; eauto. eapply steps_keep; eauto.
 Qed.
 
-End Islands.
+End SpeculativeRunner.

@@ -110,7 +110,7 @@ Variable on : rule -> Prop. (* the rules that the machine obeys *)
 Definition motion_of (s : state) (a : body) : motion := (a, stamp (bodies s a)).
 Definition clean (s : state) (a : body) : Prop := there (bodies s a) = true /\ dirty (bodies s a) = false.
 
-(* As HotPair: void once one of the two has another stamp. *)
+(* As PairCertificate: void once one of the two has another stamp. *)
 Definition valid (s : state) (h : entry) : Prop :=
   match h with
   | Pair _ x y => x = motion_of s (fst x) /\ y = motion_of s (fst y)

@@ -286,7 +286,7 @@ Proof.
   - unfold touch, gone_by_a_kick. simpl. intros [H _]. apply H. reflexivity.
 Qed.
 
-(* Islands. *)
+(* SpeculativeRunner. *)
 Section Parts.
 Variable is_there : motion -> R -> Prop.
 Instance PartToy : World := Toy is_there.

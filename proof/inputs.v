@@ -1,5 +1,5 @@
 (* What the kernels take: the bound of a body (include/kinesphere/bound.hpp) and a capsule in single precision
-   (src/window/capsule.hpp). *)
+   (src/broadphase/swept_sphere.hpp). *)
 From Flocq Require Import IEEE754.BinarySingleNaN.
 From Kinesphere Require Import floats.
 

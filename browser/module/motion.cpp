@@ -7,10 +7,10 @@
 #include "exchange.hpp"
 #include "input/input_check.hpp"
 #include "kinesphere/motion/ballistic.hpp"
-#include "kinesphere/motion/frames.hpp"
+#include "kinesphere/motion/frame_motion.hpp"
 #include "kinesphere/motion/random_forces.hpp"
 #include "kinesphere/motion/recorded_tracks.hpp"
-#include "kinesphere/motion/steered.hpp"
+#include "kinesphere/motion/steered_motion.hpp"
 
 namespace kinesphere::browser {
 namespace {
@@ -107,7 +107,7 @@ MotionHandle* motion_steered(std::size_t count, const double* states, const doub
 KINESPHERE_EXPORT(motion_frames)
 MotionHandle* motion_frames(std::size_t count, const double* states, const double* limits, double interval,
                             double position_error, double start) {
-  FramesDefinition definition{.start = {},
+  FrameMotionDefinition definition{.start = {},
                               .acceleration_limits = {limits, limits + count},
                               .interval = interval,
                               .position_error = position_error,

@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "kinesphere/body.hpp"
-#include "kinesphere/motion/frames.hpp"
+#include "kinesphere/motion/frame_motion.hpp"
 #include "kinesphere/motion/motion.hpp"
 #include "kinesphere/result.hpp"
 #include "kinesphere/world.hpp"
@@ -62,7 +62,7 @@ class BodyMap {
   /// (Frames::violations), so that nothing is missed; to be called after each push, with
   /// world.time() == frames.previous_time(). Bodies that this map does not know are passed over. Errors:
   /// out_of_range for another time; as World::set_velocity(). Cost: O(n) when there are violations.
-  Result<void> tell_violations(World& world, const Frames& frames) const;
+  Result<void> report_violations(World& world, const FrameMotion& frames) const;
 
   /// Which body of which motion that is; nothing for a body that this map does not know.
   std::optional<MovedBody> find(BodyId body) const;
@@ -79,17 +79,17 @@ class BodyMap {
 
   /// For World::run; the map must outlive it. It throws BadResult: unknown_body, and as state(), departure()
   /// and depart() of the motions.
-  class MapMover final : public Mover {
+  class MapSource final : public MotionSource {
    public:
-    explicit MapMover(const BodyMap& bodies) : bodies_(bodies) {}
+    explicit MapSource(const BodyMap& bodies) : bodies_(bodies) {}
     void states(std::span<const BodyId> ids, double time, std::span<State> states) override;
-    Departure departure(BodyId body) const override;
-    void depart(BodyId body, const Departure& departure) override;
+    MotionOrigin origin(BodyId body) const override;
+    void set_origin(BodyId body, const MotionOrigin& origin) override;
 
    private:
     const BodyMap& bodies_;
   };
-  MapMover mover() const { return MapMover(*this); }
+  MapSource source() const { return MapSource(*this); }
 
  private:
   struct Entry {

@@ -28,10 +28,10 @@ enum class EventKind : std::uint8_t {
   sensor_enter,
   /// The gap of two bodies that were within a sensor distance has grown to the separation distance beyond it.
   sensor_leave,
-  /// A body that rested (World::rest) is awake again, where it was: it is probed from now on. These come
+  /// A body that rested (World::sleep) is awake again, where it was: it is probed from now on. These come
   /// before
   /// the other events that are still to come of their instant.
-  woken,
+  woke,
 };
 inline constexpr int event_kind_count = 9;
 

@@ -32,7 +32,7 @@ struct Memory {
   std::size_t total() const { return bodies + windows + pairs + contacts + recording + other; }
 };
 
-/// Real time spent (seconds) since World::set_timing(true).
+/// Real time spent (seconds) since World::set_profiling(true).
 struct Timings {
   std::uint64_t advances = 0;  ///< calls of advance()
   double advance = 0.0;        ///< in advance(), the probes in it too

@@ -21,14 +21,14 @@ namespace kinesphere {
 enum class Certainty { possibly, certainly };
 
 /// A body that overlaps a region; touching it counts.
-struct Found {
+struct OverlapHit {
   BodyId body;
   Certainty certainty;
 };
 
 /// A body that is among the k nearest. Its surface is between `lower` and `upper` (length) away from the
 /// point: negative distances are depths inside the body.
-struct Near {
+struct NearestHit {
   BodyId body;
   Certainty certainty;
   double lower;
@@ -37,7 +37,7 @@ struct Near {
 
 /// A body that is the first on the way. It is hit after a way between `lower` and `upper` (length): 0 where
 /// the way begins inside; `upper` is infinite where the body may be missed.
-struct Hit {
+struct CastHit {
   BodyId body;
   Certainty certainty;
   double lower;

@@ -30,7 +30,7 @@
 namespace kinesphere {
 
 /// A state that a probe reported.
-struct Report {
+struct ProbedState {
   double time = 0.0;
   BodyId body = no_body;
   State state{};
@@ -75,7 +75,7 @@ struct RecordedRun {
   double end_time = 0.0;
   std::vector<Event> events{};
   /// In the order in which they came; states of probes that failed are left out.
-  std::vector<Report> reports{};
+  std::vector<ProbedState> probed_states{};
 };
 
 /// Reads a recording without repeating it. Errors: as Replay::open.

@@ -27,7 +27,7 @@ enum class ErrorCode {
   foreign_body,        ///< an id that another world gave out
   disabled_body,       ///< the call needs a body that is enabled
   enabled_body,        ///< the call needs a body that is disabled
-  fixed_body,          ///< the call needs a body that can move
+  static_body,         ///< the call needs a body that can move
   outside_domain,      ///< a body does not lie inside the box of its world
   overlapping,         ///< two bodies overlap where the world does not allow it
   probe_in_progress,   ///< the world was called from inside its own probe

@@ -28,11 +28,11 @@ using SensorClass = std::uint8_t;
 inline constexpr SensorClass zone_class = 255;
 
 /// Another body within a sensor distance.
-struct Sensed {
+struct SensorOverlap {
   BodyId body = no_body;
   double distance = 0.0;
 
-  friend bool operator==(const Sensed&, const Sensed&) = default;
+  friend bool operator==(const SensorOverlap&, const SensorOverlap&) = default;
 };
 
 }  // namespace kinesphere

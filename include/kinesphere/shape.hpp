@@ -44,8 +44,8 @@ struct Triangle {
 /// A Box is solid, and so is all of space on the other side of a HalfSpace.
 using Shape = std::variant<Ball, HalfSpace, Box, Triangle>;
 
-/// A body that never moves: World::add_fixed.
-struct FixedDefinition {
+/// A body that never moves: World::add_static.
+struct StaticDefinition {
   Shape shape{};
   /// Which other bodies it may touch, sense and be sensed by. Two fixed bodies never meet.
   Filter filter{};
@@ -60,9 +60,9 @@ struct FixedDefinition {
 /// user_data is the number of the triple. Errors: out_of_range for an index that is none and for a triangle
 /// that has two corners in one place or all three nearly on a line (its least height below 2^-20 of its
 /// longest side); not_finite.
-Result<std::vector<FixedDefinition>> mesh(std::span<const Vec3> vertices,
-                                          std::span<const std::array<std::uint32_t, 3>> corners,
-                                          const Filter& filter = {});
+Result<std::vector<StaticDefinition>> mesh(std::span<const Vec3> vertices,
+                                           std::span<const std::array<std::uint32_t, 3>> aabb,
+                                           const Filter& filter = {});
 
 /// The nearest place of a shape.
 struct SurfacePoint {

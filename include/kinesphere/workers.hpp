@@ -9,7 +9,7 @@
 
 namespace kinesphere {
 
-class Crew;
+class ThreadPool;
 
 /// A program's own task system. A task is a function that is to be called for ranges which together cover the
 /// items from 0 to item_count exactly once; the ranges may be called one after the other or at the same time,
@@ -51,10 +51,10 @@ class Workers {
   int count() const;
 
  private:
-  friend class Crew;
-  explicit Workers(std::unique_ptr<Crew> crew);
+  friend class ThreadPool;
+  explicit Workers(std::unique_ptr<ThreadPool> pool);
 
-  std::unique_ptr<Crew> crew_;
+  std::unique_ptr<ThreadPool> pool_;
 };
 
 }  // namespace kinesphere

@@ -70,9 +70,9 @@ struct BodyView {
   bool enabled;  ///< while it is false, bound and box are stale
   /// It never moves: shape_of() tells its shape. Its state is that of one point of it, and box_end is
   /// infinite.
-  bool fixed;
-  /// It rests (World::rest): it is not probed, and its bound stands still.
-  bool resting;
+  bool is_static;
+  /// It rests (World::sleep): it is not probed, and its bound stands still.
+  bool sleeping;
 };
 
 /// The first thing that audit() found wrong.
@@ -83,7 +83,7 @@ struct AuditFinding {
   std::string what;  ///< which bodies, what is recorded, what it should be
 };
 
-enum class Activity;
+enum class CallState;
 class Recorder;
 class Workers;
 
@@ -139,14 +139,14 @@ class World {
   /// unsupported (all but balls where space repeats, a triangle in two dimensions); overlapping;
   /// probe_in_progress. Cost: O(1) here (a search where overlaps are not allowed), a search at the
   /// next advance.
-  Result<BodyId> add_fixed(const FixedDefinition& body);
+  Result<BodyId> add_static(const StaticDefinition& body);
   /// Adds a zone: a fixed body that touches nobody and tells who comes in and goes, by sensor_enter and
   /// sensor_leave at distance 0. It belongs to the sensor class zone_class (255), which gets that distance
   /// with the first zone if it has none; set_sensor(zone_class, ...) gives all zones other distances or
   /// another mask, set_filter one of them another filter. Errors and cost: as add_fixed().
   Result<BodyId> add_zone(const Shape& shape, std::uint64_t user_data = 0);
   /// Adds all of them or, on an error (as above, naming the one), none.
-  Result<std::vector<BodyId>> add_fixed_all(std::span<const FixedDefinition> bodies);
+  Result<std::vector<BodyId>> add_static_all(std::span<const StaticDefinition> bodies);
   /// The shape of a fixed body as the world keeps it; of any other a ball at its last report.
   Result<Shape> shape_of(BodyId body) const;
 
@@ -200,7 +200,7 @@ class World {
   ///     to it is at most the separation distance and the tolerance: so a whole island wakes together.
   /// ContactMode::impacts has no contact_end: a body that rests upon one that is awake is not told when that
   /// one leaves. A body that rests already goes on resting. Errors: disabled_body, fixed_body.
-  Result<void> rest(BodyId body);
+  Result<void> sleep(BodyId body);
   /// Wakes the body and its island. One that is awake stays so, and nothing happens. Errors: disabled_body,
   /// fixed_body.
   Result<void> wake(BodyId body);
@@ -218,7 +218,7 @@ class World {
   /// finds that it was called there. Cost: all bodies search again at the next advance.
   Result<void> set_pair_filter(PairFilter filter);
   /// Tells the world that the pair filter's answers about this body have changed.
-  Result<void> refilter(BodyId body);
+  Result<void> refresh_filter(BodyId body);
 
   /// From now on the body touches others, or does not (BodyDefinition::solid).
   Result<void> set_solid(BodyId body, bool solid);
@@ -279,10 +279,10 @@ class World {
   ///
   /// Errors: as advance(); run_in_progress; null_callback; workers_busy; for a velocity of an answer those of
   /// set_velocity() and, for the second body of an event that has none, unknown_body.
-  Result<void> run(double until, Mover& mover, const Respond& respond, const Sink& sink,
+  Result<void> run(double until, MotionSource& source, const ResponseFn& respond, const EventFn& sink,
                    Workers* workers = nullptr);
   /// The same for bodies that nobody answers.
-  Result<void> run(double until, const Probe& probe, const Sink& sink, Workers* workers = nullptr);
+  Result<void> run(double until, const Probe& probe, const EventFn& sink, Workers* workers = nullptr);
 
   double time() const;
   std::size_t size() const;
@@ -299,7 +299,7 @@ class World {
   /// Whom the body touches, in the order in which the contacts began.
   Result<std::vector<BodyId>> touching(BodyId body) const;
   /// Which sensor distances it is within: by partner, of each from the outermost inward.
-  Result<std::vector<Sensed>> sensed(BodyId body) const;
+  Result<std::vector<SensorOverlap>> sensor_overlaps(BodyId body) const;
 
   // Seeing inside (inspection.hpp).
 
@@ -313,7 +313,7 @@ class World {
   /// Timing costs two looks at the clock a call of advance() and a probe; at first it is off, and costs
   /// nothing. Switched on it begins from zero. It is no part of snapshots, clones and recordings. Errors:
   /// probe_in_progress.
-  Result<void> set_timing(bool on);
+  Result<void> set_profiling(bool on);
   /// What was spent while timing was on.
   Timings timings() const;
 
@@ -365,28 +365,29 @@ class World {
   // advance.
 
   /// The bodies that may overlap a sphere, by index. With a probe: one state for each that is in doubt.
-  Result<std::vector<Found>> overlapping(const Vec3& centre, double radius) const;
-  Result<std::vector<Found>> overlapping(const Vec3& centre, double radius, Probe probe);
+  Result<std::vector<OverlapHit>> overlapping(const Vec3& centre, double radius) const;
+  Result<std::vector<OverlapHit>> overlapping(const Vec3& centre, double radius, Probe probe);
   /// The bodies that may overlap a box (lower <= upper on each axis), by index.
-  Result<std::vector<Found>> overlapping(const Box& box) const;
-  Result<std::vector<Found>> overlapping(const Box& box, Probe probe);
+  Result<std::vector<OverlapHit>> overlapping(const Box& box) const;
+  Result<std::vector<OverlapHit>> overlapping(const Box& box, Probe probe);
   /// All bodies that may be among the `count` nearest to a point, by lower limit of their distance: at least
   /// `count`, or all there are. With a probe no more than that, except for ties and position errors, and all
   /// of them probed. Cost: searches of doubling size.
-  Result<std::vector<Near>> nearest(const Vec3& point, std::size_t count) const;
-  Result<std::vector<Near>> nearest(const Vec3& point, std::size_t count, Probe probe);
+  Result<std::vector<NearestHit>> nearest(const Vec3& point, std::size_t count) const;
+  Result<std::vector<NearestHit>> nearest(const Vec3& point, std::size_t count, Probe probe);
   /// All bodies that may be the first on the way from `origin` along `direction` (of any length > 0), by
   /// lower limit of that way: empty when there certainly is none within `length`. A single body that is
   /// certainly the first is marked so. With a probe all of them are probed. Walls do not count. Where space
   /// repeats the length may be at most 64 boxes, and a sphere's radius half a box (out_of_range). Cost: at
   /// most 64 searches along the way.
-  Result<std::vector<Hit>> ray_cast(const Vec3& origin, const Vec3& direction, double length) const;
-  Result<std::vector<Hit>> ray_cast(const Vec3& origin, const Vec3& direction, double length, Probe probe);
+  Result<std::vector<CastHit>> ray_cast(const Vec3& origin, const Vec3& direction, double length) const;
+  Result<std::vector<CastHit>> ray_cast(const Vec3& origin, const Vec3& direction, double length,
+                                        Probe probe);
   /// The same for a sphere of this radius.
-  Result<std::vector<Hit>> sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
-                                       double length) const;
-  Result<std::vector<Hit>> sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
-                                       double length, Probe probe);
+  Result<std::vector<CastHit>> sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
+                                           double length) const;
+  Result<std::vector<CastHit>> sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
+                                           double length, Probe probe);
 
   /// The whole world as bytes, at any stop. A world restored from them goes on as this one does, to the bit:
   /// the same events, probes and counters, in this process or another, on this machine or another. What
@@ -413,13 +414,13 @@ class World {
  private:
   friend class Replay;
   class Engine;
-  class Changes;
-  class Check;
-  class Refresher;
+  class WorldEditor;
+  class Preconditions;
+  class StaleProber;
   class Run;
-  struct Backlog;
+  struct UntoldEvents;
   explicit World(std::unique_ptr<Engine> engine);
-  Activity activity() const;
+  CallState activity() const;
   void require_idle(const char* done) const noexcept;
   /// Throws BadResult with moved_from.
   const Engine& engine(std::string_view call) const;
@@ -428,7 +429,7 @@ class World {
   Engine& changeable();
   /// For this change, which has been found to be possible.
   template <class Change>
-  Changes changing(const Change& change);
+  WorldEditor changing(const Change& change);
   Result<std::optional<Event>> engine_advance(double until, const Probe& probe);
   Result<std::optional<Event>> recorded_advance(double until, const Probe& probe);
   Result<std::optional<Event>> timed_advance(double until, const Probe& probe);
@@ -436,11 +437,11 @@ class World {
   Result<bool> refresh(std::span<const std::uint32_t> numbers, const Probe& probe, std::string_view call);
 
   std::unique_ptr<const Engine> engine_;
-  std::unique_ptr<Recorder> recorder_;  ///< while there is a recording
-  std::unique_ptr<Backlog> backlog_;    ///< from the first run() on
-  bool running_ = false;                ///< in a run()
+  std::unique_ptr<Recorder> recorder_;    ///< while there is a recording
+  std::unique_ptr<UntoldEvents> untold_;  ///< from the first run() on
+  bool running_ = false;                  ///< in a run()
   Timings timings_{};
-  bool timing_ = false;
+  bool profiling_ = false;
 };
 
 }  // namespace kinesphere

@@ -66,8 +66,9 @@ std::string summary_of(const SceneParameters& parameters, const Scene& scene, co
               fmt::format("{} body-seconds", number(result.body_time)));
   if (totals.resumed_at) summary.row("resumed at", fmt::format("{} s", number(*totals.resumed_at)));
   summary.space();
-  add_events(summary, result,
-             {.ends = scene.response == Response::pass_through, .zeno_guard = scene.resting_speed > 0.0});
+  add_events(
+      summary, result,
+      {.ends = scene.response == SceneResponse::pass_through, .zeno_guard = scene.resting_speed > 0.0});
   summary.space();
   const std::uint64_t probes = result.counters.probes;
   summary.row("probes", grouped(probes),

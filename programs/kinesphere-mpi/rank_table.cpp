@@ -26,10 +26,10 @@ Line line_of(std::string name, const RankUse& use) {
   const RankFigures& figures = use.figures;
   return {std::move(name),
           grouped(figures.bodies),
-          grouped(figures.copies),
+          grouped(figures.ghosts),
           megabytes(figures.bytes),
           grouped(figures.messages),
-          grouped(figures.parts),
+          grouped(figures.batches),
           grouped(figures.rounds),
           seconds(use.processor_seconds),
           seconds(use.processor_seconds - figures.seconds_in_mpi),
@@ -41,10 +41,10 @@ RankUse sum_of(std::span<const RankUse> ranks) {
   for (const RankUse& use : ranks) {
     const RankFigures& figures = use.figures;
     sum.figures.bodies += figures.bodies;
-    sum.figures.copies += figures.copies;
+    sum.figures.ghosts += figures.ghosts;
     sum.figures.bytes += figures.bytes;
     sum.figures.messages += figures.messages;
-    sum.figures.parts = std::max(sum.figures.parts, figures.parts);
+    sum.figures.batches = std::max(sum.figures.batches, figures.batches);
     sum.figures.rounds = std::max(sum.figures.rounds, figures.rounds);
     sum.figures.seconds_in_mpi += figures.seconds_in_mpi;
     sum.processor_seconds += use.processor_seconds;

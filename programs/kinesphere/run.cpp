@@ -133,8 +133,9 @@ std::string summary_of(const SceneParameters& parameters, const RunOptions& opti
   summary.row("simulated", fmt::format("{} s", number(result.simulated_time)),
               fmt::format("{} body-seconds", number(result.body_time)));
   summary.space();
-  add_events(summary, result,
-             {.ends = scene.response == Response::pass_through, .zeno_guard = scene.resting_speed > 0.0});
+  add_events(
+      summary, result,
+      {.ends = scene.response == SceneResponse::pass_through, .zeno_guard = scene.resting_speed > 0.0});
   summary.space();
   summary.row("probes", grouped(counters.probes),
               fmt::format("{} per body-second", number(probes / result.body_time)));

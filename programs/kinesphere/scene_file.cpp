@@ -236,14 +236,16 @@ std::string_view name_of(SceneParameters::MotionKind motion) {
   return motion_names.at(static_cast<std::size_t>(motion));
 }
 
-std::string_view name_of(Response response) { return response_names.at(static_cast<std::size_t>(response)); }
+std::string_view name_of(SceneResponse response) {
+  return response_names.at(static_cast<std::size_t>(response));
+}
 
 SceneParameters::MotionKind motion_named(std::string_view text, std::string_view where) {
   return static_cast<SceneParameters::MotionKind>(index_in(motion_names, text, where));
 }
 
-Response response_named(std::string_view text, std::string_view where) {
-  return static_cast<Response>(index_in(response_names, text, where));
+SceneResponse response_named(std::string_view text, std::string_view where) {
+  return static_cast<SceneResponse>(index_in(response_names, text, where));
 }
 
 }  // namespace kinesphere::program

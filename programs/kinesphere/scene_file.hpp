@@ -36,9 +36,9 @@ SceneSource find_scene(const std::string& name_or_file);
 Scene make_scene(const SceneSource& source);
 
 std::string_view name_of(SceneParameters::MotionKind motion);
-std::string_view name_of(Response response);
+std::string_view name_of(SceneResponse response);
 /// Errors name `where`, the expected names and `text`.
 SceneParameters::MotionKind motion_named(std::string_view text, std::string_view where);
-Response response_named(std::string_view text, std::string_view where);
+SceneResponse response_named(std::string_view text, std::string_view where);
 
 }  // namespace kinesphere::program

@@ -50,7 +50,7 @@ std::string number(double value) {
 
 void add_scene(Summary& summary, const SceneParameters& parameters) {
   std::string response(name_of(parameters.response));
-  if (parameters.response == Response::bounce) {
+  if (parameters.response == SceneResponse::bounce) {
     response += fmt::format(", restitution {}", number(parameters.restitution));
   }
   summary.row("scene", parameters.name);

@@ -20,7 +20,7 @@ CLI::App* add_verify_command(CLI::App& program, VerifyOptions& options) {
 
 int verify(const VerifyOptions& options) {
   SceneSource source = options.scene.source();
-  source.parameters.response = Response::pass_through;
+  source.parameters.response = SceneResponse::pass_through;
   const DetectorMaker make_detector = options.detector.maker();
   const Scene scene = make_scene(source);
   const ContactComparison comparison = require(kinesphere::verify(scene, make_detector));

@@ -111,8 +111,8 @@ void bind_views(py::module_& module) {
           [](const BodyView& view) { return py::make_tuple(view.image[0], view.image[1], view.image[2]); },
           "Where space repeats: how many boxes the body has gone beyond the first one.")
       .def_readonly("enabled", &BodyView::enabled)
-      .def_readonly("fixed", &BodyView::fixed)
-      .def_readonly("resting", &BodyView::resting);
+      .def_readonly("fixed", &BodyView::is_static)
+      .def_readonly("resting", &BodyView::sleeping);
 
   py::class_<Counters>(module, "Counters", "What a world has done so far; a copy.")
       .def_readonly("probes", &Counters::probes, "States asked for, one per body and call.")

@@ -8,10 +8,10 @@
 #include "errors.hpp"
 #include "exchange.hpp"
 #include "kinesphere/motion/ballistic.hpp"
-#include "kinesphere/motion/frames.hpp"
+#include "kinesphere/motion/frame_motion.hpp"
 #include "kinesphere/motion/random_forces.hpp"
 #include "kinesphere/motion/recorded_tracks.hpp"
-#include "kinesphere/motion/steered.hpp"
+#include "kinesphere/motion/steered_motion.hpp"
 #include "kinesphere/motion/velocity_field.hpp"
 
 namespace kinesphere::python {
@@ -258,7 +258,7 @@ number, or one of each body. The draw depends on seed, body and interval alone.)
       .def(py::init([](const py::object& positions, const py::object& velocities, const py::object& limits,
                        double start_time) {
              return std::make_shared<HandleOf<Steered>>(Steered::create(
-                 with_limits<SteeredDefinition>("Steered", positions, velocities, limits, start_time)));
+                 with_limits<SteeredMotionDefinition>("Steered", positions, velocities, limits, start_time)));
            }),
            py::arg("positions"), py::arg("velocities") = py::none(), py::arg("acceleration_limits") = 1.0,
            py::kw_only(), py::arg("start_time") = 0.0)
@@ -350,7 +350,7 @@ positions may be off. States can be asked for from previous_time to latest_time.
       .def(py::init([](const py::object& positions, const py::object& velocities, const py::object& limits,
                        double interval, double position_error, double start_time, bool refuse_violations) {
              const std::string_view call = "Frames";
-             FramesDefinition definition;
+             FrameMotionDefinition definition;
              definition.start = vectors_of(positions, {call, "positions"}, any_dimension);
              const std::size_t count = definition.start.size();
              if (!velocities.is_none())

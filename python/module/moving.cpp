@@ -41,7 +41,7 @@ Asked::Asked(const py::object& given, std::string_view call, bool plane)
   } else if (py::isinstance<MotionHandle>(given)) {
     auto& handle = given.cast<MotionHandle&>();
     keep_to_itself(handle.in_use, "motion");
-    mover_ = interruptible(MotionMover(*handle.motion), interruptions_);
+    mover_ = interruptible(SingleMotionSource(*handle.motion), interruptions_);
   } else if (py::isinstance<BodyMapHandle>(given)) {
     auto& handle = given.cast<BodyMapHandle&>();
     keep_to_itself(handle.in_use, "body map");

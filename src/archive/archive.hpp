@@ -4,14 +4,14 @@
 //     double time;
 //     std::uint32_t partner;
 //     template <class Self, class Archive>
-//     static void transfer(Self& self, Archive& archive) {
+//     static void serialize(Self& self, Archive& archive) {
 //       auto& [when, whom] = self;  // names every field: one that is forgotten does not compile
 //       archive(when, whom);
 //     }
 //   };
 //
 // `archive` is a ByteWriter, and Self const, or a ByteReader. Classes without such a member have a function
-// transfer(self, archive) beside them.
+// serialize(self, archive) beside them.
 #pragma once
 
 #include <algorithm>
@@ -58,12 +58,12 @@ constexpr Word little_endian(Word word) {
 }
 
 template <class T, class Archive>
-void transfer_fields(T& value, Archive& archive) {
+void serialize_fields(T& value, Archive& archive) {
   using Class = std::remove_const_t<T>;
-  if constexpr (requires { Class::transfer(value, archive); }) {
-    Class::transfer(value, archive);
+  if constexpr (requires { Class::serialize(value, archive); }) {
+    Class::serialize(value, archive);
   } else {
-    transfer(value, archive);
+    serialize(value, archive);
   }
 }
 
@@ -90,7 +90,7 @@ class ByteWriter {
     } else if constexpr (detail::Number<T>) {
       write_word(static_cast<detail::WordOf<T>>(value));
     } else {
-      detail::transfer_fields(value, *this);
+      detail::serialize_fields(value, *this);
     }
   }
   template <class T>
@@ -166,7 +166,7 @@ class ByteReader {
     } else if constexpr (detail::Number<T>) {
       value = static_cast<T>(read_word<detail::WordOf<T>>());
     } else {
-      detail::transfer_fields(value, *this);
+      detail::serialize_fields(value, *this);
     }
   }
   template <class T>

@@ -23,7 +23,7 @@ class HeapCounter {
 
   template <class T>
   void count(const T& value) {
-    if constexpr (!std::is_trivially_copyable_v<T>) detail::transfer_fields(value, *this);
+    if constexpr (!std::is_trivially_copyable_v<T>) detail::serialize_fields(value, *this);
   }
   template <class T>
   void count(const std::vector<T>& values) {

@@ -155,8 +155,8 @@ double earliest_exit(const Bound& bound, const Box& box, double from, double unt
     const Projection p(bound, axis, from);
     const double speed_margin = p.growth_speed + margin * p.velocity_size;
     const double acceleration_margin = bound.growth_acceleration + margin * p.acceleration_size;
-    const auto crossing = [&](double room, double wall, double velocity, double acceleration) {
-      const double c = room - bound.radius - p.growth - margin * (p.position_size + std::abs(wall));
+    const auto crossing = [&](double distance, double wall, double velocity, double acceleration) {
+      const double c = distance - bound.radius - p.growth - margin * (p.position_size + std::abs(wall));
       const double b = velocity - speed_margin;
       const double a = acceleration - acceleration_margin;
       // Where it bends down it is least at the ends.

@@ -41,8 +41,8 @@ struct Companion {
 
 /// How long a companion stays on one side of an end that is `room` away; 0 where it had better stand still,
 /// because it is as good as there: not much farther than `near`, which covers rounding.
-double stay(double room, double speed, double acceleration, double near) {
-  return room > 2.0 * near ? rounding::first_crossing(room - near, speed, acceleration) : 0.0;
+double stay(double clearance, double speed, double acceleration, double near) {
+  return clearance > 2.0 * near ? rounding::first_crossing(clearance - near, speed, acceleration) : 0.0;
 }
 
 Companion companion(const Box& box, const Bound& bound, double now) {

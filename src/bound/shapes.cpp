@@ -15,9 +15,9 @@ constexpr double least_length = 0x1p-500;
 Box box_of(const Ball& ball, double) {
   Box box;
   for (int axis = 0; axis < 3; ++axis) {
-    const double room = ball.radius + rounding::margin * (std::abs(ball.centre[axis]) + ball.radius);
-    box.lower[axis] = ball.centre[axis] - room;
-    box.upper[axis] = ball.centre[axis] + room;
+    const double clearance = ball.radius + rounding::margin * (std::abs(ball.centre[axis]) + ball.radius);
+    box.lower[axis] = ball.centre[axis] - clearance;
+    box.upper[axis] = ball.centre[axis] + clearance;
   }
   return box;
 }
@@ -99,12 +99,12 @@ Box bounding_box(const Shape& shape, double limit) {
   return std::visit([=](const auto& solid) { return box_of(solid, limit); }, shape);
 }
 
-Result<std::vector<FixedDefinition>> mesh(std::span<const Vec3> vertices,
-                                          std::span<const std::array<std::uint32_t, 3>> corners,
-                                          const Filter& filter) {
-  std::vector<FixedDefinition> triangles;
-  triangles.reserve(corners.size());
-  for (const auto& [a, b, c] : corners) {
+Result<std::vector<StaticDefinition>> mesh(std::span<const Vec3> vertices,
+                                           std::span<const std::array<std::uint32_t, 3>> aabb,
+                                           const Filter& filter) {
+  std::vector<StaticDefinition> triangles;
+  triangles.reserve(aabb.size());
+  for (const auto& [a, b, c] : aabb) {
     const std::string call = "mesh: triangle " + std::to_string(triangles.size());
     InputCheck check(call);
     for (const std::size_t corner : {a, b, c}) {

@@ -2,7 +2,7 @@
 // roots.
 #pragma once
 
-#include "bound/encounter.hpp"
+#include "bound/quick_reject.hpp"
 #include "number/infinity.hpp"
 
 namespace kinesphere {
@@ -11,8 +11,8 @@ namespace kinesphere {
 /// within `room` of a side for this time. The bound counts as one that moves straight on, with
 /// radius_after(duration); that lies between its places now and then. Rounding is covered by `room` as in
 /// Encounter. A number that is none clears no axis.
-inline Box sides_in_reach(const MovedBound& bound, const Box& box, double duration, double room) {
-  const double reach = bound.radius_after(duration) + room;
+inline Box sides_in_reach(const BoundAt& bound, const Box& box, double duration, double margin) {
+  const double reach = bound.radius_after(duration) + margin;
   Box near = box;
   for (int axis = 0; axis < 3; ++axis) {
     const double now = bound.centre[axis];

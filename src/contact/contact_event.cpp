@@ -113,7 +113,7 @@ double approach_error(const Event& event, const Sphere& first, const Sphere& sec
   return approach_error(event, event.gap + (first.shape ? second : first).radius);
 }
 
-Event violation_event(double time, const Sphere& sphere, const BrokenPromise& broken) {
+Event violation_event(double time, const Sphere& sphere, const BoundViolation& broken) {
   Event event{.kind = EventKind::bound_violation, .time = time, .first = sphere.id};
   event.first_state = sphere.state;
   event.first_user_data = sphere.user_data;

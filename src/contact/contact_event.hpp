@@ -1,7 +1,7 @@
 // What a contact event says, from the spheres as they are at that instant.
 #pragma once
 
-#include "bound/broken_promise.hpp"
+#include "bound/bound_violation.hpp"
 #include "kinesphere/bound.hpp"
 #include "kinesphere/event.hpp"
 #include "kinesphere/shape.hpp"
@@ -37,7 +37,7 @@ void describe(Event& event, const Sphere& sphere, const Box& box);
 double approach_error(const Event& event, double arm);
 double approach_error(const Event& event, const Sphere& first, const Sphere& second);
 /// A bound_violation of the sphere, whose state is the report.
-Event violation_event(double time, const Sphere& sphere, const BrokenPromise& broken);
+Event violation_event(double time, const Sphere& sphere, const BoundViolation& broken);
 
 /// The walls of a world as a box, from -infinity to +infinity on axes that have none; nothing where no axis
 /// has any.

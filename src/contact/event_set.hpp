@@ -72,12 +72,12 @@ class EventSet {
   }
 
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [earliest, later] = self;
     archive(earliest, later);
   }
   /// For one that was read.
-  bool is_sound() const { return others_.empty() || (first_ && delivered_before(*first_, *others_.begin())); }
+  bool is_valid() const { return others_.empty() || (first_ && delivered_before(*first_, *others_.begin())); }
 
  private:
   bool is_first(const Event& event) const {

@@ -48,7 +48,7 @@ class PartnerList {
   void clear() { size_ = 0; }
 
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     if constexpr (std::same_as<Archive, HeapCounter>) {
       archive(std::vector<std::uint32_t>(self.is_outside() ? self.capacity_ : 0));
     } else {

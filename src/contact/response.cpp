@@ -19,8 +19,8 @@ double share(double own, double other) {
 
 /// The speed at which the two approach and that at which they leave each other, `kept` times as large or,
 /// where they are jammed, zero.
-double both_speeds(const Event& contact, double kept) {
-  return (1.0 + (contact.jammed ? 0.0 : kept)) * contact.approach_speed;
+double both_speeds(const Event& contact, double checkpoint) {
+  return (1.0 + (contact.jammed ? 0.0 : checkpoint)) * contact.approach_speed;
 }
 
 /// Their relative velocity along the normal changes by this speed.
@@ -44,10 +44,11 @@ Bounce settle(const Event& contact, double first_mass, double second_mass, doubl
   if (!(approach > 0.0)) return rebound(contact, first_mass, second_mass, both_speeds(contact, restitution));
   const bool gains = contact.repeated && restitution < 1.0;
   const double least = gains ? resting_speed : std::min(resting_speed, approach);
-  const double kept = std::max(restitution, least / approach);
+  const double checkpoint = std::max(restitution, least / approach);
   // Of the least approach speeds the quotient overflows.
-  const bool overflows = std::isinf(kept) && !contact.jammed;
-  return rebound(contact, first_mass, second_mass, overflows ? approach + least : both_speeds(contact, kept));
+  const bool overflows = std::isinf(checkpoint) && !contact.jammed;
+  return rebound(contact, first_mass, second_mass,
+                 overflows ? approach + least : both_speeds(contact, checkpoint));
 }
 
 double least_resting_speed(double contact_tolerance, double acceleration) {

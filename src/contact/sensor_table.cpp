@@ -18,7 +18,7 @@ const Sensor& SensorTable::of(SensorClass sensor_class) const {
 }
 
 std::optional<double> SensorTable::next_inward(const Sensing& a, const Sensing& b,
-                                               Crossings::List crossed) const {
+                                               OverlapRecords::List crossed) const {
   Distances first = distances_at(a, b);
   Distances second = distances_at(b, a);
   if (first.empty()) std::swap(first, second);

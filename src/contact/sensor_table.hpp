@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "contact/crossings.hpp"
+#include "contact/overlap_records.hpp"
 #include "kinesphere/sensor.hpp"
 
 namespace kinesphere {
@@ -37,14 +37,14 @@ class SensorTable {
   /// list from the outermost inward of some at which one of them does. Cost: O(1) where only one of two
   /// sensors senses, or both are the same, and the outermost distances are crossed, which they are unless a
   /// sensor has just been changed; otherwise O(number of distances).
-  std::optional<double> next_inward(const Sensing& a, const Sensing& b, Crossings::List crossed) const;
+  std::optional<double> next_inward(const Sensing& a, const Sensing& b, OverlapRecords::List crossed) const;
   /// Whether the watcher senses the other at this distance. Cost: O(log of the number of distances).
   bool senses_one_way(const Sensing& watcher, const Sensing& watched, double distance) const;
   /// Whether one of the two senses the other at this distance. Cost: O(log of the number of distances).
   bool senses(const Sensing& a, const Sensing& b, double distance) const;
 
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [sensors, sorted, any] = self;
     archive(sensors, any);
     if constexpr (std::same_as<Archive, HeapCounter>)

@@ -8,19 +8,21 @@
 
 namespace kinesphere {
 
-void RankMover::states(std::span<const BodyId> ids, double time, std::span<State> states) {
+void RankSource::states(std::span<const BodyId> ids, double time, std::span<State> states) {
   for (std::size_t k = 0; k < ids.size(); ++k)
-    states[k] = motion_.state(roster_[ids[k].world].in_motion, time);
+    states[k] = motion_.state(directory_[ids[k].world].in_motion, time);
 }
 
-Departure RankMover::departure(BodyId body) const { return motion_.departure(roster_[body.world].in_motion); }
-
-void RankMover::depart(BodyId body, const Departure& departure) {
-  motion_.depart(roster_[body.world].in_motion, departure).value();
+MotionOrigin RankSource::origin(BodyId body) const {
+  return motion_.origin(directory_[body.world].in_motion);
 }
 
-Result<Answer> RankAnswerer::answer(const Event& event) {
-  const Answer answer = respond_(event);
+void RankSource::set_origin(BodyId body, const MotionOrigin& origin) {
+  motion_.set_origin(directory_[body.world].in_motion, origin).value();
+}
+
+Result<Response> RankResponder::respond(const Event& event) {
+  const Response answer = respond_(event);
   const auto check = [&](BodyId body, const std::optional<Vec3>& velocity,
                          std::string_view argument) -> Result<void> {
     if (!velocity) return {};

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "distributed/roster.hpp"
-#include "engine/answerer.hpp"
+#include "distributed/body_directory.hpp"
+#include "engine/response_handler.hpp"
 #include "kinesphere/motion/motion.hpp"
 #include "kinesphere/run.hpp"
 #include "kinesphere/world_definition.hpp"
@@ -14,36 +14,36 @@
 namespace kinesphere {
 
 /// Moves own bodies and copies by the rank's motion.
-class RankMover final : public Mover {
+class RankSource final : public MotionSource {
  public:
-  RankMover(Motion& motion, const Roster& roster) : motion_(motion), roster_(roster) {}
+  RankSource(Motion& motion, const BodyDirectory& directory) : motion_(motion), directory_(directory) {}
 
   bool contains(std::uint32_t number_in_motion) const { return motion_.contains(number_in_motion); }
   void states(std::span<const BodyId> ids, double time, std::span<State> states) override;
-  Departure departure(BodyId body) const override;
-  void depart(BodyId body, const Departure& departure) override;
+  MotionOrigin origin(BodyId body) const override;
+  void set_origin(BodyId body, const MotionOrigin& origin) override;
 
  private:
   Motion& motion_;
-  const Roster& roster_;
+  const BodyDirectory& directory_;
 };
 
 /// Asks `respond`, and refuses answers that are none.
-class RankAnswerer final : public Answerer {
+class RankResponder final : public ResponseHandler {
  public:
-  RankAnswerer(const Respond& respond, Mover& mover, const WorldDefinition& definition)
-      : respond_(respond), mover_(mover), definition_(definition) {}
+  RankResponder(const ResponseFn& respond, MotionSource& source, const WorldDefinition& definition)
+      : respond_(respond), source_(source), definition_(definition) {}
 
-  Result<Answer> answer(const Event& event) override;
-  Result<void> turn(const Event& event, const Answer& answer) override {
-    return kinesphere::turn(mover_, definition_, event, answer);
+  Result<Response> respond(const Event& event) override;
+  Result<void> apply(const Event& event, const Response& answer) override {
+    return kinesphere::turn(source_, definition_, event, answer);
   }
-  Departure departure(BodyId body) override { return mover_.departure(body); }
-  void depart(BodyId body, const Departure& departure) override { mover_.depart(body, departure); }
+  MotionOrigin origin(BodyId body) override { return source_.origin(body); }
+  void set_origin(BodyId body, const MotionOrigin& origin) override { source_.set_origin(body, origin); }
 
  private:
-  const Respond& respond_;
-  Mover& mover_;
+  const ResponseFn& respond_;
+  MotionSource& source_;
   const WorldDefinition& definition_;
 };
 

@@ -37,7 +37,7 @@ Result<Checkpoint> Checkpoint::read(std::span<const std::byte> bytes) {
   if (reader.failed() || reader.remaining() != 0)
     return refusal("must hold parts of a world, but the content of one does not have the form of it");
   if (!check_world(checkpoint.definition) || checkpoint.part >= checkpoint.stamp.parts ||
-      !std::isfinite(checkpoint.stamp.time) || std::isnan(checkpoint.phase_end))
+      !std::isfinite(checkpoint.stamp.time) || std::isnan(checkpoint.epoch_end))
     return refusal("must hold parts of a world that can be, but one contradicts itself");
   return checkpoint;
 }
@@ -57,7 +57,7 @@ Result<void> gather_common(Communicator& communicator, std::span<const Checkpoin
   if (!here.empty()) {
     writer(here.size());
     for (const Checkpoint& checkpoint : here) writer(checkpoint.stamp, checkpoint.part);
-    writer(here[0].definition, here[0].tempo, here[0].sensors, here[0].phase_end);
+    writer(here[0].definition, here[0].window_policy, here[0].sensors, here[0].epoch_end);
   }
   std::vector<std::uint64_t> found;
   bool of_one_world = true;
@@ -72,7 +72,7 @@ Result<void> gather_common(Communicator& communicator, std::span<const Checkpoin
       of_one_world = of_one_world && (found.size() == 1 || stamp == common.stamp);
       common.stamp = stamp;
     }
-    reader(common.definition, common.tempo, common.sensors, common.phase_end);
+    reader(common.definition, common.window_policy, common.sensors, common.epoch_end);
   }
   std::sort(found.begin(), found.end());
   const bool once = std::adjacent_find(found.begin(), found.end()) == found.end();
@@ -86,10 +86,10 @@ Result<void> gather_common(Communicator& communicator, std::span<const Checkpoin
   return {};
 }
 
-Result<void> read_tempo(std::span<const std::byte> bytes, Tempo& tempo) {
+Result<void> read_window_policy(std::span<const std::byte> bytes, WindowPolicy& window_policy) {
   ByteReader reader(bytes);
-  reader(tempo);
-  if (!reader.failed() && tempo.is_sound()) return {};
+  reader(window_policy);
+  if (!reader.failed() && window_policy.is_valid()) return {};
   return refusal("must hold parts of a world that can be, but have no tempo");
 }
 

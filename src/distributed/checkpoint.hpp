@@ -12,13 +12,13 @@
 
 #include "archive/archive.hpp"
 #include "archive/fields.hpp"
+#include "broadphase/window_policy.hpp"
+#include "distributed/body_message.hpp"
 #include "distributed/communicator.hpp"
-#include "distributed/parcel.hpp"
 #include "kinesphere/counters.hpp"
 #include "kinesphere/result.hpp"
 #include "kinesphere/world_definition.hpp"
 #include "number/infinity.hpp"
-#include "window/tempo.hpp"
 
 namespace kinesphere {
 
@@ -31,7 +31,7 @@ struct Checkpoint {
     std::array<std::uint64_t, 2> hash{};
 
     template <class Self, class Archive>
-    static void transfer(Self& self, Archive& archive) {
+    static void serialize(Self& self, Archive& archive) {
       auto& [count, when, events] = self;
       archive(count, when, events);
     }
@@ -42,19 +42,19 @@ struct Checkpoint {
   std::uint64_t part = 0;
   WorldDefinition definition{};
   // The same in all parts, too.
-  std::vector<std::byte> tempo{};
+  std::vector<std::byte> window_policy{};
   SensorTable sensors{};
-  double phase_end = infinity;
+  double epoch_end = infinity;
   // Of this part.
-  Kicks kicks{};
+  RenewalCounts kicks{};
   Counters counters{};
   std::array<std::uint64_t, 2> hash{};
-  std::vector<Parcel> parcels{};
+  std::vector<BodyMessage> bodies{};
 
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
-    archive(self.stamp, self.part, self.definition, self.tempo, self.sensors, self.phase_end, self.kicks,
-            self.counters, self.hash, self.parcels);
+  static void serialize(Self& self, Archive& archive) {
+    archive(self.stamp, self.part, self.definition, self.window_policy, self.sensors, self.epoch_end,
+            self.kicks, self.counters, self.hash, self.bodies);
   }
 
   std::vector<std::byte> write() const;
@@ -69,6 +69,6 @@ struct Checkpoint {
 Result<void> gather_common(Communicator& communicator, std::span<const Checkpoint> here, Checkpoint& common);
 
 /// Errors: bad_snapshot.
-Result<void> read_tempo(std::span<const std::byte> bytes, Tempo& tempo);
+Result<void> read_window_policy(std::span<const std::byte> bytes, WindowPolicy& window_policy);
 
 }  // namespace kinesphere

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "archive/archive.hpp"
-#include "distributed/domain.hpp"
+#include "distributed/rank_engine.hpp"
 #include "engine/validation.hpp"
 
 namespace kinesphere {
@@ -14,7 +14,7 @@ bool operator<(const OrderedEvent& a, const OrderedEvent& b) {
   return a.round != b.round ? a.round < b.round : delivered_before(a.event, b.event);
 }
 
-DistributedWorld::DistributedWorld(std::unique_ptr<Domain> domain) : domain_(std::move(domain)) {}
+DistributedWorld::DistributedWorld(std::unique_ptr<RankEngine> domain) : engine_(std::move(domain)) {}
 DistributedWorld::DistributedWorld(DistributedWorld&&) noexcept = default;
 DistributedWorld& DistributedWorld::operator=(DistributedWorld&&) noexcept = default;
 DistributedWorld::~DistributedWorld() = default;
@@ -29,50 +29,50 @@ Result<DistributedWorld> DistributedWorld::create(const WorldDefinition& definit
   };
   const auto checked = valid();
   // A world that cannot be has none of these, but all ranks have to hear of it.
-  auto domain = std::make_unique<Domain>(checked ? definition : WorldDefinition{}, motion);
+  auto domain = std::make_unique<RankEngine>(checked ? definition : WorldDefinition{}, motion);
   if (auto agreed = domain->agree(checked); !agreed) return agreed.error();
   return DistributedWorld(std::move(domain));
 }
 
 Result<void> DistributedWorld::add(std::uint32_t index, const BodyDefinition& body,
                                    std::uint32_t number_in_motion) {
-  return domain_->add(index, body, number_in_motion);
+  return engine_->add(index, body, number_in_motion);
 }
 
 Result<void> DistributedWorld::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
-  return domain_->set_sensor(sensor_class, sensor);
+  return engine_->set_sensor(sensor_class, sensor);
 }
 
-Result<void> DistributedWorld::run(double until, const Respond& respond, const OrderedSink& sink,
+Result<void> DistributedWorld::run(double until, const ResponseFn& respond, const OrderedEventFn& sink,
                                    Workers* workers) {
-  return domain_->run(until, &respond, sink, workers);
+  return engine_->run(until, &respond, sink, workers);
 }
 
-Result<void> DistributedWorld::run(double until, const OrderedSink& sink, Workers* workers) {
-  return domain_->run(until, nullptr, sink, workers);
+Result<void> DistributedWorld::run(double until, const OrderedEventFn& sink, Workers* workers) {
+  return engine_->run(until, nullptr, sink, workers);
 }
 
-Result<std::vector<std::byte>> DistributedWorld::save() { return domain_->save(); }
+Result<std::vector<std::byte>> DistributedWorld::save() { return engine_->save(); }
 
 Result<DistributedWorld> DistributedWorld::restore(std::span<const std::vector<std::byte>> parts,
                                                    Motion& motion) {
-  auto domain = Domain::restore(parts, motion);
+  auto domain = RankEngine::restore(parts, motion);
   if (!domain) return domain.error();
   return DistributedWorld(std::move(*domain));
 }
 
-double DistributedWorld::time() const { return domain_->time(); }
-int DistributedWorld::rank() const { return domain_->communicator().rank(); }
-int DistributedWorld::ranks() const { return domain_->communicator().ranks(); }
-const WorldDefinition& DistributedWorld::definition() const { return domain_->definition(); }
+double DistributedWorld::time() const { return engine_->time(); }
+int DistributedWorld::rank() const { return engine_->communicator().rank(); }
+int DistributedWorld::ranks() const { return engine_->communicator().ranks(); }
+const WorldDefinition& DistributedWorld::definition() const { return engine_->definition(); }
 
-std::uint64_t DistributedWorld::size() const { return domain_->communicator().sum(domain_->own_bodies()); }
+std::uint64_t DistributedWorld::size() const { return engine_->communicator().sum(engine_->own_bodies()); }
 
 Counters DistributedWorld::counters() const {
   ByteWriter writer;
-  writer(domain_->counters());
+  writer(engine_->counters());
   Counters all;
-  for (const auto& bytes : domain_->communicator().gather(writer.bytes())) {
+  for (const auto& bytes : engine_->communicator().gather(writer.bytes())) {
     Counters some;
     ByteReader reader(bytes);
     reader(some);
@@ -82,11 +82,11 @@ Counters DistributedWorld::counters() const {
 }
 
 EventHash DistributedWorld::hash() const {
-  auto parts = domain_->hash().parts();
-  domain_->communicator().sum(parts);
+  auto parts = engine_->hash().parts();
+  engine_->communicator().sum(parts);
   return EventHash::of(parts);
 }
 
-RankFigures DistributedWorld::figures() const { return domain_->figures(); }
+RankFigures DistributedWorld::figures() const { return engine_->figures(); }
 
 }  // namespace kinesphere

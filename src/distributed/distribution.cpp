@@ -17,8 +17,8 @@ constexpr double margin_in_widths = 2.0;
 constexpr double most_imbalance = 1.2;
 
 Box grown(Box box, double by) {
-  const Vec3 room{by, by, by};
-  return {box.lower - room, box.upper + room};
+  const Vec3 margin{by, by, by};
+  return {box.lower - margin, box.upper + margin};
 }
 
 double width_of(const Box& box) {
@@ -28,8 +28,8 @@ double width_of(const Box& box) {
 
 }  // namespace
 
-Distribution::Distribution(Communicator& communicator, Agreement& agreement, LocalWorld& local,
-                           Transit& transit, KnownSpaces& known)
+Distribution::Distribution(Communicator& communicator, ErrorConsensus& agreement, RankState& local,
+                           Migration& transit, HaloRegions& known)
     : communicator_(communicator),
       agreement_(agreement),
       local_(local),
@@ -40,23 +40,23 @@ Distribution::Distribution(Communicator& communicator, Agreement& agreement, Loc
     known_[rank].assign(std::span(&partition_.region_of(rank), 1));
 }
 
-void Distribution::drop_copies(std::vector<std::uint32_t>& ending) {
+void Distribution::drop_ghosts(std::vector<std::uint32_t>& ending) {
   std::erase_if(ending, [this](std::uint32_t number) {
-    const bool is_copy = !local_.roster.is_own(number);
+    const bool is_copy = !local_.directory.is_own(number);
     if (is_copy) {
       transit_.drop(number);
     } else {
-      local_.roster[number].holders.clear();
+      local_.directory[number].holders.clear();
     }
     return is_copy;
   });
 }
 
-void Distribution::divide_space(std::span<const Windows::Starter> starters) {
+void Distribution::divide_space(std::span<const BroadPhase::Starter> starters) {
   if (communicator_.ranks() == 1) return;
   double work = 0.0;
-  for (const Windows::Starter& starter : starters)
-    work += static_cast<double>(local_.roster[starter.number].cost);
+  for (const BroadPhase::Starter& starter : starters)
+    work += static_cast<double>(local_.directory[starter.number].cost);
   const double most_of_all = -communicator_.least(-work);
   double sum[] = {work};
   communicator_.sum(sum);
@@ -64,33 +64,33 @@ void Distribution::divide_space(std::span<const Windows::Starter> starters) {
   if (partitions_ > 0 && most_of_all <= most_imbalance * mean) return;
   std::vector<Vec3> positions;
   std::vector<double> costs;
-  for (const Windows::Starter& starter : starters) {
+  for (const BroadPhase::Starter& starter : starters) {
     positions.push_back(local_.centre_of(local_.bodies()[starter.number]));
-    costs.push_back(static_cast<double>(std::exchange(local_.roster[starter.number].cost, 0.0f)));
+    costs.push_back(static_cast<double>(std::exchange(local_.directory[starter.number].cost, 0.0f)));
   }
   partition_ = Partition::choose(communicator_, positions, costs);
   ++partitions_;
 }
 
 /// The body with the window that starts for it now.
-Parcel Distribution::pack_to_start(const Windows::Starter& starter) const {
-  Parcel parcel = transit_.pack(starter.number);
-  parcel.starts = true;
-  parcel.tier = starter.window.tier;
-  parcel.end = starter.window.end;
-  return parcel;
+BodyMessage Distribution::pack_to_start(const BroadPhase::Starter& starter) const {
+  BodyMessage message = transit_.pack(starter.number);
+  message.starts = true;
+  message.tier = starter.window.rung;
+  message.end = starter.window.end;
+  return message;
 }
 
-Result<void> Distribution::migrate(std::vector<Windows::Starter>& starters) {
+Result<void> Distribution::migrate(std::vector<BroadPhase::Starter>& starters) {
   if (communicator_.ranks() == 1) return {};
-  Outbox outbox(communicator_.ranks());
+  SendBuffers outbox(communicator_.ranks());
   agreement_.note(guarded([&] {
-    std::erase_if(starters, [&](const Windows::Starter& starter) {
+    std::erase_if(starters, [&](const BroadPhase::Starter& starter) {
       const int owner = partition_.owner_of(local_.centre_of(local_.bodies()[starter.number]));
       if (owner == communicator_.rank()) return false;
-      Parcel parcel = pack_to_start(starter);
-      parcel.owner = owner;
-      outbox.add(owner, parcel);
+      BodyMessage message = pack_to_start(starter);
+      message.owner = owner;
+      outbox.add(owner, message);
       transit_.drop(starter.number);
       return true;
     });
@@ -99,28 +99,29 @@ Result<void> Distribution::migrate(std::vector<Windows::Starter>& starters) {
 }
 
 /// Bodies that come and start with all others are added to `starters`.
-Result<void> Distribution::exchange(Outbox& outbox, std::vector<Windows::Starter>& starters) {
-  const auto parcels = transit_.exchange(communicator_, agreement_, outbox);
-  if (!parcels) return parcels.error();
-  for (const Parcel& parcel : *parcels) {
-    if (!parcel.starts) continue;
-    const std::uint32_t number = *local_.roster.find(parcel.name);
-    const RoomyBound bound = roomy_bound(local_.bodies(), number, local_.time());
-    starters.push_back({number, SizeLevels::level_of(bound, parcel.window()), parcel.window()});
+Result<void> Distribution::exchange(SendBuffers& outbox, std::vector<BroadPhase::Starter>& starters) {
+  const auto messages = transit_.exchange(communicator_, agreement_, outbox);
+  if (!messages) return messages.error();
+  for (const BodyMessage& message : *messages) {
+    if (!message.starts) continue;
+    const std::uint32_t number = *local_.directory.find(message.name);
+    const InflatedBound bound = inflated_bound(local_.bodies(), number, local_.time());
+    starters.push_back({number, SizeClasses::size_class_of(bound, message.window()), message.window()});
   }
   return {};
 }
 
-Result<void> Distribution::spread(std::vector<Windows::Starter>& starters, bool anew) {
+Result<void> Distribution::spread(std::vector<BroadPhase::Starter>& starters, bool anew) {
   if (communicator_.ranks() == 1) return {};
   const int here = communicator_.rank();
   std::vector<Box> ways;
   ways.reserve(starters.size());
-  for (const Windows::Starter& starter : starters) ways.push_back(way_of(starter));
+  for (const BroadPhase::Starter& starter : starters) ways.push_back(way_of(starter));
   std::vector<std::uint32_t> others;  // own bodies whose windows go on
   if (anew) {
     for (std::uint32_t number = 0; number < local_.bodies().numbers(); ++number)
-      if (local_.tables.windows.contains(number) && local_.roster.is_own(number)) others.push_back(number);
+      if (local_.state.broad_phase.contains(number) && local_.directory.is_own(number))
+        others.push_back(number);
     known_[here].assign({});
   }
   const std::size_t told = known_.here().boxes().size();
@@ -128,14 +129,14 @@ Result<void> Distribution::spread(std::vector<Windows::Starter>& starters, bool 
   for (const std::uint32_t number : others) known_.cover(local_.box_of(number));
   for (const Box& way : ways) known_.cover(way);
   const std::vector<std::vector<Box>> added = gather_boxes(std::span(known_.here().boxes()).subspan(told));
-  Outbox outbox(communicator_.ranks());
+  SendBuffers outbox(communicator_.ranks());
   agreement_.note(guarded([&] {
     for (int to = 0; to < communicator_.ranks(); ++to) {
       if (to == here) continue;
       const std::vector<Box>& boxes = added[static_cast<std::size_t>(to)];
       if (anew) known_[to].assign({});
       for (const Box& box : boxes) known_[to].add(box);
-      send_copies(to, anew ? others : local_.own_bodies_in(boxes), outbox);
+      send_ghosts(to, anew ? others : local_.own_bodies_in(boxes), outbox);
     }
     send_starters(starters, ways, outbox);
   }));
@@ -143,10 +144,10 @@ Result<void> Distribution::spread(std::vector<Windows::Starter>& starters, bool 
 }
 
 /// Around the way of the body until its window ends.
-Box Distribution::way_of(const Windows::Starter& starter) const {
+Box Distribution::way_of(const BroadPhase::Starter& starter) const {
   const Bodies& bodies = local_.bodies();
   const double now = local_.time();
-  const RoomyBound bound = room_for(bodies, starter.number, MovedBound(bodies[starter.number].bound, now));
+  const InflatedBound bound = margin_for(bodies, starter.number, BoundAt(bodies[starter.number].bound, now));
   return bodies.space().within(bound.box_of_way(starter.window.end - now));
 }
 
@@ -179,48 +180,48 @@ std::vector<std::vector<Box>> Distribution::gather_boxes(std::span<const Box> bo
 }
 
 /// Of the registered bodies, those that the rank has to know of and does not.
-void Distribution::send_copies(int to, std::span<const std::uint32_t> numbers, Outbox& outbox) {
+void Distribution::send_ghosts(int to, std::span<const std::uint32_t> numbers, SendBuffers& outbox) {
   std::vector<std::uint32_t> sent;
-  std::vector<Parcel> parcels;
+  std::vector<BodyMessage> messages;
   for (const std::uint32_t number : numbers) {
-    if (local_.roster.is_held(number, to) ||
+    if (local_.directory.is_held(number, to) ||
         !known_[to].meets(local_.box_of(number), local_.bodies().space()))
       continue;
-    local_.roster.add_holder(number, to);
+    local_.directory.add_holder(number, to);
     sent.push_back(number);
-    parcels.push_back(transit_.pack(number));
-    parcels.back().enters = true;
+    messages.push_back(transit_.pack(number));
+    messages.back().enters = true;
   }
-  transit_.add_due(parcels, sent, nullptr);
-  for (const Parcel& parcel : parcels) outbox.add(to, parcel);
+  transit_.add_due(messages, sent, nullptr);
+  for (const BodyMessage& message : messages) outbox.add(to, message);
 }
 
 /// Copies of bodies whose windows start, whose ways these are, to those who may meet them.
-void Distribution::send_starters(std::span<const Windows::Starter> starters, std::span<const Box> ways,
-                                 Outbox& outbox) {
+void Distribution::send_starters(std::span<const BroadPhase::Starter> starters, std::span<const Box> ways,
+                                 SendBuffers& outbox) {
   for (std::size_t k = 0; k < starters.size(); ++k) {
-    std::optional<Parcel> parcel;
+    std::optional<BodyMessage> message;
     for (const int to : known_.ranks_that_meet(ways[k])) {
-      if (!parcel) parcel = pack_to_start(starters[k]);
-      outbox.add(to, *parcel);
-      local_.roster.add_holder(starters[k].number, to);
+      if (!message) message = pack_to_start(starters[k]);
+      outbox.add(to, *message);
+      local_.directory.add_holder(starters[k].number, to);
     }
   }
 }
 
-Result<void> Distribution::deal_out(std::vector<Parcel> parcels) {
+Result<void> Distribution::distribute(std::vector<BodyMessage> messages) {
   std::vector<Vec3> positions;
-  positions.reserve(parcels.size());
-  for (const Parcel& parcel : parcels) positions.push_back(local_.centre_of(parcel.body));
+  positions.reserve(messages.size());
+  for (const BodyMessage& message : messages) positions.push_back(local_.centre_of(message.body));
   partition_ = Partition::choose(communicator_, positions, std::vector<double>(positions.size(), 1.0));
   ++partitions_;
-  Outbox outbox(communicator_.ranks());
-  for (std::size_t k = 0; k < parcels.size(); ++k) {
-    parcels[k].owner = partition_.owner_of(positions[k]);
-    parcels[k].enters = true;
-    outbox.add(parcels[k].owner, parcels[k]);
+  SendBuffers outbox(communicator_.ranks());
+  for (std::size_t k = 0; k < messages.size(); ++k) {
+    messages[k].owner = partition_.owner_of(positions[k]);
+    messages[k].enters = true;
+    outbox.add(messages[k].owner, messages[k]);
   }
-  parcels.clear();
+  messages.clear();
   const auto installed = transit_.exchange(communicator_, agreement_, outbox);
   return installed ? Result<void>() : installed.error();
 }

@@ -8,8 +8,8 @@
 
 #include "archive/archive.hpp"
 #include "archive/fields.hpp"
-#include "distributed/parcel.hpp"
-#include "engine/beside.hpp"
+#include "distributed/body_message.hpp"
+#include "engine/speculation_log.hpp"
 
 namespace kinesphere {
 
@@ -22,7 +22,7 @@ struct JoinList {
     Box box;  ///< around its capsule, if it is registered
 
     template <class Self, class Archive>
-    static void transfer(Self& self, Archive& archive) {
+    static void serialize(Self& self, Archive& archive) {
       auto& [named, whose, registered, place] = self;
       archive(named, whose, registered, place);
     }
@@ -32,35 +32,35 @@ struct JoinList {
   std::vector<std::uint32_t> counted_on{};
 
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [members, relied_upon] = self;
     archive(members, relied_upon);
   }
 };
 
 /// A kick of a body, whose number is each rank's own.
-struct NamedKick {
+struct NamedUpdate {
   std::uint32_t name;
-  BodyKick kick;
+  SweptSphereUpdate update;
 
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
-    auto& kick = self.kick;
-    archive(self.name, kick.time, kick.window.tier, kick.window.end, kick.bound, kick.middle);
+  static void serialize(Self& self, Archive& archive) {
+    auto& update = self.update;
+    archive(self.name, update.time, update.window.rung, update.window.end, update.bound, update.middle);
   }
 };
 
 /// From one rank to another.
 struct RoundMessage {
-  std::vector<Parcel> parcels{};
+  std::vector<BodyMessage> bodies{};
   std::vector<JoinList> lists{};
   /// Names of bodies of the other rank of which copies are asked for.
   std::vector<std::uint32_t> wanted{};
-  std::vector<NamedKick> kicks{};
+  std::vector<NamedUpdate> updates{};
 
-  bool is_empty() const { return parcels.empty() && lists.empty() && wanted.empty() && kicks.empty(); }
+  bool is_empty() const { return bodies.empty() && lists.empty() && wanted.empty() && updates.empty(); }
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [bodies, islands, names, kicked] = self;
     archive(bodies, islands, names, kicked);
   }

@@ -5,12 +5,12 @@
 #include <utility>
 
 #include "archive/archive.hpp"
-#include "distributed/outbox.hpp"
+#include "distributed/send_buffers.hpp"
 
 namespace kinesphere {
 
 Result<void> UniqueNames::check(Communicator& communicator) {
-  Outbox outbox(communicator.ranks());
+  SendBuffers outbox(communicator.ranks());
   const auto ranks = static_cast<std::uint32_t>(communicator.ranks());
   for (const std::uint32_t name : new_) outbox.add(static_cast<int>(name % ranks), name);
   new_.clear();

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "distributed/agreement.hpp"
 #include "distributed/distribution.hpp"
-#include "engine/starting.hpp"
+#include "distributed/error_consensus.hpp"
+#include "engine/window_start.hpp"
 
 namespace kinesphere {
 
@@ -25,32 +25,32 @@ struct Arrivals {
 /// go on; those of Transit::exchange().
 class WindowStarts {
  public:
-  WindowStarts(Communicator& communicator, Agreement& agreement, LocalWorld& local,
+  WindowStarts(Communicator& communicator, ErrorConsensus& agreement, RankState& local,
                Distribution& distribution)
       : communicator_(communicator), agreement_(agreement), local_(local), distribution_(distribution) {}
 
   /// As World::Engine::start_windows(). Copies whose windows end are dropped, and come anew. `all`: all
   /// windows end now. `joining`: bodies of this rank that have arrived, and get a window with the others.
-  Result<void> start(Shift& shift, bool all, std::span<const std::uint32_t> joining);
+  Result<void> start(PoolLease& shift, bool all, std::span<const std::uint32_t> joining);
 
   /// What start_with() needs to know of all ranks.
   Arrivals count_arrivals();
   /// As World::Engine::start_with_arrivals(): where many have arrived, all windows start anew with them.
   /// Those that stand still, and few that have come, are left dirty.
-  Result<void> start_with(const Arrivals& arrivals, Shift& shift);
+  Result<void> start_with(const Arrivals& arrivals, PoolLease& shift);
   /// After all arrivals have been settled: the phase ends with the first window of all ranks that ends.
-  void begin_phase_of_arrivals();
+  void begin_epoch_of_arrivals();
 
  private:
-  void choose_tempo(std::span<const std::uint32_t> joining, Shift& shift);
+  void choose_policy(std::span<const std::uint32_t> joining, PoolLease& shift);
   void start_main_window();
   std::vector<int> union_of(const std::vector<int>& held);
 
   Communicator& communicator_;
-  Agreement& agreement_;
-  LocalWorld& local_;
+  ErrorConsensus& agreement_;
+  RankState& local_;
   Distribution& distribution_;
-  std::vector<FoundPairs> found_;  ///< by worker; kept for its memory only
+  std::vector<SearchResults> found_;  ///< by worker; kept for its memory only
 };
 
 }  // namespace kinesphere

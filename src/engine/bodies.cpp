@@ -1,6 +1,6 @@
 #include "engine/bodies.hpp"
 
-#include "engine/room.hpp"
+#include "engine/body_bounds.hpp"
 #include "engine/validation.hpp"
 
 namespace kinesphere {
@@ -10,7 +10,7 @@ Bodies::Bodies(const WorldDefinition& definition)
 
 void Bodies::reserve(std::size_t bodies) {
   table_.reserve(bodies);
-  if (space_.repeats()) homes.reserve(bodies);
+  if (space_.repeats()) images.reserve(bodies);
 }
 
 std::uint32_t Bodies::add(const BodyDefinition& definition) { return describe(table_.take(), definition); }
@@ -20,7 +20,7 @@ std::uint32_t Bodies::add(const BodyDefinition& definition, std::uint32_t name) 
 }
 
 std::uint32_t Bodies::describe(std::uint32_t number, const BodyDefinition& definition) {
-  if (space_.repeats()) homes.resize(numbers());
+  if (space_.repeats()) images.resize(numbers());
   Body& body = table_[number];
   body.radius = definition.radius;
   body.position_error = definition.position_error;
@@ -59,10 +59,11 @@ BodyDefinition Bodies::definition_of(std::uint32_t number) const {
                             .sensor_class = body.sensor_class,
                             .user_data = body.user_data};
   if (const Change* change = changes.find(body)) {
-    definition = with_motion_limits(definition, change->promise);
-    definition.velocity = change->kicked_to.value_or(bound.velocity);
+    definition = with_motion_limits(definition, change->limits);
+    definition.velocity = change->velocity.value_or(bound.velocity);
   }
-  if (const Rest* rest = rests.find(body)) definition = with_motion_limits(definition, rest->limits);
+  if (const SleepRecord* rest = sleep_records.find(body))
+    definition = with_motion_limits(definition, rest->limits);
   return definition;
 }
 
@@ -77,16 +78,16 @@ Change& Bodies::change_of(std::uint32_t number) {
   return changes.add(body, {number, std::nullopt, motion_limits_of(definition_of(number))});
 }
 
-void Bodies::bring_home(std::uint32_t number, double now, double length) {
+void Bodies::wrap_to_primary(std::uint32_t number, double now, double length) {
   Body& body = table_[number];
   // The middle of a box is rounded and can lie on the other side of the border; the centre of a fixed ball
   // was wrapped when the ball was added.
-  if (body.is_fixed()) {
-    homes[number] = {.middle = body.bound.position};
+  if (body.is_static()) {
+    images[number] = {.middle = body.bound.position};
     return;
   }
-  const Box way = roomy_bound(*this, number, now).box_of_way(length);
-  body.bound.position -= homes[number].bring(space_, way);
+  const Box way = inflated_bound(*this, number, now).box_of_way(length);
+  body.bound.position -= images[number].wrap(space_, way);
 }
 
 }  // namespace kinesphere

@@ -15,7 +15,7 @@
 #include "contact/sensor_table.hpp"
 #include "engine/body_table.hpp"
 #include "engine/filters.hpp"
-#include "engine/home.hpp"
+#include "engine/periodic_image.hpp"
 #include "engine/shapes.hpp"
 #include "engine/side_table.hpp"
 #include "kinesphere/world_definition.hpp"
@@ -57,7 +57,7 @@ class Bodies {
 
   /// Whether the filters let two bodies touch or sense each other.
   bool may_meet(std::uint32_t a, std::uint32_t b) const {
-    return !filters.any() || (!(table_[a].is_fixed() && table_[b].is_fixed()) &&
+    return !filters.any() || (!(table_[a].is_static() && table_[b].is_static()) &&
                               filters.may_meet(id_of(a), filters.of(a), id_of(b), filters.of(b)));
   }
   bool may_touch(std::uint32_t a, std::uint32_t b) const {
@@ -66,29 +66,29 @@ class Bodies {
 
   /// The caller has placed the body anew: its images are counted from here.
   void count_images_anew(std::uint32_t number) {
-    if (space_.repeats()) homes[number].image = {};
+    if (space_.repeats()) images[number].image = {};
   }
   /// Where space repeats: moves the body to the image in which the middle of its way for this long lies in
   /// the primary box.
-  void bring_home(std::uint32_t number, double now, double length);
+  void wrap_to_primary(std::uint32_t number, double now, double length);
 
   /// A body as it is, to be put back as it was; without changes since its report.
-  struct Kept {
+  struct Checkpoint {
     Body body;
-    Home home;
+    PeriodicImage image;
   };
-  Kept keep(std::uint32_t number) const {
-    return {table_[number], space_.repeats() ? homes[number] : Home{}};
+  Checkpoint checkpoint(std::uint32_t number) const {
+    return {table_[number], space_.repeats() ? images[number] : PeriodicImage{}};
   }
-  void put_back(std::uint32_t number, const Kept& kept) {
-    table_[number] = kept.body;
-    if (space_.repeats()) homes[number] = kept.home;
+  void restore(std::uint32_t number, const Checkpoint& checkpoint) {
+    table_[number] = checkpoint.body;
+    if (space_.repeats()) images[number] = checkpoint.image;
   }
 
   /// All but the definition and what follows from it, the tag, and the pair filter. The ids of bodies that
   /// are read are given out anew.
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [changed, resting, filtered, at_home, fixed, sensing, definition, space, enclosure, numbered] =
         self;
     auto& [bodies, live_count, free, tag, names] = numbered;
@@ -97,23 +97,23 @@ class Bodies {
     if constexpr (!std::is_const_v<Self>) tag = 0;
   }
   /// For one that was read, with the time of the world: nullptr, or the part that cannot have come about.
-  const char* contradiction(double now, const std::vector<std::uint32_t>& dirty) const;
+  const char* first_invalid_part(double now, const std::vector<std::uint32_t>& dirty) const;
 
   // Parts of the bodies. What concerns the table too is done by the functions above.
   WaitingChanges changes;
-  Rests rests;
+  SleepRecords sleep_records;
   Filters filters;
-  std::vector<Home> homes;  ///< by number; empty unless space repeats
+  std::vector<PeriodicImage> images;  ///< by number; empty unless space repeats
   Shapes shapes;
   SensorTable sensors;
 
  private:
   std::uint32_t describe(std::uint32_t number, const BodyDefinition& definition);
-  bool bodies_are_sound(double now, const std::vector<std::uint32_t>& dirty) const;
-  bool is_sound(std::uint32_t number, double now) const;
-  bool is_sound_fixed(std::uint32_t number, double now) const;
-  bool rest_is_sound(const Body& body) const;
-  bool promises_are_sound(const Body& body, BodyDefinition definition) const;
+  bool bodies_are_valid(double now, const std::vector<std::uint32_t>& dirty) const;
+  bool is_valid(std::uint32_t number, double now) const;
+  bool is_valid_static(std::uint32_t number, double now) const;
+  bool sleep_is_valid(const Body& body) const;
+  bool limits_are_valid(const Body& body, BodyDefinition definition) const;
 
   WorldDefinition definition_;
   Space space_;

@@ -2,19 +2,19 @@
 
 #include <algorithm>
 
-#include "window/neighbour_search.hpp"
+#include "broadphase/neighbour_search.hpp"
 
 namespace kinesphere {
 
 /// A capsule holds its body until its window ends, which is not past; only a change or a broken promise
 /// leaves a body outside, and dirty.
-std::vector<std::uint32_t> bodies_in(const Box& box, const Tables& tables, const Unsettled& unsettled,
+std::vector<std::uint32_t> bodies_in(const Box& box, const WorldState& tables, const DirtyList& unsettled,
                                      double now) {
   std::vector<std::uint32_t> numbers;
   for (const std::uint32_t number : unsettled.numbers())
     if (tables.bodies[number].dirty) numbers.push_back(number);
   NeighbourSearch search;
-  for (const std::uint32_t number : search.in_box(tables.windows, box, now))
+  for (const std::uint32_t number : search.in_box(tables.broad_phase, box, now))
     if (!tables.bodies[number].dirty) numbers.push_back(number);
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());

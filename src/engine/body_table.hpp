@@ -62,10 +62,10 @@ class BodyTable {
   bool was_given_out(BodyId id) const;
 
   /// Of one that was read: each number is free or that of a body that lives.
-  bool is_sound() const;
+  bool is_valid() const;
 
  private:
-  friend class Bodies;  // its transfer() archives the fields
+  friend class Bodies;  // its serialize() archives the fields
 
   std::vector<Body> bodies_;
   std::size_t live_count_ = 0;

@@ -8,74 +8,74 @@
 namespace kinesphere {
 
 World::Engine::Engine(const WorldDefinition& definition)
-    : tables_(definition), everybody_(tables_, definition.start_time) {}
+    : state_(definition), main_(state_, definition.start_time) {}
 
-World::Engine::Engine(const Engine& other) : tables_(other.tables_), everybody_(other.everybody_, tables_) {}
+World::Engine::Engine(const Engine& other) : state_(other.state_), main_(other.main_, state_) {}
 
 Result<std::optional<Event>> World::Engine::advance(double until, const Probe& probe) {
-  everybody_.reports().ask(probe, "advance");
-  Shift alone;
+  main_.reports().ask(probe, "advance");
+  PoolLease alone;
   for (;;) {
-    if (everybody_.is_gathering()) {
+    if (main_.is_gathering()) {
       if (auto gathered = gather(); !gathered) return gathered.error();
     }
-    if (!everybody_.instant().is_quiet()) {
-      if (std::optional<Event> event = everybody_.deliver()) return event;
+    if (!main_.events().is_quiet()) {
+      if (std::optional<Event> event = main_.pop()) return event;
     }
-    if (auto settled = settle(alone); !settled) return settled.error();
-    if (!everybody_.instant().pending().empty()) continue;
-    const double next = std::min(everybody_.phase_end(), everybody_.next_time());
+    if (auto settled = recertify(alone); !settled) return settled.error();
+    if (!main_.events().pending().empty()) continue;
+    const double next = std::min(main_.epoch_end(), main_.next_time());
     if (next > until) {
-      everybody_.move_on_to(until);
+      main_.advance_clock(until);
       return std::optional<Event>();
     }
-    everybody_.come_to(next);
+    main_.begin_instant(next);
   }
 }
 
-Result<bool> World::Engine::run_phase(double until, const Probe& probe, Shift& shift, Islands& islands,
-                                      std::deque<Event>& events) {
-  everybody_.reports().ask(probe, "advance");
-  if (everybody_.is_gathering() || !everybody_.instant().is_quiet()) return false;
-  if (everybody_.phase_end() <= time()) {
+Result<bool> World::Engine::run_epoch(double until, const Probe& probe, PoolLease& shift,
+                                      SpeculativeRunner& islands, std::deque<Event>& events) {
+  main_.reports().ask(probe, "advance");
+  if (main_.is_gathering() || !main_.events().is_quiet()) return false;
+  if (main_.epoch_end() <= time()) {
     if (auto started = start_windows(shift, false); !started) return started.error();
-    if (!everybody_.instant().is_quiet()) {
+    if (!main_.events().is_quiet()) {
       // All events of an instant are known before the first is told, as in advance().
-      everybody_.come_to(time());
+      main_.begin_instant(time());
       return false;
     }
   }
-  if (auto settled = settle(shift); !settled) return settled.error();
-  return everybody_.is_settled() && islands.run(until, events);
+  if (auto settled = recertify(shift); !settled) return settled.error();
+  return main_.is_certified() && islands.run(until, events);
 }
 
 /// Windows that end at this instant, and all that is due.
 Result<void> World::Engine::gather() {
-  Shift alone;
-  if (everybody_.phase_end() <= time()) {
+  PoolLease alone;
+  if (main_.epoch_end() <= time()) {
     if (auto started = start_windows(alone, false); !started) return started;
   }
-  if (auto settled = settle(alone); !settled) return settled;
-  return everybody_.gather();
+  if (auto settled = recertify(alone); !settled) return settled;
+  return main_.gather();
 }
 
 /// Where many have arrived, all others start anew with them; else each is settled by itself.
-Result<void> World::Engine::settle(Shift& shift) {
-  everybody_.settle_changed();
-  if (!everybody_.unsettled().empty()) {
+Result<void> World::Engine::recertify(PoolLease& shift) {
+  main_.recertify_changed();
+  if (!main_.dirty().empty()) {
     if (auto started = start_with_arrivals(shift); !started) return started;
   }
-  return everybody_.settle();
+  return main_.recertify();
 }
 
-Activity World::Engine::activity() const {
-  if (everybody_.reports().is_asking()) return Activity::probing;
-  return bodies().filters.is_filtering() ? Activity::filtering : Activity::idle;
+CallState World::Engine::activity() const {
+  if (main_.reports().is_asking()) return CallState::probing;
+  return bodies().filters.is_filtering() ? CallState::filtering : CallState::idle;
 }
 
-std::vector<HotPair> World::Engine::hot_pairs(std::optional<std::uint32_t> number) const {
-  std::vector<HotPair> pairs;
-  everybody_.facts().for_each_hot_pair(everybody_.agenda(), [&](const HotPair& pair) {
+std::vector<PairCertificate> World::Engine::certificates(std::optional<std::uint32_t> number) const {
+  std::vector<PairCertificate> pairs;
+  main_.certifier().for_each_certificate(main_.queue(), [&](const PairCertificate& pair) {
     if (!number || pair.first == *number || pair.second == *number) pairs.push_back(pair);
   });
   return pairs;
@@ -83,9 +83,9 @@ std::vector<HotPair> World::Engine::hot_pairs(std::optional<std::uint32_t> numbe
 
 Result<bool> World::Engine::probe_stale(std::span<const std::uint32_t> numbers, const Probe& ask,
                                         std::string_view call) {
-  everybody_.reports().ask(ask, call);
-  Shift alone;
-  return everybody_.probe_stale(numbers, alone);
+  main_.reports().ask(ask, call);
+  PoolLease alone;
+  return main_.probe_stale(numbers, alone);
 }
 
 }  // namespace kinesphere

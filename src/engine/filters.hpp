@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/activity.hpp"
+#include "engine/call_state.hpp"
 #include "kinesphere/body.hpp"
 #include "kinesphere/filter.hpp"
 
@@ -47,10 +47,10 @@ class Filters {
   }
 
   /// Of one that was read.
-  bool is_sound(std::size_t bodies) const { return filters_.size() <= bodies; }
+  bool is_valid(std::size_t bodies) const { return filters_.size() <= bodies; }
 
  private:
-  friend class Bodies;  // its transfer() archives the fields
+  friend class Bodies;  // its serialize() archives the fields
 
   bool ask(BodyId a, BodyId b) const {
     const FilterQuestion question(this);

@@ -7,7 +7,7 @@ namespace kinesphere {
 namespace {
 
 /// Wherever in their bounds the two are.
-bool certainly_overlap(const Bodies& bodies, double now, const Extent& a, const Extent& b) {
+bool certainly_overlap(const Bodies& bodies, double now, const CollisionShape& a, const CollisionShape& b) {
   return gap_at(bodies, now, a, b).upper < -bodies.definition().contact_tolerance;
 }
 
@@ -22,7 +22,7 @@ std::optional<Wall> Overlaps::of_wall(const Bound& bound) const {
   return std::nullopt;
 }
 
-std::optional<BodyId> Overlaps::of_body(BodyId id, const Extent& extent,
+std::optional<BodyId> Overlaps::of_body(BodyId id, const CollisionShape& extent,
                                         const BodyDefinition& definition) const {
   std::optional<BodyId> found;
   const Box box = box_now(bodies_, extent, now_);
@@ -30,8 +30,8 @@ std::optional<BodyId> Overlaps::of_body(BodyId id, const Extent& extent,
   for (const std::uint32_t other : search.in_box(windows_, box, now_)) {
     const Body& body = bodies_[other];
     const bool certain =
-        other != id.index && !(extent.fixed && body.is_fixed()) &&
-        certainly_overlap(bodies_, now_, extent, extent_of(bodies_, other)) &&
+        other != id.index && !(extent.fixed && body.is_static()) &&
+        certainly_overlap(bodies_, now_, extent, collision_shape_of(bodies_, other)) &&
         bodies_.filters.may_touch(id, definition, bodies_.id_of(other), bodies_.definition_of(other));
     if (certain && (!found || other < found->index)) found = bodies_.id_of(other);
   }
@@ -44,14 +44,15 @@ std::optional<std::pair<std::size_t, std::size_t>> Overlaps::first_among(
     const Bound bound = bound_now(added[number], now_);
     const Vec3 centre = bodies_.space().wrapped(bound.centre_at(now_)).position;
     const Bound ball{.time = now_, .position = centre, .radius = bound.radius};
-    return RoomyBound{MovedBound(ball, now_), bodies_.definition().contact_tolerance};
+    return InflatedBound{BoundAt(ball, now_), bodies_.definition().contact_tolerance};
   };
-  Windows windows(bodies_.space());
-  std::vector<Windows::Starter> starters;
+  BroadPhase windows(bodies_.space());
+  std::vector<BroadPhase::Starter> starters;
   starters.reserve(added.size());
   for (std::uint32_t number = 0; number < added.size(); ++number)
-    starters.push_back({number, SizeLevels::level_of(ball_of(number), Window::endless()), Window::endless()});
-  Shift alone;
+    starters.push_back(
+        {number, SizeClasses::size_class_of(ball_of(number), Window::endless()), Window::endless()});
+  PoolLease alone;
   windows.start(starters, now_, ball_of, alone);
   std::optional<std::pair<std::size_t, std::size_t>> least;
   NeighbourSearch search;

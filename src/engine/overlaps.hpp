@@ -7,18 +7,19 @@
 #include <span>
 #include <utility>
 
-#include "engine/room.hpp"
+#include "engine/body_bounds.hpp"
 
 namespace kinesphere {
 
 class Overlaps {
  public:
-  Overlaps(const Bodies& bodies, const Windows& windows, double now)
+  Overlaps(const Bodies& bodies, const BroadPhase& windows, double now)
       : bodies_(bodies), windows_(windows), now_(now) {}
 
   /// The first other body that certainly overlaps body `id` with this extent and definition, and may touch
   /// it. Cost: a search.
-  std::optional<BodyId> of_body(BodyId id, const Extent& extent, const BodyDefinition& definition) const;
+  std::optional<BodyId> of_body(BodyId id, const CollisionShape& extent,
+                                const BodyDefinition& definition) const;
   std::optional<Wall> of_wall(const Bound& bound) const;
   /// The first of new bodies that certainly overlaps one before it, and may touch it: as the second of a
   /// pair, beside the first that it overlaps. Cost: a search for each.
@@ -26,7 +27,7 @@ class Overlaps {
 
  private:
   const Bodies& bodies_;
-  const Windows& windows_;
+  const BroadPhase& windows_;
   double now_;
 };
 

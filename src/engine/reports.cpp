@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "archive/heap_counter.hpp"
+#include "engine/scoped_flag.hpp"
 #include "engine/validation.hpp"
-#include "engine/while_true.hpp"
 
 namespace kinesphere {
 namespace {
@@ -16,42 +16,43 @@ constexpr std::size_t reports_at_once = 512;
 
 }  // namespace
 
-Result<std::span<const Reports::Broken>> Reports::take(Bodies& bodies, double time,
-                                                       std::span<const std::uint32_t> numbers, Shift& shift) {
+Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double time,
+                                                          std::span<const std::uint32_t> numbers,
+                                                          PoolLease& shift) {
   ask_for(bodies, time, numbers, shift);
-  broken_.clear();
+  violations_.clear();
   // Most are asked one by one.
   if (numbers.size() == 1) {
     if (auto valid = check(bodies, time, 0); !valid) return valid.error();
-    apply(bodies, time, 0, 1, broken_);
+    apply(bodies, time, 0, 1, violations_);
   } else {
     const std::size_t bad = first_bad(bodies, time, shift);
     if (bad < numbers.size()) return check(bodies, time, bad).error();
     apply_all(bodies, time, shift);
   }
-  return std::span<const Broken>(broken_);
+  return std::span<const Violation>(violations_);
 }
 
 void Reports::ask_for(const Bodies& bodies, double time, std::span<const std::uint32_t> numbers,
-                      Shift& shift) {
+                      PoolLease& shift) {
   ids_.resize(numbers.size());
   states_.resize(numbers.size());
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     ids_[k] = bodies.id_of(numbers[k]);
     states_[k] = no_answer;
   }
-  const WhileTrue guard(asking_);
-  shift.for_each(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+  const ScopedFlag guard(asking_);
+  shift.parallel_for(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
     const std::size_t count = to - from;
     (*probe_)(std::span(ids_).subspan(from, count), time, std::span(states_).subspan(from, count));
   });
 }
 
 /// As many as there are if none is.
-std::size_t Reports::first_bad(const Bodies& bodies, double time, Shift& shift) const {
+std::size_t Reports::first_bad(const Bodies& bodies, double time, PoolLease& shift) const {
   std::size_t first = ids_.size();
   std::mutex mutex;
-  shift.for_each(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+  shift.parallel_for(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
     for (std::size_t k = from; k < to; ++k) {
       if (check(bodies, time, k)) continue;
       const std::lock_guard lock(mutex);
@@ -66,23 +67,24 @@ Result<void> Reports::check(const Bodies& bodies, double time, std::size_t k) co
   return check_report(states_[k], ids_[k], time, bodies.definition(), call_);
 }
 
-void Reports::apply_all(Bodies& bodies, double time, Shift& shift) {
-  Shift alone;
+void Reports::apply_all(Bodies& bodies, double time, PoolLease& shift) {
+  PoolLease alone;
   std::mutex mutex;
   // What was changed since the last report is in a table of all bodies.
   (bodies.changes.empty() ? shift : alone)
-      .for_each(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
-        std::vector<Broken> some;
+      .parallel_for(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+        std::vector<Violation> some;
         apply(bodies, time, from, to, some);
         if (some.empty()) return;
         const std::lock_guard lock(mutex);
-        broken_.insert(broken_.end(), some.begin(), some.end());
+        violations_.insert(violations_.end(), some.begin(), some.end());
       });
-  std::sort(broken_.begin(), broken_.end(), [](const Broken& a, const Broken& b) { return a.k < b.k; });
+  std::sort(violations_.begin(), violations_.end(),
+            [](const Violation& a, const Violation& b) { return a.k < b.k; });
 }
 
 void Reports::apply(Bodies& bodies, double time, std::size_t from, std::size_t to,
-                    std::vector<Broken>& broken) const {
+                    std::vector<Violation>& broken) const {
   const Space& space = bodies.space();
   for (std::size_t k = from; k < to; ++k) {
     const std::uint32_t number = bodies.table().number_of(ids_[k]);
@@ -92,7 +94,7 @@ void Reports::apply(Bodies& bodies, double time, std::size_t from, std::size_t t
     const Bound before = body.bound;
     std::optional<Vec3> kicked_to;
     if (const Change* change = bodies.changes.find(bodies[number])) {
-      kicked_to = change->kicked_to;
+      kicked_to = change->velocity;
       body.bound = bound_of(bodies.definition_of(number), state, time);
       bodies.forget_change(number);
     } else {
@@ -101,12 +103,12 @@ void Reports::apply(Bodies& bodies, double time, std::size_t from, std::size_t t
       body.bound.velocity = state.velocity;
     }
     const auto promise =
-        broken_promise(before, body.bound, body.radius, kicked_to, bodies.definition().contact_tolerance);
-    if (body.is_resting()) body.stand_still();
+        bound_violation(before, body.bound, body.radius, kicked_to, bodies.definition().contact_tolerance);
+    if (body.is_sleeping()) body.stand_still();
     if (promise) broken.push_back({k, states_[k].velocity, *promise});
   }
 }
 
-std::size_t Reports::bytes() const { return heap_bytes(ids_, states_, broken_); }
+std::size_t Reports::bytes() const { return heap_bytes(ids_, states_, violations_); }
 
 }  // namespace kinesphere

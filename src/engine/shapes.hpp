@@ -29,13 +29,13 @@ class Shapes {
   }
   /// Of a body that goes.
   void remove(const Body& body) {
-    if (body.is_fixed()) free_.push_back(body.shape_number);
+    if (body.is_static()) free_.push_back(body.shape_number);
   }
 
   /// Of one that was read: each shape belongs to one body or is free.
-  bool is_sound(const BodyTable& bodies) const;
+  bool is_valid(const BodyTable& bodies) const;
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [shapes, free] = self;
     archive(shapes, free);
   }

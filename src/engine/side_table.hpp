@@ -39,7 +39,7 @@ class SideTable {
 
   /// Of one that was read: each record is that of one body.
   template <class Numbered>
-  bool is_sound(const Numbered& bodies) const {
+  bool is_valid(const Numbered& bodies) const {
     for (std::uint32_t record = 0; record < records_.size(); ++record) {
       const std::uint32_t number = records_[record].body;
       if (number >= bodies.numbers() || bodies[number].*place != record) return false;
@@ -48,7 +48,7 @@ class SideTable {
                          [](const Body& body) { return body.*place != Body::none; }) == std::ssize(records_);
   }
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [records] = self;
     archive(records);
   }
@@ -58,6 +58,6 @@ class SideTable {
 };
 
 using WaitingChanges = SideTable<Change, &Body::change_number>;
-using Rests = SideTable<Rest, &Body::rest_number>;
+using SleepRecords = SideTable<SleepRecord, &Body::sleep_number>;
 
 }  // namespace kinesphere

@@ -13,7 +13,7 @@
 #include "archive/envelope.hpp"
 #include "archive/fields.hpp"
 #include "engine/engine.hpp"
-#include "engine/fixed.hpp"
+#include "engine/static_body.hpp"
 #include "engine/validation.hpp"
 #include "input/input_check.hpp"
 #include "kinesphere/limits.hpp"
@@ -39,12 +39,13 @@ Error refusal(const std::string& what) { return world_envelope.refusal(what); }
 }  // namespace
 
 template <class Self, class Archive>
-void World::Engine::transfer(Self& self, Archive& archive) {
+void World::Engine::serialize(Self& self, Archive& archive) {
   // The definition comes first, as an engine is made from it. The tag is left out (BodyId::world).
-  archive(self.tables_.bodies, self.tables_.book, self.tables_.windows, self.tables_.tempo, self.everybody_);
+  archive(self.state_.bodies, self.state_.contacts, self.state_.broad_phase, self.state_.window_policy,
+          self.main_);
   // Of the agenda what counts, in an order of its own: not what is void, nor how it has divided time.
   if constexpr (std::is_const_v<Self>) {
-    std::vector<HotPair> pairs = self.hot_pairs();
+    std::vector<PairCertificate> pairs = self.certificates();
     std::sort(pairs.begin(), pairs.end());
     archive(pairs);
   } else {
@@ -55,7 +56,7 @@ void World::Engine::transfer(Self& self, Archive& archive) {
 std::vector<std::byte> World::Engine::save() const {
   ByteWriter content;
   content(definition());
-  transfer(*this, content);
+  serialize(*this, content);
   return world_envelope.seal(content.bytes());
 }
 
@@ -71,84 +72,86 @@ Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const st
   if (reader.failed() || !known_mode || !check_world(definition))
     return refusal("must hold a world that can be, but its definition is impossible");
   auto engine = std::make_unique<Engine>(definition);
-  transfer(*engine, reader);
+  serialize(*engine, reader);
   if (reader.failed() || reader.remaining() != 0)
     return refusal("must hold a world, but its content does not have the form of one");
-  if (const char* where = engine->contradiction())
+  if (const char* where = engine->first_invalid_part())
     return refusal(std::string("must hold a world that can be, but contradicts itself in its ") + where);
-  engine->everybody_.agenda().add_all(engine->read_pairs_);
-  if (pair_filter) engine->tables_.bodies.filters.keep_pair_filter(std::move(pair_filter));
+  engine->main_.queue().add_all(engine->read_pairs_);
+  if (pair_filter) engine->state_.bodies.filters.keep_pair_filter(std::move(pair_filter));
   return engine;
 }
 
 /// The part of a state that was read, if any, that cannot have come about. What passes may be another world
 /// than the one that was saved, but is one in which every call is safe.
-const char* World::Engine::contradiction() const {
-  if (!(std::abs(time()) <= limits::largest_time) || !is_time_of_window_end(everybody_.phase_end()))
-    return "time";
+const char* World::Engine::first_invalid_part() const {
+  if (!(std::abs(time()) <= limits::largest_time) || !is_time_of_window_end(main_.epoch_end())) return "time";
   // Windows that many bodies share have lengths that the tempo chose.
-  if (!tables_.tempo.is_chosen() && everybody_.phase_end() < infinity) return "windows";
-  if (const char* where = bodies().contradiction(time(), everybody_.unsettled().numbers())) return where;
+  if (!state_.window_policy.is_chosen() && main_.epoch_end() < infinity) return "windows";
+  if (const char* where = bodies().first_invalid_part(time(), main_.dirty().numbers())) return where;
   const auto known = [this](BodyId id) { return bodies().table().was_given_out(id); };
-  if (!book().is_sound(bodies().numbers(), bodies().walls()) ||
-      !everybody_.instant().is_sound(bodies().numbers(), time(), bodies().walls(), known) ||
-      !contacts_of_fixed_are_sound())
+  if (!contacts().is_valid(bodies().numbers(), bodies().walls()) ||
+      !main_.events().is_valid(bodies().numbers(), time(), bodies().walls(), known) ||
+      !static_contacts_are_valid())
     return "contacts";
-  if (!windows().is_sound(bodies().numbers()) || !tables_.tempo.is_sound()) return "windows";
-  if (!agenda_is_sound() || !renewals_are_sound()) return "agenda";
+  if (!broad_phase().is_valid(bodies().numbers()) || !state_.window_policy.is_valid()) return "windows";
+  if (!queue_is_valid() || !window_ends_are_valid()) return "agenda";
   for (std::uint32_t number = 0; number < bodies().numbers(); ++number) {
     const bool takes_part = bodies()[number].present();
-    const bool registered = windows().contains(number);
+    const bool registered = broad_phase().contains(number);
     if (takes_part ? !registered && !bodies()[number].dirty : registered) return "windows";
-    if (registered && bodies()[number].is_fixed() && windows().end_of(number) != infinity) return "windows";
-    if (!takes_part && (!book().partners_of(number).empty() || !book().crossings_of(number).empty() ||
-                        book().walls_of(number) != 0))
+    if (registered && bodies()[number].is_static() && broad_phase().end_of(number) != infinity)
+      return "windows";
+    if (!takes_part && (!contacts().partners_of(number).empty() || !contacts().overlaps_of(number).empty() ||
+                        contacts().walls_of(number) != 0))
       return "contacts";
   }
   return nullptr;
 }
 
 /// Hot pairs, which wait to be put into the agenda, are those of bodies which are registered.
-bool World::Engine::agenda_is_sound() const {
+bool World::Engine::queue_is_valid() const {
   const auto takes_part = [this](std::uint32_t number) {
-    return number < bodies().numbers() && bodies()[number].present() && windows().contains(number);
+    return number < bodies().numbers() && bodies()[number].present() && broad_phase().contains(number);
   };
-  const auto is_sound = [&](const HotPair& pair) {
-    if (!(pair.time >= -limits::largest_time && pair.time < infinity) || !takes_part(pair.first))
+  const auto is_valid = [&](const PairCertificate& pair) {
+    if (!(pair.failure_time >= -limits::largest_time && pair.failure_time < infinity) ||
+        !takes_part(pair.first))
       return false;
-    if (pair.second == HotPair::renewal)
-      return !bodies()[pair.first].is_fixed() && !everybody_.facts().is_void(pair);
-    if (pair.second == HotPair::walls)
-      return bodies().walls() && !bodies()[pair.first].is_fixed() && !everybody_.facts().is_void(pair);
-    return pair.first < pair.second && takes_part(pair.second) && !everybody_.facts().is_void(pair) &&
-           !(bodies()[pair.first].is_fixed() && bodies()[pair.second].is_fixed());
+    if (pair.second == PairCertificate::window_end)
+      return !bodies()[pair.first].is_static() && !main_.certifier().is_stale(pair);
+    if (pair.second == PairCertificate::walls)
+      return bodies().walls() && !bodies()[pair.first].is_static() && !main_.certifier().is_stale(pair);
+    return pair.first < pair.second && takes_part(pair.second) && !main_.certifier().is_stale(pair) &&
+           !(bodies()[pair.first].is_static() && bodies()[pair.second].is_static());
   };
-  return std::all_of(read_pairs_.begin(), read_pairs_.end(), is_sound);
+  return std::all_of(read_pairs_.begin(), read_pairs_.end(), is_valid);
 }
 
 /// A body whose window ends within the phase has a renewal by then.
-bool World::Engine::renewals_are_sound() const {
+bool World::Engine::window_ends_are_valid() const {
   std::vector<bool> is_renewed(bodies().numbers(), false);
-  for (const HotPair& pair : read_pairs_)
-    if (pair.second == HotPair::renewal && pair.time <= windows().end_of(pair.first))
+  for (const PairCertificate& pair : read_pairs_)
+    if (pair.second == PairCertificate::window_end && pair.failure_time <= broad_phase().end_of(pair.first))
       is_renewed[pair.first] = true;
   for (std::uint32_t number = 0; number < bodies().numbers(); ++number)
-    if (windows().contains(number) && !bodies()[number].dirty && !is_renewed[number] &&
-        windows().end_of(number) < everybody_.phase_end())
+    if (broad_phase().contains(number) && !bodies()[number].dirty && !is_renewed[number] &&
+        broad_phase().end_of(number) < main_.epoch_end())
       return false;
   return true;
 }
 
 /// Fixed bodies touch neither each other nor walls, and are not about to.
-bool World::Engine::contacts_of_fixed_are_sound() const {
-  const auto fixed = [this](std::uint32_t number) { return bodies()[number].is_fixed(); };
+bool World::Engine::static_contacts_are_valid() const {
+  const auto fixed = [this](std::uint32_t number) { return bodies()[number].is_static(); };
   const auto lives_fixed = [&](BodyId id) { return id == bodies().id_of(id.index) && fixed(id.index); };
   for (std::uint32_t number = 0; number < bodies().numbers(); ++number) {
     if (!fixed(number)) continue;
-    const auto partners = book().partners_of(number);
-    const auto crossings = book().crossings_of(number);
-    if (book().walls_of(number) != 0 || std::any_of(partners.begin(), partners.end(), fixed) ||
-        std::any_of(crossings.begin(), crossings.end(), [&](const Crossing& c) { return fixed(c.partner); }))
+    const auto partners = contacts().partners_of(number);
+    const auto overlaps = contacts().overlaps_of(number);
+    if (contacts().walls_of(number) != 0 || std::any_of(partners.begin(), partners.end(), fixed) ||
+        std::any_of(overlaps.begin(), overlaps.end(),
+                    [&](const OverlapRecord& c) { return fixed(c.partner); }))
       return false;
   }
   // One may have got the index of a body that has gone; then it is dirty, and the pair is not looked at.
@@ -156,9 +159,9 @@ bool World::Engine::contacts_of_fixed_are_sound() const {
     return fixed(number) && bodies()[number].present() && !bodies()[number].dirty;
   };
   return std::none_of(
-             everybody_.instant().changed().begin(), everybody_.instant().changed().end(),
+             main_.events().changed().begin(), main_.events().changed().end(),
              [&](const auto& pair) { return settled_fixed(pair.first) && settled_fixed(pair.second); }) &&
-         everybody_.instant().pending().none_of([&](const Event& event) {
+         main_.events().pending().none_of([&](const Event& event) {
            return lives_fixed(event.first) && (event.second == no_body || lives_fixed(event.second));
          });
 }

@@ -33,17 +33,17 @@ void require_room(InputCheck& check, std::string_view argument, const BodyDefini
   const double needed = 6.0 * definition.position_error + ContactRule(world).release_gap();
   for (int axis = 0; axis < 3; ++axis) {
     if (!world.periodic[axis]) continue;
-    const double room = 0.375 * (world.box->upper[axis] - world.box->lower[axis]);
+    const double margin = 0.375 * (world.box->upper[axis] - world.box->lower[axis]);
     check.require(
-        2.0 * definition.radius + needed <= room, ErrorCode::out_of_range, {argument, body},
+        2.0 * definition.radius + needed <= margin, ErrorCode::out_of_range, {argument, body},
         "must leave 2 radius + 6 position_error + separation_distance + contact_tolerance at most 3/8 of "
         "the periodic box, which is",
-        room, 2.0 * definition.radius + needed);
+        margin, 2.0 * definition.radius + needed);
   }
 }
 
-void require_promise(InputCheck& check, const MotionLimits& promise, BodyId body,
-                     const WorldDefinition& world) {
+void require_limits(InputCheck& check, const MotionLimits& promise, BodyId body,
+                    const WorldDefinition& world) {
   require_size(check, {"acceleration_limit", body}, promise.acceleration_limit, limits::largest_acceleration);
   require_size(check, {"position_error", body}, promise.position_error, coordinate_limit(world));
   require_size(check, {"velocity_error", body}, promise.velocity_error, limits::largest_speed);
@@ -174,7 +174,7 @@ Result<void> check_world(const WorldDefinition& definition) {
 Result<void> check_body(const BodyDefinition& body, const WorldDefinition& world, std::string_view call) {
   InputCheck check(call);
   require_radius(check, body.radius, no_body, world);
-  require_promise(check, motion_limits_of(body), no_body, world);
+  require_limits(check, motion_limits_of(body), no_body, world);
   require_state(check, {body.position, body.velocity}, body, no_body, world);
   require_room(check, "radius", body, no_body, world);
   return check.result();
@@ -197,10 +197,10 @@ Result<void> check_radius(const BodyDefinition& changed, BodyId body, const Worl
   return check.result();
 }
 
-Result<void> check_promise(const BodyDefinition& changed, BodyId body, const WorldDefinition& world,
-                           std::string_view call) {
+Result<void> check_limits(const BodyDefinition& changed, BodyId body, const WorldDefinition& world,
+                          std::string_view call) {
   InputCheck check(call);
-  require_promise(check, motion_limits_of(changed), body, world);
+  require_limits(check, motion_limits_of(changed), body, world);
   require_room(check, "position_error", changed, body, world);
   return check.result();
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/activity.hpp"
+#include "engine/call_state.hpp"
 #include "input/input_check.hpp"
 #include "kinesphere/world.hpp"
 
@@ -18,8 +18,8 @@ Result<void> check_shape(const Shape& shape, const WorldDefinition& world, std::
 /// Of a body that is in the world already: its radius or its promise as it would be.
 Result<void> check_radius(const BodyDefinition& changed, BodyId body, const WorldDefinition& world,
                           std::string_view call);
-Result<void> check_promise(const BodyDefinition& changed, BodyId body, const WorldDefinition& world,
-                           std::string_view call);
+Result<void> check_limits(const BodyDefinition& changed, BodyId body, const WorldDefinition& world,
+                          std::string_view call);
 Result<void> check_state(const State& state, const BodyDefinition& definition, BodyId body,
                          const WorldDefinition& world, std::string_view call);
 Result<void> check_sensor(const Sensor& sensor, const WorldDefinition& world);

@@ -28,7 +28,7 @@ std::string_view name_of(ErrorCode code) {
       return "disabled_body";
     case ErrorCode::enabled_body:
       return "enabled_body";
-    case ErrorCode::fixed_body:
+    case ErrorCode::static_body:
       return "fixed_body";
     case ErrorCode::outside_domain:
       return "outside_domain";

@@ -12,10 +12,11 @@ namespace kinesphere {
 /// Until when a pair that has no open record is apart by what was certified before, which reports that say
 /// less do not end; nothing if that is to be decided anew now. Cost: O(pairs that are near).
 std::optional<double> Monitor::Engine::certified_until(std::uint32_t a, std::uint32_t b) const {
-  double until = windows_.next_end();
+  double until = broad_phase_.next_end();
   const std::uint32_t first = std::min(a, b), second = std::max(a, b);
-  agenda_.for_each([&](const HotPair& pair) {
-    if (pair.first == first && pair.second == second && !is_void(pair)) until = std::min(until, pair.time);
+  queue_.for_each([&](const PairCertificate& pair) {
+    if (pair.first == first && pair.second == second && !is_stale(pair))
+      until = std::min(until, pair.failure_time);
   });
   return until > time_ ? std::optional(until) : std::nullopt;
 }
@@ -30,7 +31,7 @@ Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::u
                  "answer: second must be another track than first"};
   const std::uint32_t a = *tracks_.find(first), b = *tracks_.find(second);
   const std::span<const Components> levels = levels_of(a, b);
-  if (!definition_.share.contains(std::min(first, second)))
+  if (!definition_.shard.contains(std::min(first, second)))
     return Error{ErrorCode::out_of_range, "second", no_body,
                  "answer: first and second must be of a share that is watched"};
   if (level >= levels.size())
@@ -40,8 +41,8 @@ Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::u
   const KnownTrack& one = tracks_[a];
   const KnownTrack& other = tracks_[b];
   PairAnswer answer;
-  const Course now = course(a, b, levels[level], infinity);
-  const OpenRecord* record = open_.find(a, b);
+  const SeparationForecast now = forecast(a, b, levels[level], infinity);
+  const PairRecord* record = pair_records_.find(a, b);
   const LevelState state = record != nullptr ? record->levels[level] : LevelState{};
   answer.verdict = record != nullptr ? state.verdict : now.verdict;
   answer.since = state.since;
@@ -53,14 +54,14 @@ Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::u
       answer.until = *until;
     }
   const Component& nearest = *levels[level].begin();
-  const DistanceBetween between = distance_between(one.knowledge, other.knowledge, nearest, time_);
+  const DistanceBetween between = distance_between(one.estimate, other.estimate, nearest, time_);
   answer.lower = std::max(0.0, between.lower);
   answer.upper = between.upper;
 
   // As if both went straight on from where they are now.
   const auto ahead = [this](const KnownTrack& track) {
-    const Claim& claim = Knowledge::tightest(track.knowledge.hypotheses().front(), time_);
-    return State{claim.centre_at(time_), claim.velocity_at(time_)};
+    const ReachableSet& set = TrackEstimate::tightest(track.estimate.hypotheses().front(), time_);
+    return State{set.centre_at(time_), set.velocity_at(time_)};
   };
   const State x = ahead(one), y = ahead(other);
   answer.likely_time = time_;
@@ -92,7 +93,7 @@ Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::u
 
 std::vector<OpenPair> Monitor::Engine::open_pairs() const {
   std::vector<OpenPair> pairs;
-  open_.for_each([&](std::uint32_t a, std::uint32_t b, const OpenRecord& record) {
+  pair_records_.for_each([&](std::uint32_t a, std::uint32_t b, const PairRecord& record) {
     const auto [first, second] = std::minmax(tracks_[a].id, tracks_[b].id);
     for (std::uint32_t level = 0; level < record.levels.size(); ++level)
       if (const LevelState& state = record.levels[level]; state.verdict != Verdict::apart)
@@ -115,7 +116,7 @@ std::vector<TrackId> Monitor::Engine::crowd(std::size_t pairs) const {
   });
   std::vector<TrackId> crowd;
   std::vector<bool> is_chosen(tracks_.numbers(), false);
-  for (std::size_t left = open_.size(), k = 0; left > pairs; ++k) {
+  for (std::size_t left = pair_records_.size(), k = 0; left > pairs; ++k) {
     const KnownTrack& track = tracks_[numbers[k]];
     const auto closed = std::count_if(track.open.begin(), track.open.end(),
                                       [&](std::uint32_t other) { return !is_chosen[other]; });
@@ -127,24 +128,24 @@ std::vector<TrackId> Monitor::Engine::crowd(std::size_t pairs) const {
   return crowd;
 }
 
-std::vector<ReportNeed> Monitor::Engine::needed(double until) const {
-  std::vector<ReportNeed> needs;
-  agenda_.for_each([&](const HotPair& pair) {
-    if (!pair.has_second() || pair.time > until || is_void(pair)) return;
+std::vector<ReportRequest> Monitor::Engine::needed(double until) const {
+  std::vector<ReportRequest> needs;
+  queue_.for_each([&](const PairCertificate& pair) {
+    if (!pair.has_second() || pair.failure_time > until || is_stale(pair)) return;
     const auto [asked, other] = is_less_certain(pair.first, pair.second) ? std::pair(pair.first, pair.second)
                                                                          : std::pair(pair.second, pair.first);
-    needs.push_back({tracks_[asked].id, std::max(time_, pair.time), tracks_[other].id});
+    needs.push_back({tracks_[asked].id, std::max(time_, pair.failure_time), tracks_[other].id});
   });
-  open_.for_each([&](std::uint32_t a, std::uint32_t b, const OpenRecord& record) {
+  pair_records_.for_each([&](std::uint32_t a, std::uint32_t b, const PairRecord& record) {
     if (!record.is_undecided()) return;
     const auto [asked, other] = is_less_certain(a, b) ? std::pair(a, b) : std::pair(b, a);
     needs.push_back({tracks_[asked].id, time_, tracks_[other].id});
   });
-  std::sort(needs.begin(), needs.end(), [](const ReportNeed& p, const ReportNeed& q) {
+  std::sort(needs.begin(), needs.end(), [](const ReportRequest& p, const ReportRequest& q) {
     return std::tie(p.by, p.track, p.other) < std::tie(q.by, q.track, q.other);
   });
   std::set<TrackId> seen;
-  std::erase_if(needs, [&](const ReportNeed& need) { return !seen.insert(need.track).second; });
+  std::erase_if(needs, [&](const ReportRequest& need) { return !seen.insert(need.track).second; });
   return needs;
 }
 }  // namespace kinesphere

@@ -3,56 +3,56 @@
 #include <array>
 #include <span>
 
-#include "engine/while_true.hpp"
+#include "engine/scoped_flag.hpp"
 #include "monitor/engine.hpp"
 
 namespace kinesphere {
 
 /// More can be learned from a report of `a` than from one of `b`.
 bool Monitor::Engine::is_less_certain(std::uint32_t a, std::uint32_t b) const {
-  const double of_a = tracks_[a].knowledge.worth_asking(time_);
-  const double of_b = tracks_[b].knowledge.worth_asking(time_);
+  const double of_a = tracks_[a].estimate.worth_asking(time_);
+  const double of_b = tracks_[b].estimate.worth_asking(time_);
   return of_a != of_b ? of_a > of_b : tracks_[a].id < tracks_[b].id;
 }
 
 /// At what is due first.
-Result<void> Monitor::Engine::look(const Poll* poll) {
-  const HotPair pair = agenda_.first();
-  agenda_.drop_first();
-  if (is_void(pair)) return {};
+Result<void> Monitor::Engine::recheck(const Poll* poll) {
+  const PairCertificate pair = queue_.first();
+  queue_.drop_first();
+  if (is_stale(pair)) return {};
   if (!pair.has_second()) {
     is_due(pair.first);
     return {};
   }
-  const OpenRecord* record = open_.find(pair.first, pair.second);
+  const PairRecord* record = pair_records_.find(pair.first, pair.second);
   if (poll != nullptr && (record == nullptr || record->is_expiring(time_))) {
     if (Result<void> asked = ask_about(pair, *poll); !asked) return asked;
     // What was answered may have made it another pair.
-    if (is_void(pair)) return {};
+    if (is_stale(pair)) return {};
   }
-  judge(pair.first, pair.second);
+  decide(pair.first, pair.second);
   return {};
 }
 
 /// Asks one of two tracks and, where its answer leaves open whether they are apart, the other.
-Result<void> Monitor::Engine::ask_about(const HotPair& pair, const Poll& poll) {
+Result<void> Monitor::Engine::ask_about(const PairCertificate& pair, const Poll& poll) {
   const auto [a, b] = std::pair(pair.first, pair.second);
   // The pair stays due if there is no answer.
-  struct Unanswered {
-    Agenda& agenda;
-    const HotPair& pair;
+  struct UnansweredGuard {
+    CertificateQueue& agenda;
+    const PairCertificate& pair;
     bool answered = false;
-    ~Unanswered() {
+    ~UnansweredGuard() {
       if (!answered) agenda.add(pair);
     }
-  } unanswered{agenda_, pair};
+  } unanswered{queue_, pair};
   const std::array<std::uint32_t, 2> both = is_less_certain(a, b) ? std::array{a, b} : std::array{b, a};
   for (const std::uint32_t number : both) {
-    if (is_void(pair) || is_decided(a, b)) break;
-    if (!(tracks_[number].knowledge.stamp() < time_)) continue;
+    if (is_stale(pair) || is_decided(a, b)) break;
+    if (!(tracks_[number].estimate.timestamp() < time_)) continue;
     if (Result<void> asked = ask(std::span(&number, 1), poll, Placing::now); !asked) return asked;
   }
-  for (const std::uint32_t number : both) judge_pairs_not_due(number);
+  for (const std::uint32_t number : both) decide_pairs_not_due(number);
   unanswered.answered = true;
   return {};
 }
@@ -63,7 +63,7 @@ Result<void> Monitor::Engine::ask(std::span<const std::uint32_t> numbers, const 
   for (const std::uint32_t number : numbers) ids.push_back(tracks_[number].id);
   std::vector<std::optional<TrackReport>> reports(ids.size());
   {
-    const WhileTrue asking(asking_);
+    const ScopedFlag asking(asking_);
     poll(ids, time_, reports);
   }
   counters_.polls += ids.size();

@@ -21,10 +21,10 @@ Result<void> check_monitor(const MonitorDefinition& definition) {
                    definition.tolerance <= limits::largest_contact_tolerance,
                ErrorCode::out_of_range, {"tolerance"}, "must lie within the limits of a contact tolerance",
                definition.tolerance)
-      .require(definition.silence_after > 0.0, ErrorCode::out_of_range, {"silence_after"}, "must be > 0",
-               definition.silence_after)
-      .require(definition.forget_after > 0.0, ErrorCode::out_of_range, {"forget_after"}, "must be > 0",
-               definition.forget_after)
+      .require(definition.stale_after > 0.0, ErrorCode::out_of_range, {"silence_after"}, "must be > 0",
+               definition.stale_after)
+      .require(definition.drop_after > 0.0, ErrorCode::out_of_range, {"forget_after"}, "must be > 0",
+               definition.drop_after)
       .require(!definition.classes.empty(), ErrorCode::out_of_range, {"classes"}, "must name at least one",
                definition.classes.size());
   const auto duration = [&check](std::string_view part, double value) {
@@ -36,7 +36,7 @@ Result<void> check_monitor(const MonitorDefinition& definition) {
   };
   duration("time_resolution", definition.time_resolution);
   duration("window", definition.window);
-  const PairShare& share = definition.share;
+  const Shard& share = definition.shard;
   check
       .require(share.of > 0, ErrorCode::out_of_range, {.argument = "share", .part = "of"}, "must be > 0",
                share.of)
@@ -44,8 +44,8 @@ Result<void> check_monitor(const MonitorDefinition& definition) {
                "must be > 0", share.count)
       .require(share.count <= share.of && share.first <= share.of - share.count, ErrorCode::out_of_range,
                {.argument = "share", .part = "first"}, "must be, with count, at most", share.of, share.first);
-  const auto limit = [&check](const Subject& subject, const Spread& spread, double most) {
-    for (const double value : {spread.horizontal(), spread.vertical(), spread.total()})
+  const auto limit = [&check](const Subject& subject, const ErrorBound& error, double most) {
+    for (const double value : {error.horizontal(), error.vertical(), error.total()})
       check.require(value >= 0.0, ErrorCode::out_of_range, subject, "must be >= 0", value)
           .require(value <= most || value == infinity, ErrorCode::out_of_range, subject,
                    "must be infinite or at most", most, value);

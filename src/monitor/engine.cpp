@@ -34,21 +34,21 @@ auto order_of(const MonitorEvent& event) {
 Monitor::Engine::Engine(const MonitorDefinition& definition)
     : definition_(definition),
       promises_(promises_of(definition)),
-      levels_(definition),
-      tier_(exponent_of(definition.window)),
+      separations_(definition),
+      rung_(exponent_of(definition.window)),
       time_(definition.start_time.value_or(0.0)),
       has_started_(definition.start_time.has_value()),
-      windows_(space_of(definition)) {}
+      broad_phase_(space_of(definition)) {}
 
-bool Monitor::Engine::is_void(const HotPair& pair) const {
+bool Monitor::Engine::is_stale(const PairCertificate& pair) const {
   const KnownTrack& first = tracks_[pair.first];
-  if (!pair.has_second()) return first.life != pair.first_stamp || first.expected != pair.second_stamp;
-  if (pair.second_stamp == of_open_record) {
-    const OpenRecord* record = open_.find(pair.first, pair.second);
-    return record == nullptr || record->version != pair.first_stamp;
+  if (!pair.has_second()) return first.life != pair.first_revision || first.expected != pair.second_revision;
+  if (pair.second_revision == of_open_record) {
+    const PairRecord* record = pair_records_.find(pair.first, pair.second);
+    return record == nullptr || record->version != pair.first_revision;
   }
-  return first.life != pair.first_stamp || tracks_[pair.second].life != pair.second_stamp ||
-         open_.find(pair.first, pair.second) != nullptr;
+  return first.life != pair.first_revision || tracks_[pair.second].life != pair.second_revision ||
+         pair_records_.find(pair.first, pair.second) != nullptr;
 }
 
 Result<std::optional<MonitorEvent>> Monitor::Engine::advance(double until, const Poll* poll) {
@@ -58,11 +58,11 @@ Result<std::optional<MonitorEvent>> Monitor::Engine::advance(double until, const
     start_clock(until);
   }
   for (;;) {
-    agenda_.open([this](const HotPair& pair) { return is_void(pair); });
-    const double next = std::min(windows_.next_end(), agenda_.next_time());
+    queue_.open([this](const PairCertificate& pair) { return is_stale(pair); });
+    const double next = std::min(broad_phase_.next_end(), queue_.next_time());
     if (events_.empty() ? next > until : next > time_) break;
     time_ = std::max(time_, next);
-    const Result<void> done = windows_.next_end() <= time_ ? start_windows(poll) : look(poll);
+    const Result<void> done = broad_phase_.next_end() <= time_ ? start_windows(poll) : recheck(poll);
     if (!done) return done.error();
   }
   if (events_.empty()) {
@@ -74,7 +74,7 @@ Result<std::optional<MonitorEvent>> Monitor::Engine::advance(double until, const
   return std::optional(event);
 }
 
-void Monitor::Engine::tell(MonitorEvent event) {
+void Monitor::Engine::queue(MonitorEvent event) {
   const auto at = std::upper_bound(
       events_.begin(), events_.end(), event,
       [](const MonitorEvent& a, const MonitorEvent& b) { return order_of(a) < order_of(b); });
@@ -83,9 +83,9 @@ void Monitor::Engine::tell(MonitorEvent event) {
 
 /// A plan's parabola lies around the line between its ends more closely than along its first tangent: for
 /// d in [0, T],  1/2 g d^2  is within  |g| T^2 / 16  of  1/2 g (T d - T^2 / 8).
-RoomyBound Monitor::Engine::roomy_bound(std::uint32_t number, const Hypothesis& hypothesis,
-                                        double end) const {
-  MovedBound moved(Knowledge::bound(hypothesis, time_, end), time_);
+InflatedBound Monitor::Engine::inflated_bound(std::uint32_t number, const Hypothesis& hypothesis,
+                                              double end) const {
+  BoundAt moved(TrackEstimate::bound(hypothesis, time_, end), time_);
   if (const double duration = end - time_; moved.acceleration != Vec3{} && duration < infinity) {
     const double sixteenth = duration * duration * 0.0625;
     moved.centre -= moved.acceleration * sixteenth;
@@ -93,7 +93,7 @@ RoomyBound Monitor::Engine::roomy_bound(std::uint32_t number, const Hypothesis& 
     moved.radius += norm(moved.acceleration) * (sixteenth * (1.0 + 0x1p-47));
     moved.acceleration = {};
   }
-  return {moved, levels_.room(tracks_[number].track_class)};
+  return {moved, separations_.margin(tracks_[number].track_class)};
 }
 
 /// The window that starts now. Its length doubles with every eight windows that start without a report, so
@@ -101,7 +101,7 @@ RoomyBound Monitor::Engine::roomy_bound(std::uint32_t number, const Hypothesis& 
 /// more slowly while windows find many pairs.
 Window Monitor::Engine::next_window() const {
   constexpr std::uint32_t windows_of_a_length = 8;
-  return Window::at(time_, tier_ + static_cast<int>(quiet_windows_ / windows_of_a_length));
+  return Window::at(time_, rung_ + static_cast<int>(quiet_windows_ / windows_of_a_length));
 }
 
 Result<void> Monitor::Engine::start_windows(const Poll* poll) {
@@ -110,49 +110,50 @@ Result<void> Monitor::Engine::start_windows(const Poll* poll) {
   // Every track starts, also one that was added after a poll had failed here, in a window that goes on: what
   // starts takes a layer for itself. Tracks by number: the places of one follow one another.
   std::vector<std::uint32_t> numbers;
-  for (const std::uint32_t place : windows_.ended(time_, true))
+  for (const std::uint32_t place : broad_phase_.ended(time_, true))
     if (numbers.empty() || numbers.back() != track_at(place)) numbers.push_back(track_at(place));
   if (poll != nullptr) {
     // Whose plan ends, and who is in a pair that is undecided.
     std::vector<std::uint32_t> asked;
     for (const std::uint32_t number : numbers) {
       const KnownTrack& track = tracks_[number];
-      if (track.knowledge.stamp() < time_ &&
-          (track.knowledge.first_end() < next.end ||
-           std::any_of(track.open.begin(), track.open.end(),
-                       [&](std::uint32_t other) { return open_.find(number, other)->is_undecided(); })))
+      if (track.estimate.timestamp() < time_ &&
+          (track.estimate.first_end() < next.end ||
+           std::any_of(track.open.begin(), track.open.end(), [&](std::uint32_t other) {
+             return pair_records_.find(number, other)->is_undecided();
+           })))
         asked.push_back(number);
     }
     if (!asked.empty()) {
       quiet_windows_ = 0;
       if (Result<void> done = ask(asked, *poll, Placing::later); !done) return done;
-      for (const std::uint32_t number : asked) judge_pairs_not_due(number);
+      for (const std::uint32_t number : asked) decide_pairs_not_due(number);
     }
   }
   close_records();
   window_ = next;
   ++counters_.windows;
-  windows_.end_windows(time_, true);
-  std::vector<Windows::Starter> starters;
-  bounds_.resize(std::size_t{tracks_.numbers()} * Knowledge::slots);
+  broad_phase_.end_windows(time_, true);
+  std::vector<BroadPhase::Starter> starters;
+  bounds_.resize(std::size_t{tracks_.numbers()} * TrackEstimate::slots);
   for (const std::uint32_t number : numbers) {
     KnownTrack& track = tracks_[number];
-    for (const Hypothesis& hypothesis : track.knowledge.hypotheses()) {
+    for (const Hypothesis& hypothesis : track.estimate.hypotheses()) {
       track.placed |= 1u << hypothesis.slot;
       const std::uint32_t place = place_of(number, hypothesis);
-      bounds_[place] = roomy_bound(number, hypothesis, next.end);
-      starters.push_back({place, SizeLevels::level_of(*bounds_[place], next), next});
+      bounds_[place] = inflated_bound(number, hypothesis, next.end);
+      starters.push_back({place, SizeClasses::size_class_of(*bounds_[place], next), next});
     }
   }
-  Shift alone;
-  const auto bound_of = [&](std::uint32_t place) -> const RoomyBound& { return *bounds_[place]; };
-  windows_.start(starters, time_, bound_of, alone);
+  PoolLease alone;
+  const auto bound_of = [&](std::uint32_t place) -> const InflatedBound& { return *bounds_[place]; };
+  broad_phase_.start(starters, time_, bound_of, alone);
   counters_.searches += starters.size();
-  const std::size_t started = windows_.started();
+  const std::size_t started = broad_phase_.started();
   constexpr std::size_t at_once = 256;
   for (std::size_t from = 0; from < started; from += at_once)
     for (const auto& [a, b] :
-         search_.near_started(windows_, from, std::min(started, from + at_once), time_, bound_of))
+         search_.near_started(broad_phase_, from, std::min(started, from + at_once), time_, bound_of))
       find_pair(track_at(a), track_at(b));
   // Longer windows find more pairs, which take memory: a window that finds many counts as an eighth of one.
   constexpr std::size_t many_pairs_for_each = 16;

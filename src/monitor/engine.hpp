@@ -13,14 +13,14 @@
 #include <utility>
 #include <vector>
 
+#include "broadphase/certificate_queue.hpp"
+#include "broadphase/neighbour_search.hpp"
 #include "kinesphere/monitor/monitor.hpp"
-#include "monitor/course.hpp"
-#include "monitor/levels.hpp"
-#include "monitor/open_pairs.hpp"
+#include "monitor/pair_records.hpp"
+#include "monitor/separation_forecast.hpp"
+#include "monitor/separation_table.hpp"
 #include "monitor/track_table.hpp"
-#include "parallel/crew.hpp"
-#include "window/agenda.hpp"
-#include "window/neighbour_search.hpp"
+#include "parallel/thread_pool.hpp"
 
 namespace kinesphere {
 
@@ -49,9 +49,9 @@ class Monitor::Engine {
 
   Result<PairAnswer> answer(TrackId first, TrackId second, std::uint32_t level) const;
   std::vector<OpenPair> open_pairs() const;
-  std::size_t open_pair_count() const { return open_.size(); }
+  std::size_t open_pair_count() const { return pair_records_.size(); }
   std::vector<TrackId> crowd(std::size_t pairs) const;
-  std::vector<ReportNeed> needed(double until) const;
+  std::vector<ReportRequest> needed(double until) const;
 
   std::vector<std::byte> save() const;
   static Result<std::unique_ptr<Engine>> restore(std::span<const std::byte> snapshot);
@@ -61,81 +61,82 @@ class Monitor::Engine {
   static constexpr std::uint32_t of_open_record = std::numeric_limits<std::uint32_t>::max();
 
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive);
+  static void serialize(Self& self, Archive& archive);
   /// What cannot have come about of a state that was read, if anything.
-  const char* contradiction() const;
-  bool window_is_sound() const;
+  const char* first_invalid_part() const;
+  bool window_is_valid() const;
 
   Result<void> check(TrackId id, const TrackReport& report, const char* call) const;
   /// When a track gets another capsule that needs one: as the windows start, perhaps.
   enum class Placing { now, later };
   void take(TrackId id, const TrackReport& report, Placing placing);
   void place(std::uint32_t number);
-  void leave(std::uint32_t number);
+  void drop(std::uint32_t number);
   void expect_to_hear(std::uint32_t number);
   void is_due(std::uint32_t number);
 
-  bool is_void(const HotPair& pair) const;
+  bool is_stale(const PairCertificate& pair) const;
   void start_clock(double time) {
     time_ = time;
     has_started_ = true;
   }
   Window next_window() const;
   Result<void> start_windows(const Poll* poll);
-  Result<void> look(const Poll* poll);
-  Result<void> ask_about(const HotPair& pair, const Poll& poll);
+  Result<void> recheck(const Poll* poll);
+  Result<void> ask_about(const PairCertificate& pair, const Poll& poll);
   Result<void> ask(std::span<const std::uint32_t> numbers, const Poll& poll, Placing placing);
   /// None for pairs that are not watched.
   std::span<const Components> levels_of(std::uint32_t a, std::uint32_t b) const {
-    if (!definition_.share.contains(std::min(tracks_[a].id, tracks_[b].id))) return {};
-    return levels_.between(tracks_[a].track_class, tracks_[b].track_class);
+    if (!definition_.shard.contains(std::min(tracks_[a].id, tracks_[b].id))) return {};
+    return separations_.between(tracks_[a].track_class, tracks_[b].track_class);
   }
-  Course course(std::uint32_t a, std::uint32_t b, const Components& level, double horizon) const {
-    return course_of(tracks_[a].knowledge, tracks_[b].knowledge, level, time_, horizon, resolution());
+  SeparationForecast forecast(std::uint32_t a, std::uint32_t b, const Components& level,
+                              double horizon) const {
+    return forecast_of(tracks_[a].estimate, tracks_[b].estimate, level, time_, horizon, resolution());
   }
   std::optional<double> apart_until(std::uint32_t a, std::uint32_t b, double horizon);
   std::optional<double> certified_until(std::uint32_t a, std::uint32_t b) const;
   bool is_decided(std::uint32_t a, std::uint32_t b);
   bool is_less_certain(std::uint32_t a, std::uint32_t b) const;
   void find_pair(std::uint32_t a, std::uint32_t b);
-  void judge(std::uint32_t a, std::uint32_t b);
+  void decide(std::uint32_t a, std::uint32_t b);
   void close_records();
-  void judge_level(std::uint32_t a, std::uint32_t b, std::uint32_t level, LevelState& state);
-  void judge_open_pairs(std::uint32_t number);
-  void judge_pairs_not_due(std::uint32_t number);
-  void add_hot_pair(std::uint32_t a, std::uint32_t b, double time);
-  void tell(MonitorEvent event);
+  void decide_level(std::uint32_t a, std::uint32_t b, std::uint32_t level, LevelState& state);
+  void decide_open_pairs(std::uint32_t number);
+  void decide_pairs_not_due(std::uint32_t number);
+  void add_certificate(std::uint32_t a, std::uint32_t b, double time);
+  void queue(MonitorEvent event);
   /// The number by which the windows know a hypothesis of a track; and the track.
   static std::uint32_t place_of(std::uint32_t number, const Hypothesis& hypothesis) {
-    return number * Knowledge::slots + hypothesis.slot;
+    return number * TrackEstimate::slots + hypothesis.slot;
   }
-  static std::uint32_t track_at(std::uint32_t place) { return place / Knowledge::slots; }
-  RoomyBound roomy_bound(std::uint32_t number, const Hypothesis& hypothesis, double end) const;
+  static std::uint32_t track_at(std::uint32_t place) { return place / TrackEstimate::slots; }
+  InflatedBound inflated_bound(std::uint32_t number, const Hypothesis& hypothesis, double end) const;
   /// The window in which tracks are registered: the present one or, once it has ended, the one that follows.
-  Window window() const { return time_ < window_.end ? window_ : Window::at(time_, tier_); }
+  Window window() const { return time_ < window_.end ? window_ : Window::at(time_, rung_); }
   /// The shortest duration for which an answer counts as certain: MonitorDefinition::time_resolution or,
   /// where doubles of the size of time() are coarser, 2^-50 of it.
   double resolution() const { return std::max(definition_.time_resolution, std::abs(time_) * 0x1p-50); }
 
   MonitorDefinition definition_;
   std::vector<TrackClass> promises_;  ///< of the classes, flat in two dimensions
-  Levels levels_;
-  int tier_;  ///< of windows while reports come
+  SeparationTable separations_;
+  int rung_;  ///< of windows while reports come
   double time_;
   bool has_started_;  ///< false until start_clock(), if the definition gives no start
-  Window window_{.tier = 0, .end = -infinity};
+  Window window_{.rung = 0, .end = -infinity};
   /// Windows that have started since a report came or was asked for; those that find many pairs count less.
   std::uint32_t quiet_windows_ = 0;
   MonitorCounters counters_;
   TrackTable tracks_;
-  OpenRecords open_;
-  Windows windows_;
-  Agenda agenda_;
+  PairRecords pair_records_;
+  BroadPhase broad_phase_;
+  CertificateQueue queue_;
   std::deque<MonitorEvent> events_;  ///< of the present time, that have not been told yet
   bool asking_ = false;
-  std::vector<HotPair> read_pairs_;  ///< of a snapshot, on their way into the agenda
+  std::vector<PairCertificate> read_pairs_;  ///< of a snapshot, on their way into the agenda
   NeighbourSearch search_;
-  std::vector<std::optional<RoomyBound>> bounds_;  ///< of those that start, by place
+  std::vector<std::optional<InflatedBound>> bounds_;  ///< of those that start, by place
 };
 
 }  // namespace kinesphere

@@ -5,30 +5,30 @@
 
 #include "archive/fields.hpp"
 #include "kinesphere/monitor/monitor.hpp"
-#include "monitor/open_pairs.hpp"
+#include "monitor/pair_records.hpp"
 
 namespace kinesphere {
 
 template <Some<TrackClass> Self, class Archive>
-void transfer(Self& self, Archive& archive) {
+void serialize(Self& self, Archive& archive) {
   auto& [acceleration_limit, planned_acceleration, largest_speed] = self;
   archive(acceleration_limit, planned_acceleration, largest_speed);
 }
 
 template <Some<SeparationRule> Self, class Archive>
-void transfer(Self& self, Archive& archive) {
+void serialize(Self& self, Archive& archive) {
   auto& [first_class, second_class, levels] = self;
   archive(first_class, second_class, levels);
 }
 
-template <Some<PairShare> Self, class Archive>
-void transfer(Self& self, Archive& archive) {
+template <Some<Shard> Self, class Archive>
+void serialize(Self& self, Archive& archive) {
   auto& [of, first, count] = self;
   archive(of, first, count);
 }
 
 template <Some<MonitorDefinition> Self, class Archive>
-void transfer(Self& self, Archive& archive) {
+void serialize(Self& self, Archive& archive) {
   auto& [dimensions, start_time, classes, separations, tolerance, time_resolution, window, silence_after,
          forget_after, share] = self;
   archive(dimensions, start_time, classes, separations, tolerance, time_resolution, window, silence_after,
@@ -36,7 +36,7 @@ void transfer(Self& self, Archive& archive) {
 }
 
 template <Some<MonitorCounters> Self, class Archive>
-void transfer(Self& self, Archive& archive) {
+void serialize(Self& self, Archive& archive) {
   auto& [reports, late, repeated, contradictions, polls, windows, searches, near_pairs, looks] = self;
   archive(reports, late, repeated, contradictions, polls, windows, searches, near_pairs, looks);
 }
@@ -45,10 +45,10 @@ void transfer(Self& self, Archive& archive) {
 struct SavedRecord {
   std::uint32_t first = 0;
   std::uint32_t second = 0;
-  OpenRecord record{};
+  PairRecord record{};
 
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [first, second, record] = self;
     archive(first, second, record);
   }

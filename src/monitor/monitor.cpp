@@ -18,11 +18,11 @@ std::string_view name_of(MonitorEventKind kind) {
       return "contradiction";
     case MonitorEventKind::resolved:
       return "resolved";
-    case MonitorEventKind::silent:
+    case MonitorEventKind::stale:
       return "silent";
-    case MonitorEventKind::heard:
+    case MonitorEventKind::resumed:
       return "heard";
-    case MonitorEventKind::left:
+    case MonitorEventKind::dropped:
       return "left";
   }
   return "unknown";
@@ -114,12 +114,12 @@ Result<TrackView> Monitor::track(TrackId id) const {
   const KnownTrack& track = engine_->tracks()[*number];
   TrackView view{.id = id,
                  .track_class = track.track_class,
-                 .stamp = track.knowledge.stamp(),
-                 .silent = track.silent,
+                 .timestamp = track.estimate.timestamp(),
+                 .stale = track.stale,
                  .places = {}};
-  for (const Hypothesis& hypothesis : track.knowledge.hypotheses()) {
-    const Claim& claim = Knowledge::tightest(hypothesis, time());
-    view.places.push_back({claim.centre_at(time()), claim.velocity_at(time()), claim.radius_at(time())});
+  for (const Hypothesis& hypothesis : track.estimate.hypotheses()) {
+    const ReachableSet& set = TrackEstimate::tightest(hypothesis, time());
+    view.places.push_back({set.centre_at(time()), set.velocity_at(time()), set.radius_at(time())});
   }
   return view;
 }
@@ -130,7 +130,7 @@ Result<PairAnswer> Monitor::answer(TrackId first, TrackId second, std::uint32_t 
 std::vector<OpenPair> Monitor::open_pairs() const { return engine("open_pairs").open_pairs(); }
 std::size_t Monitor::open_pair_count() const { return engine("open_pair_count").open_pair_count(); }
 std::vector<TrackId> Monitor::crowd(std::size_t pairs) const { return engine("crowd").crowd(pairs); }
-std::vector<ReportNeed> Monitor::needed(double until) const { return engine("needed").needed(until); }
+std::vector<ReportRequest> Monitor::needed(double until) const { return engine("needed").needed(until); }
 
 std::vector<std::byte> Monitor::save() const { return engine("save").save(); }
 

@@ -11,27 +11,29 @@
 namespace kinesphere {
 
 /// The lengths of a vector: in the plane, along z, and altogether.
-inline Spread lengths_of(const Vec3& v) { return Spread::cylinder(std::hypot(v.x, v.y), std::abs(v.z)); }
+inline ErrorBound lengths_of(const Vec3& v) {
+  return ErrorBound::cylinder(std::hypot(v.x, v.y), std::abs(v.z));
+}
 
 /// The plans of a track that go beyond the promise of its class, summed up: until `end`, accelerations differ
 /// from the class's planned acceleration by at most `limit`, whichever plan is in force or none. From then on
 /// they differ by at most the class's limit.
 struct PlansBeyondClass {
-  Spread limit{};
+  ErrorBound limit{};
   double end = -infinity;  ///< -infinity if there is no such plan
 
   /// Of the plan of a report, if it has one.
   static PlansBeyondClass of(const TrackReport& report, const TrackClass& promise) {
     if (!report.plan) return {};
     const Vec3 turn = report.plan->acceleration - promise.planned_acceleration;
-    const Spread limit = (lengths_of(turn) + report.plan->acceleration_limit) * (1.0 + rounding::margin);
+    const ErrorBound limit = (lengths_of(turn) + report.plan->acceleration_limit) * (1.0 + rounding::margin);
     if (turn == Vec3{} && is_within(report.plan->acceleration_limit, promise.acceleration_limit)) return {};
     if (is_within(limit, promise.acceleration_limit)) return {};
     return {largest(limit, promise.acceleration_limit), report.plan->valid_until};
   }
 
   /// The largest difference from the class's planned acceleration at any time from `time` on.
-  const Spread& limit_from(double time, const TrackClass& promise) const {
+  const ErrorBound& limit_from(double time, const TrackClass& promise) const {
     return time < end ? limit : promise.acceleration_limit;
   }
   /// True if these allow every acceleration, at every time, that `other` allows.
@@ -43,13 +45,13 @@ struct PlansBeyondClass {
   }
 
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [limit, end] = self;
     archive(limit, end);
   }
 
  private:
-  static bool is_within(const Spread& one, const Spread& other) { return least(one, other) == one; }
+  static bool is_within(const ErrorBound& one, const ErrorBound& other) { return least(one, other) == one; }
 };
 
 }  // namespace kinesphere

@@ -12,9 +12,9 @@ namespace kinesphere {
 
 Result<void> Monitor::Engine::report(TrackId id, const TrackReport& report) {
   if (Result<void> checked = check(id, report, "report"); !checked) return checked;
-  if (!has_started_) start_clock(report.stamp);
+  if (!has_started_) start_clock(report.timestamp);
   take(id, report, Placing::now);
-  judge_open_pairs(*tracks_.find(id));
+  decide_open_pairs(*tracks_.find(id));
   return {};
 }
 
@@ -22,30 +22,32 @@ Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const
   const std::string part = "report of track " + std::to_string(id);
   const auto subject = [&part](std::string_view field) { return Subject{.argument = part, .part = field}; };
   InputCheck check(call);
-  check.finite(subject("stamp"), report.stamp)
-      .require(std::abs(report.stamp) <= limits::largest_time, ErrorCode::out_of_range, subject("stamp"),
-               "must lie within +-", limits::largest_time, report.stamp)
+  check.finite(subject("stamp"), report.timestamp)
+      .require(std::abs(report.timestamp) <= limits::largest_time, ErrorCode::out_of_range, subject("stamp"),
+               "must lie within +-", limits::largest_time, report.timestamp)
       .within(subject("position"), report.state.position, definition_.tolerance * limits::largest_length)
       .within(subject("velocity"), report.state.velocity, limits::largest_speed)
-      .not_negative(subject("stamp_error"), report.stamp_error)
-      .require(report.stamp_error <= limits::largest_time, ErrorCode::out_of_range, subject("stamp_error"),
-               "must be at most", limits::largest_time, report.stamp_error)
+      .not_negative(subject("stamp_error"), report.timestamp_error)
+      .require(report.timestamp_error <= limits::largest_time, ErrorCode::out_of_range,
+               subject("stamp_error"), "must be at most", limits::largest_time, report.timestamp_error)
       .require(report.track_class < definition_.classes.size(), ErrorCode::out_of_range,
                subject("track_class"), "must be less than the number of classes", definition_.classes.size(),
                report.track_class);
-  const auto spread = [&](std::string_view field, const Spread& value, double most, bool may_be_infinite) {
+  const auto error_bound = [&](std::string_view field, const ErrorBound& value, double most,
+                               bool may_be_infinite) {
     for (const double length : {value.horizontal(), value.vertical(), value.total()}) {
       if (may_be_infinite && length == infinity) continue;
       check.not_negative(subject(field), length)
           .require(length <= most, ErrorCode::out_of_range, subject(field), "must be at most", most, length);
     }
   };
-  spread("position_error", report.position_error, limits::largest_size, false);
-  spread("velocity_error", report.velocity_error, limits::largest_speed, true);
+  error_bound("position_error", report.position_error, limits::largest_size, false);
+  error_bound("velocity_error", report.velocity_error, limits::largest_speed, true);
   if (report.plan) {
     check.within(subject("plan acceleration"), report.plan->acceleration, limits::largest_acceleration);
-    spread("plan acceleration_limit", report.plan->acceleration_limit, limits::largest_acceleration, false);
-    check.require(report.plan->valid_until > report.stamp, ErrorCode::out_of_range,
+    error_bound("plan acceleration_limit", report.plan->acceleration_limit, limits::largest_acceleration,
+                false);
+    check.require(report.plan->valid_until > report.timestamp, ErrorCode::out_of_range,
                   subject("plan valid_until"), "must be later than the stamp", report.plan->valid_until);
   }
   if (check.error()) return *check.error();
@@ -78,40 +80,40 @@ void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placin
       flat.plan->acceleration_limit = flat.plan->acceleration_limit.flat();
     }
   }
-  const Knowledge::Learned learned = track.knowledge.learn(flat, promise, time_, power_of_two(tier_));
+  const TrackEstimate::Learned learned = track.estimate.update(flat, promise, time_, power_of_two(rung_));
   quiet_windows_ = 0;
-  if (learned.outcome == Knowledge::Outcome::repeated) {
+  if (learned.outcome == TrackEstimate::Outcome::repeated) {
     ++counters_.repeated;
     return;
   }
   ++counters_.reports;
   if (learned.late) ++counters_.late;
   std::uint32_t slots = 0;
-  for (const Hypothesis& hypothesis : track.knowledge.hypotheses()) slots |= 1u << hypothesis.slot;
+  for (const Hypothesis& hypothesis : track.estimate.hypotheses()) slots |= 1u << hypothesis.slot;
   track.placed &= slots;
   if (!known) {
     place(number);
     expect_to_hear(number);
     return;
   }
-  if (track.silent && time_ - track.knowledge.stamp() < definition_.silence_after) {
-    track.silent = false;
-    tell({.time = time_, .kind = MonitorEventKind::heard, .first = id});
+  if (track.stale && time_ - track.estimate.timestamp() < definition_.stale_after) {
+    track.stale = false;
+    queue({.time = time_, .kind = MonitorEventKind::resumed, .first = id});
     expect_to_hear(number);
   }
-  if (learned.outcome == Knowledge::Outcome::contradicts) {
+  if (learned.outcome == TrackEstimate::Outcome::contradicts) {
     ++counters_.contradictions;
-    tell({.time = time_,
-          .kind = MonitorEventKind::contradiction,
-          .first = id,
-          .position_excess = learned.excess.position,
-          .velocity_excess = learned.excess.velocity});
+    queue({.time = time_,
+           .kind = MonitorEventKind::contradiction,
+           .first = id,
+           .position_excess = learned.excess.position,
+           .velocity_excess = learned.excess.velocity});
   }
-  if (learned.outcome == Knowledge::Outcome::resolves)
-    tell({.time = time_, .kind = MonitorEventKind::resolved, .first = id});
+  if (learned.outcome == TrackEstimate::Outcome::resolves)
+    queue({.time = time_, .kind = MonitorEventKind::resolved, .first = id});
   if (!learned.ends_certainty) return;
   for (const std::uint32_t other : track.open)
-    for (LevelState& state : open_.find(number, other)->levels) state.until = -infinity;
+    for (LevelState& state : pair_records_.find(number, other)->levels) state.until = -infinity;
   if (placing == Placing::now) place(number);
 }
 
@@ -121,38 +123,38 @@ void Monitor::Engine::place(std::uint32_t number) {
   KnownTrack& track = tracks_[number];
   window_ = window();
   const Window& now = window_;
-  for (const Hypothesis& hypothesis : track.knowledge.hypotheses()) {
+  for (const Hypothesis& hypothesis : track.estimate.hypotheses()) {
     if ((track.placed & 1u << hypothesis.slot) != 0) continue;
     track.placed |= 1u << hypothesis.slot;
     const std::uint32_t at = place_of(number, hypothesis);
-    const RoomyBound bound = roomy_bound(number, hypothesis, now.end);
-    windows_.enter(at, bound, time_, now);
+    const InflatedBound bound = inflated_bound(number, hypothesis, now.end);
+    broad_phase_.enter(at, bound, time_, now);
     ++counters_.searches;
     // Finding a pair does not search.
-    for (const std::uint32_t near : search_.near(windows_, at, bound, time_, now.end))
+    for (const std::uint32_t near : search_.near(broad_phase_, at, bound, time_, now.end))
       find_pair(number, track_at(near));
   }
-  judge_open_pairs(number);
+  decide_open_pairs(number);
 }
 
 Result<void> Monitor::Engine::remove(TrackId id) {
   const auto number = tracks_.find(id);
   if (!number)
     return Error{ErrorCode::unknown_body, "id", no_body, "remove: there is no track " + std::to_string(id)};
-  leave(*number);
+  drop(*number);
   return {};
 }
 
-void Monitor::Engine::leave(std::uint32_t number) {
+void Monitor::Engine::drop(std::uint32_t number) {
   KnownTrack& track = tracks_[number];
   for (const std::uint32_t other : track.open) {
-    open_.remove(number, other);
+    pair_records_.remove(number, other);
     std::erase(tracks_[other].open, number);
   }
-  tell({.time = time_, .kind = MonitorEventKind::left, .first = track.id});
-  for (std::uint32_t slot = 0; slot < Knowledge::slots; ++slot)
-    if (const std::uint32_t place = number * Knowledge::slots + slot; windows_.contains(place))
-      windows_.leave(place);
+  queue({.time = time_, .kind = MonitorEventKind::dropped, .first = track.id});
+  for (std::uint32_t slot = 0; slot < TrackEstimate::slots; ++slot)
+    if (const std::uint32_t place = number * TrackEstimate::slots + slot; broad_phase_.contains(place))
+      broad_phase_.leave(place);
   tracks_.remove(number);
 }
 
@@ -160,24 +162,24 @@ void Monitor::Engine::leave(std::uint32_t number) {
 void Monitor::Engine::expect_to_hear(std::uint32_t number) {
   KnownTrack& track = tracks_[number];
   const double after =
-      track.silent ? definition_.forget_after : std::min(definition_.silence_after, definition_.forget_after);
-  const double time = std::max(time_, track.knowledge.stamp() + after);
+      track.stale ? definition_.drop_after : std::min(definition_.stale_after, definition_.drop_after);
+  const double time = std::max(time_, track.estimate.timestamp() + after);
   ++track.expected;
   if (time < infinity)
-    agenda_.add({.time = time,
-                 .first = number,
-                 .second = HotPair::walls,
-                 .first_stamp = track.life,
-                 .second_stamp = track.expected});
+    queue_.add({.failure_time = time,
+                .first = number,
+                .second = PairCertificate::walls,
+                .first_revision = track.life,
+                .second_revision = track.expected});
 }
 
 void Monitor::Engine::is_due(std::uint32_t number) {
   KnownTrack& track = tracks_[number];
-  const double age = track.knowledge.stamp();
-  if (age + definition_.forget_after <= time_) return leave(number);
-  if (!track.silent && age + definition_.silence_after <= time_) {
-    track.silent = true;
-    tell({.time = time_, .kind = MonitorEventKind::silent, .first = track.id});
+  const double age = track.estimate.timestamp();
+  if (age + definition_.drop_after <= time_) return drop(number);
+  if (!track.stale && age + definition_.stale_after <= time_) {
+    track.stale = true;
+    queue({.time = time_, .kind = MonitorEventKind::stale, .first = track.id});
   }
   expect_to_hear(number);
 }

@@ -32,31 +32,32 @@ bool is_blank(const KnownTrack& track) {
 }  // namespace
 
 template <class Self, class Archive>
-void Monitor::Engine::transfer(Self& self, Archive& archive) {
+void Monitor::Engine::serialize(Self& self, Archive& archive) {
   archive(self.time_, self.has_started_, self.window_, self.quiet_windows_, self.counters_, self.tracks_,
-          self.windows_);
+          self.broad_phase_);
   std::vector<SavedRecord> records;
   std::vector<MonitorEvent> events;
   std::uint32_t last_version = 0;
   if constexpr (std::is_const_v<Self>) {
-    self.open_.for_each([&](std::uint32_t a, std::uint32_t b, const OpenRecord& record) {
+    self.pair_records_.for_each([&](std::uint32_t a, std::uint32_t b, const PairRecord& record) {
       records.push_back({a, b, record});
     });
     std::sort(records.begin(), records.end(), [](const SavedRecord& p, const SavedRecord& q) {
       return std::tie(p.first, p.second) < std::tie(q.first, q.second);
     });
     events.assign(self.events_.begin(), self.events_.end());
-    last_version = self.open_.last_version();
-    std::vector<HotPair> pairs;
-    self.agenda_.for_each([&](const HotPair& pair) {
-      if (!self.is_void(pair)) pairs.push_back(pair);
+    last_version = self.pair_records_.last_version();
+    std::vector<PairCertificate> pairs;
+    self.queue_.for_each([&](const PairCertificate& pair) {
+      if (!self.is_stale(pair)) pairs.push_back(pair);
     });
     std::sort(pairs.begin(), pairs.end());
     archive(records, last_version, events, pairs);
   } else {
     archive(records, last_version, events, self.read_pairs_);
-    for (const SavedRecord& saved : records) self.open_.add(saved.first, saved.second, 0) = saved.record;
-    self.open_.start_versions_at(last_version);
+    for (const SavedRecord& saved : records)
+      self.pair_records_.add(saved.first, saved.second, 0) = saved.record;
+    self.pair_records_.start_versions_at(last_version);
     self.events_.assign(events.begin(), events.end());
   }
 }
@@ -64,7 +65,7 @@ void Monitor::Engine::transfer(Self& self, Archive& archive) {
 std::vector<std::byte> Monitor::Engine::save() const {
   ByteWriter content;
   content(definition_);
-  transfer(*this, content);
+  serialize(*this, content);
   return monitor_envelope.seal(content.bytes());
 }
 
@@ -77,29 +78,29 @@ Result<std::unique_ptr<Monitor::Engine>> Monitor::Engine::restore(std::span<cons
   if (reader.failed() || !check_monitor(definition))
     return monitor_envelope.refusal("must hold a monitor that can be, but its definition is impossible");
   auto engine = std::make_unique<Engine>(definition);
-  transfer(*engine, reader);
+  serialize(*engine, reader);
   if (reader.failed() || reader.remaining() != 0)
     return monitor_envelope.refusal("must hold a monitor, but its content does not have the form of one");
-  if (const char* where = engine->tracks_.index() ? engine->contradiction() : "tracks")
+  if (const char* where = engine->tracks_.index() ? engine->first_invalid_part() : "tracks")
     return monitor_envelope.refusal(
         std::string("must hold a monitor that can be, but contradicts itself in its ") + where);
-  engine->agenda_.add_all(engine->read_pairs_);
+  engine->queue_.add_all(engine->read_pairs_);
   return engine;
 }
 
 /// A window that has not ended is one that Window::at() gives for a time since it began.
-bool Monitor::Engine::window_is_sound() const {
+bool Monitor::Engine::window_is_valid() const {
   if (!(window_.end > time_)) return !std::isnan(window_.end);
-  return window_.tier != Window::endless().tier && window_.is_sound() &&
-         (Window::at(time_, window_.tier) == window_ ||
-          (window_.begin() <= time_ && Window::at(window_.begin(), window_.tier) == window_));
+  return window_.rung != Window::endless().rung && window_.is_valid() &&
+         (Window::at(time_, window_.rung) == window_ ||
+          (window_.begin() <= time_ && Window::at(window_.begin(), window_.rung) == window_));
 }
 
-const char* Monitor::Engine::contradiction() const {
+const char* Monitor::Engine::first_invalid_part() const {
   if (!std::isfinite(time_) || std::abs(time_) > limits::largest_time) return "time";
   if (!has_started_ && (time_ != 0.0 || definition_.start_time || tracks_.size() > 0)) return "time";
-  if (!window_is_sound()) return "windows";
-  if (!windows_.is_sound(std::size_t{tracks_.numbers()} * Knowledge::slots)) return "windows";
+  if (!window_is_valid()) return "windows";
+  if (!broad_phase_.is_valid(std::size_t{tracks_.numbers()} * TrackEstimate::slots)) return "windows";
   const auto is_present = [this](std::uint32_t number) {
     return number < tracks_.numbers() && tracks_[number].present;
   };
@@ -107,50 +108,51 @@ const char* Monitor::Engine::contradiction() const {
   for (std::uint32_t number = 0; number < tracks_.numbers(); ++number) {
     const KnownTrack& track = tracks_[number];
     bool placed = false;
-    for (std::uint32_t slot = 0; slot < Knowledge::slots; ++slot) {
-      const std::uint32_t place = number * Knowledge::slots + slot;
-      const bool contains = windows_.contains(place);
+    for (std::uint32_t slot = 0; slot < TrackEstimate::slots; ++slot) {
+      const std::uint32_t place = number * TrackEstimate::slots + slot;
+      const bool contains = broad_phase_.contains(place);
       placed = placed || contains;
       if ((track.placed & 1u << slot) != 0 && !contains) return "windows";
       // All start together when the first of their windows ends.
-      if (contains && windows_.end_of(place) > time_ && windows_.window_of(place) != window_)
+      if (contains && broad_phase_.end_of(place) > time_ && broad_phase_.window_of(place) != window_)
         return "windows";
     }
-    if (placed != track.present || track.placed >> Knowledge::slots != 0) return "windows";
+    if (placed != track.present || track.placed >> TrackEstimate::slots != 0) return "windows";
     if (!track.present) {
       // The next track that gets the number goes on from what is here.
       if (!is_blank(track)) return "tracks";
       continue;
     }
-    if (track.track_class >= definition_.classes.size() || !track.knowledge.is_sound(time_)) return "tracks";
+    if (track.track_class >= definition_.classes.size() || !track.estimate.is_valid(time_)) return "tracks";
     partners += track.open.size();
     for (std::size_t k = 0; k < track.open.size(); ++k) {
       const std::uint32_t other = track.open[k];
-      if (!is_present(other) || other == number || open_.find(number, other) == nullptr ||
+      if (!is_present(other) || other == number || pair_records_.find(number, other) == nullptr ||
           std::count(track.open.begin(), track.open.end(), other) != 1 ||
           std::count(tracks_[other].open.begin(), tracks_[other].open.end(), number) != 1)
         return "pairs";
     }
   }
-  if (partners != 2 * open_.size()) return "pairs";
+  if (partners != 2 * pair_records_.size()) return "pairs";
   bool sound = true;
-  open_.for_each([&](std::uint32_t a, std::uint32_t b, const OpenRecord& record) {
-    sound = sound && a < b && is_present(a) && is_present(b) && record.version <= open_.last_version() &&
+  pair_records_.for_each([&](std::uint32_t a, std::uint32_t b, const PairRecord& record) {
+    sound = sound && a < b && is_present(a) && is_present(b) &&
+            record.version <= pair_records_.last_version() &&
             record.levels.size() == levels_of(a, b).size() &&
             std::all_of(record.levels.begin(), record.levels.end(), [](const LevelState& state) {
               return state.verdict <= Verdict::within && !std::isnan(state.since) && !std::isnan(state.until);
             });
   });
   if (!sound) return "pairs";
-  const auto is_pair = [&](const HotPair& pair) {
-    return pair.time < infinity && is_present(pair.first) &&
-           (pair.second == HotPair::walls || (pair.first < pair.second && is_present(pair.second))) &&
-           !is_void(pair);
+  const auto is_pair = [&](const PairCertificate& pair) {
+    return pair.failure_time < infinity && is_present(pair.first) &&
+           (pair.second == PairCertificate::walls || (pair.first < pair.second && is_present(pair.second))) &&
+           !is_stale(pair);
   };
   if (!std::all_of(read_pairs_.begin(), read_pairs_.end(), is_pair)) return "agenda";
   const auto is_event = [this](const MonitorEvent& event) {
-    return event.time == time_ && event.kind <= MonitorEventKind::left && event.verdict <= Verdict::within &&
-           event.before <= Verdict::within;
+    return event.time == time_ && event.kind <= MonitorEventKind::dropped &&
+           event.verdict <= Verdict::within && event.before <= Verdict::within;
   };
   return std::all_of(events_.begin(), events_.end(), is_event) ? nullptr : "events";
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kinesphere/monitor/monitor_event.hpp"
-#include "monitor/knowledge.hpp"
+#include "monitor/track_estimate.hpp"
 
 namespace kinesphere {
 
@@ -16,18 +16,18 @@ struct KnownTrack {
   TrackId id = 0;
   std::size_t track_class = 0;
   bool present = false;
-  bool silent = false;
+  bool stale = false;
   std::uint32_t life = 0;  ///< no two tracks ever have the same
   /// Of the hypotheses that have a capsule of their own, a bit for each slot. The others need none, as long
   /// as those that were there before them have theirs.
   std::uint32_t placed = 0;
   /// How often it was put on the agenda to be heard of: what is from before is void.
   std::uint32_t expected = 0;
-  Knowledge knowledge{};
+  TrackEstimate estimate{};
   std::vector<std::uint32_t> open;  ///< partners in pairs that have an open record
 
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [id, track_class, present, silent, life, placed, expected, knowledge, open] = self;
     archive(id, track_class, present, silent, life, placed, expected, knowledge, open);
   }
@@ -75,7 +75,7 @@ class TrackTable {
   }
 
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [tracks, free, last_life, numbers] = self;
     archive(tracks, free, last_life);
   }

@@ -24,12 +24,12 @@ BodyDefinition Ballistic::definition(std::uint32_t body, double t) const {
 
 Result<void> Ballistic::write_body(std::uint32_t body, std::vector<std::byte>& bytes) const {
   if (const auto error = wrong_body("write_body", *this, body)) return *error;
-  append_body(bytes, ballistic_mark, departure(body));
+  append_body(bytes, ballistic_mark, origin(body));
   return {};
 }
 
 Result<std::uint32_t> Ballistic::read_body(std::span<const std::byte>& bytes) {
-  Departure last;
+  MotionOrigin last;
   const auto rest = take_body(bytes, ballistic_mark, last);
   if (!rest) return rest.error();
   auto body = add(last.time, last.state);

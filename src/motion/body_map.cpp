@@ -91,8 +91,8 @@ Result<void> BodyMap::remove(World& world, BodyId body) {
   return world.remove(body);
 }
 
-Result<void> BodyMap::tell_violations(World& world, const Frames& frames) const {
-  InputCheck check("BodyMap::tell_violations");
+Result<void> BodyMap::report_violations(World& world, const FrameMotion& frames) const {
+  InputCheck check("BodyMap::report_violations");
   check.require(world.time() == frames.previous_time(), ErrorCode::out_of_range, {"world"},
                 "must have its time at that of the last frame but one,", frames.previous_time(),
                 world.time());
@@ -128,18 +128,18 @@ State BodyMap::state(BodyId body, double time) const {
   return moved.motion->state(moved.number, time);
 }
 
-void BodyMap::MapMover::states(std::span<const BodyId> ids, double time, std::span<State> states) {
+void BodyMap::MapSource::states(std::span<const BodyId> ids, double time, std::span<State> states) {
   bodies_.probe()(ids, time, states);
 }
 
-Departure BodyMap::MapMover::departure(BodyId body) const {
+MotionOrigin BodyMap::MapSource::origin(BodyId body) const {
   const Entry& moved = bodies_.known("departure", body);
-  return moved.motion->departure(moved.number);
+  return moved.motion->origin(moved.number);
 }
 
-void BodyMap::MapMover::depart(BodyId body, const Departure& departure) {
+void BodyMap::MapSource::set_origin(BodyId body, const MotionOrigin& origin) {
   const Entry& moved = bodies_.known("depart", body);
-  moved.motion->depart(moved.number, departure).value();
+  moved.motion->set_origin(moved.number, origin).value();
 }
 
 }  // namespace kinesphere

@@ -35,11 +35,11 @@ std::optional<Error> wrong_state(std::string_view call, BodyId body, const State
       .error();
 }
 
-std::optional<Error> wrong_departure(std::string_view call, BodyId body, const Departure& departure) {
+std::optional<Error> wrong_departure(std::string_view call, BodyId body, const MotionOrigin& origin) {
   return InputCheck(call)
-      .finite({"departure", body, "time"}, departure.time)
-      .finite({"departure", body, "position"}, departure.state.position)
-      .finite({"departure", body, "velocity"}, departure.state.velocity)
+      .finite({"departure", body, "time"}, origin.time)
+      .finite({"departure", body, "position"}, origin.state.position)
+      .finite({"departure", body, "velocity"}, origin.state.velocity)
       .error();
 }
 

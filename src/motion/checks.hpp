@@ -24,7 +24,7 @@ std::optional<Error> wrong_time(std::string_view call, BodyId body, std::string_
                                 const KnownTimes& known);
 std::optional<Error> wrong_state(std::string_view call, BodyId body, const State& state);
 /// Finite in all parts.
-std::optional<Error> wrong_departure(std::string_view call, BodyId body, const Departure& departure);
+std::optional<Error> wrong_departure(std::string_view call, BodyId body, const MotionOrigin& origin);
 /// The error of a change that this kind of motion does not have.
 Error cannot_change(std::string_view call, const Motion& motion, std::uint32_t body, std::string_view what);
 /// The error of a question about a body at some time, of which something is known to be wrong.

@@ -24,11 +24,11 @@ Result<void> Motion::teleport(std::uint32_t body, double, const State&) {
 
 Result<void> Motion::remove(std::uint32_t body) { return cannot_change("remove", *this, body, "removed"); }
 
-Departure Motion::departure(std::uint32_t body) const {
+MotionOrigin Motion::origin(std::uint32_t body) const {
   detail::bad_result(cannot_change("departure", *this, body, "changed"));
 }
 
-Result<void> Motion::depart(std::uint32_t body, const Departure&) {
+Result<void> Motion::set_origin(std::uint32_t body, const MotionOrigin&) {
   return cannot_change("depart", *this, body, "changed");
 }
 
@@ -46,18 +46,18 @@ void Motion::require_number(BodyId id, std::size_t size) {
     refuse_probe(id, size);
 }
 
-void MotionMover::states(std::span<const BodyId> ids, double time, std::span<State> states) {
+void SingleMotionSource::states(std::span<const BodyId> ids, double time, std::span<State> states) {
   motion_.probe()(ids, time, states);
 }
 
-Departure MotionMover::departure(BodyId body) const {
+MotionOrigin SingleMotionSource::origin(BodyId body) const {
   Motion::require_number(body, motion_.size());
-  return motion_.departure(body.index);
+  return motion_.origin(body.index);
 }
 
-void MotionMover::depart(BodyId body, const Departure& departure) {
+void SingleMotionSource::set_origin(BodyId body, const MotionOrigin& origin) {
   Motion::require_number(body, motion_.size());
-  motion_.depart(body.index, departure).value();
+  motion_.set_origin(body.index, origin).value();
 }
 
 }  // namespace kinesphere

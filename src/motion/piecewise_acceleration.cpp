@@ -73,16 +73,16 @@ Result<void> PiecewiseAcceleration::teleport(std::uint32_t body, double t, const
   return {};
 }
 
-Departure PiecewiseAcceleration::departure(std::uint32_t body) const {
+MotionOrigin PiecewiseAcceleration::origin(std::uint32_t body) const {
   if (const auto error = wrong_body("departure", *this, body)) detail::bad_result(*error);
   return {courses_[body].since, courses_[body].state};
 }
 
-Result<void> PiecewiseAcceleration::depart(std::uint32_t body, const Departure& departure) {
+Result<void> PiecewiseAcceleration::set_origin(std::uint32_t body, const MotionOrigin& origin) {
   constexpr std::string_view call = "depart";
   if (const auto error = wrong_body(call, *this, body)) return *error;
-  if (const auto error = wrong_departure(call, {body, 0}, departure)) return *error;
-  restart(body, departure.time, departure.state);
+  if (const auto error = wrong_departure(call, {body, 0}, origin)) return *error;
+  restart(body, origin.time, origin.state);
   return {};
 }
 

@@ -45,12 +45,12 @@ BodyDefinition RandomForces::definition(std::uint32_t body, double t) const {
 
 Result<void> RandomForces::write_body(std::uint32_t body, std::vector<std::byte>& bytes) const {
   if (const auto error = wrong_body("write_body", *this, body)) return *error;
-  append_body(bytes, random_forces_mark, departure(body), limits_[body], names_[body]);
+  append_body(bytes, random_forces_mark, origin(body), limits_[body], names_[body]);
   return {};
 }
 
 Result<std::uint32_t> RandomForces::read_body(std::span<const std::byte>& bytes) {
-  Departure last;
+  MotionOrigin last;
   double limit = 0.0;
   std::uint32_t name = 0;
   const auto rest = take_body(bytes, random_forces_mark, last, limit, name);

@@ -65,12 +65,12 @@ BodyDefinition VelocityField::definition(std::uint32_t body, double t) const {
 
 Result<void> VelocityField::write_body(std::uint32_t body, std::vector<std::byte>& bytes) const {
   if (const auto error = wrong_body("write_body", *this, body)) return *error;
-  append_body(bytes, velocity_field_mark, departure(body), limits_[body]);
+  append_body(bytes, velocity_field_mark, origin(body), limits_[body]);
   return {};
 }
 
 Result<std::uint32_t> VelocityField::read_body(std::span<const std::byte>& bytes) {
-  Departure last;
+  MotionOrigin last;
   double limit = 0.0;
   const auto rest = take_body(bytes, velocity_field_mark, last, limit);
   if (!rest) return rest.error();

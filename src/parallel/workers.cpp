@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "input/input_check.hpp"
-#include "parallel/crew.hpp"
+#include "parallel/thread_pool.hpp"
 
 namespace kinesphere {
 namespace {
 
 /// Threads that sleep until there are items, and again when none have come for a moment.
-class Threads final : public Crew {
+class Threads final : public ThreadPool {
  public:
   explicit Threads(int count) {
     threads_.reserve(static_cast<std::size_t>(count) - 1);
@@ -30,7 +30,7 @@ class Threads final : public Crew {
 
   int count() const override { return static_cast<int>(threads_.size()) + 1; }
 
-  void share(SharedItems& items) override {
+  void run(SharedRange& items) override {
     bool any_asleep = false;
     {
       const std::lock_guard lock(mutex_);
@@ -63,7 +63,7 @@ class Threads final : public Crew {
       --asleep_;
       if (leaving_) return;
       last_round = round_;
-      SharedItems& items = *items_;
+      SharedRange& items = *items_;
       ++working_;
       lock.unlock();
       items.work(worker);
@@ -91,7 +91,7 @@ class Threads final : public Crew {
   std::mutex mutex_;  ///< of all that follows but the threads; what is atomic is read without it, too
   std::condition_variable wake_;
   std::condition_variable done_;
-  SharedItems* items_ = nullptr;          ///< while there are some to begin with
+  SharedRange* items_ = nullptr;          ///< while there are some to begin with
   std::atomic<std::uint64_t> round_ = 0;  ///< which items these are
   std::atomic<int> working_ = 0;
   int asleep_ = 0;
@@ -101,17 +101,17 @@ class Threads final : public Crew {
 
 /// A task of one item for each worker, in which it takes ranges as long as there are some: so it does not
 /// matter in which threads, and how many of them at the same time, a task system works on it.
-class Tasks final : public Crew {
+class Tasks final : public ThreadPool {
  public:
   explicit Tasks(const TaskSystem& system) : system_(system) {}
 
   int count() const override { return system_.threads; }
 
-  void share(SharedItems& items) override {
+  void run(SharedRange& items) override {
     void* const handle = system_.enqueue(
         [](std::size_t begin, std::size_t end, void* context) {
           for (std::size_t worker = begin; worker < end; ++worker)
-            static_cast<SharedItems*>(context)->work(worker + 1);
+            static_cast<SharedRange*>(context)->work(worker + 1);
         },
         static_cast<std::size_t>(count()) - 1, 1, &items, system_.user_context);
     items.work(0);
@@ -131,7 +131,7 @@ Result<void> check_threads(int threads) {
 
 }  // namespace
 
-void SharedItems::work(std::size_t worker) {
+void SharedRange::work(std::size_t worker) {
   while (!failed_.load(std::memory_order_relaxed)) {
     const std::size_t begin = next_.fetch_add(range_, std::memory_order_relaxed);
     if (begin >= items_) return;
@@ -148,11 +148,11 @@ void SharedItems::work(std::size_t worker) {
   }
 }
 
-Shift::Shift(Workers* workers) {
+PoolLease::PoolLease(Workers* workers) {
   if (workers == nullptr || workers->count() == 0) return;
-  Crew& crew = Crew::of(*workers);
-  free_ = !crew.busy_.exchange(true);
-  if (free_) crew_ = &crew;
+  ThreadPool& pool = ThreadPool::of(*workers);
+  free_ = !pool.busy_.exchange(true);
+  if (free_) pool_ = &pool;
 }
 
 Result<Workers> Workers::create(int threads) {
@@ -177,11 +177,11 @@ Result<Workers> Workers::create(const TaskSystem& task_system) {
   return Workers(std::make_unique<Tasks>(task_system));
 }
 
-Workers::Workers(std::unique_ptr<Crew> crew) : crew_(std::move(crew)) {}
+Workers::Workers(std::unique_ptr<ThreadPool> pool) : pool_(std::move(pool)) {}
 Workers::Workers(Workers&&) noexcept = default;
 Workers& Workers::operator=(Workers&&) noexcept = default;
 Workers::~Workers() = default;
 
-int Workers::count() const { return crew_ ? crew_->count() : 0; }
+int Workers::count() const { return pool_ ? pool_->count() : 0; }
 
 }  // namespace kinesphere

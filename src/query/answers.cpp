@@ -5,12 +5,12 @@
 
 #include "bound/relative_motion.hpp"
 #include "number/infinity.hpp"
-#include "query/present.hpp"
+#include "query/certain_sphere.hpp"
 
 namespace kinesphere {
 World::Engine::Answers::Answers(const Engine& engine) : engine_(engine), now_(engine.time()) {
-  for (const auto& [a, b] : engine.everybody().instant().changed()) open_.insert(std::minmax(a, b));
-  engine.everybody().instant().pending().for_each([this](const Event& event) {
+  for (const auto& [a, b] : engine.main().events().changed()) open_.insert(std::minmax(a, b));
+  engine.main().events().pending().for_each([this](const Event& event) {
     const std::uint32_t a = event.first.index;
     open_.insert(std::minmax(a, event.second == no_body ? a : event.second.index));
   });
@@ -34,28 +34,30 @@ bool World::Engine::Answers::settled(std::uint32_t a, std::uint32_t b) const {
 }
 
 /// The engine looks at the pair no sooner than this, so it tells of no begin before.
-double World::Engine::Answers::recorded(std::uint32_t a, std::uint32_t b, const PairTimes& hot) const {
+double World::Engine::Answers::recorded(std::uint32_t a, std::uint32_t b, const CertificateTimes& hot) const {
   if (!settled(a, b)) return now_;
-  return std::max(std::min(hot.of(a, b), engine_.everybody().facts().windows_end(a, b)), now_);
+  return std::max(std::min(hot.of(a, b), engine_.main().certifier().earliest_window_end(a, b)), now_);
 }
 
-double World::Engine::Answers::recorded_of_walls(std::uint32_t number, const PairTimes& hot) const {
+double World::Engine::Answers::recorded_of_walls(std::uint32_t number, const CertificateTimes& hot) const {
   if (!settled(number, number)) return now_;
-  return std::max(now_, std::min(hot.of(number, HotPair::walls), engine_.windows().end_of(number)));
+  return std::max(now_,
+                  std::min(hot.of(number, PairCertificate::walls), engine_.broad_phase().end_of(number)));
 }
 
-void World::Engine::Answers::consider_touching(std::uint32_t number, Onset& first) const {
+void World::Engine::Answers::consider_touching(std::uint32_t number, ContactBoundary& first) const {
   if (first.touching) return;
-  const auto partners = engine_.book().partners_of(number);
+  const auto partners = engine_.contacts().partners_of(number);
   if (!partners.empty())
     first = {now_, number, *std::min_element(partners.begin(), partners.end()), Wall::none, true};
   for (const Wall wall : walls)
-    if (!first.touching && engine_.book().touches_wall(number, wall))
+    if (!first.touching && engine_.contacts().touches_wall(number, wall))
       first = {now_, number, std::nullopt, wall, true};
 }
 
-void World::Engine::Answers::consider_walls(std::uint32_t number, const PairTimes& hot, Onset& first) const {
-  if (!engine_.bodies().walls() || !body(number).present() || body(number).is_fixed()) return;
+void World::Engine::Answers::consider_walls(std::uint32_t number, const CertificateTimes& hot,
+                                            ContactBoundary& first) const {
+  if (!engine_.bodies().walls() || !body(number).present() || body(number).is_static()) return;
   const double known = recorded_of_walls(number, hot);
   if (known >= first.time) return;
   const Bound bound = guarded(number);
@@ -68,10 +70,11 @@ void World::Engine::Answers::consider_walls(std::uint32_t number, const PairTime
 }
 
 /// As earliest_meeting, in whichever image.
-double World::Engine::Answers::meeting(const Extent& extent_of_a, const Extent& extent_of_b) const {
+double World::Engine::Answers::meeting(const CollisionShape& extent_of_a,
+                                       const CollisionShape& extent_of_b) const {
   const Space& space = engine_.bodies().space();
   if (!space.repeats()) {
-    return visit_extents(extent_of_a, extent_of_b, [this](const Bound& bound, const auto& partner) {
+    return visit_shapes(extent_of_a, extent_of_b, [this](const Bound& bound, const auto& partner) {
       return earliest_meeting(bound, partner, now_, infinity);
     });
   }
@@ -107,49 +110,49 @@ double World::Engine::Answers::meeting(const Extent& extent_of_a, const Extent& 
   return std::max(first, now_);
 }
 
-void World::Engine::Answers::consider(std::uint32_t a, std::uint32_t b, const PairTimes& hot,
-                                      Onset& first) const {
+void World::Engine::Answers::consider(std::uint32_t a, std::uint32_t b, const CertificateTimes& hot,
+                                      ContactBoundary& first) const {
   if (!body(a).present() || !body(b).present() || !engine_.bodies().may_touch(a, b)) return;
   const double known = recorded(a, b, hot);
   if (known >= first.time) return;
   const Bound bound_of_a = guarded(a);
   const Bound bound_of_b = guarded(b);
-  const double time = std::max(
-      known, meeting(extent_of(engine_.bodies(), a, bound_of_a), extent_of(engine_.bodies(), b, bound_of_b)));
+  const double time = std::max(known, meeting(collision_shape_of(engine_.bodies(), a, bound_of_a),
+                                              collision_shape_of(engine_.bodies(), b, bound_of_b)));
   if (time < first.time) first = {time, a, b, Wall::none, false};
 }
 
-Onset World::Engine::Answers::of_pair(std::uint32_t a, std::uint32_t b) const {
-  if (engine_.book().touch(a, b)) return {now_, a, b, Wall::none, true};
-  Onset first;
-  consider(a, b, PairTimes(engine_.hot_pairs(a)), first);
+ContactBoundary World::Engine::Answers::of_pair(std::uint32_t a, std::uint32_t b) const {
+  if (engine_.contacts().touch(a, b)) return {now_, a, b, Wall::none, true};
+  ContactBoundary first;
+  consider(a, b, CertificateTimes(engine_.certificates(a)), first);
   return first;
 }
 
-Onset World::Engine::Answers::of_body(std::uint32_t number) const {
-  Onset first;
+ContactBoundary World::Engine::Answers::of_body(std::uint32_t number) const {
+  ContactBoundary first;
   consider_touching(number, first);
   if (first.touching) return first;
-  const PairTimes hot(engine_.hot_pairs(number));
+  const CertificateTimes hot(engine_.certificates(number));
   consider_walls(number, hot, first);
   // Those that are near leave little to compute of the others.
-  for (const HotPair& pair : hot.pairs())
+  for (const PairCertificate& pair : hot.pairs())
     if (pair.has_second()) consider(number, pair.first == number ? pair.second : pair.first, hot, first);
   for (std::uint32_t other = 0; other < engine_.bodies().numbers(); ++other)
     if (other != number && body(other).present()) consider(number, other, hot, first);
   return first;
 }
 
-Onset World::Engine::Answers::of_world() const {
+ContactBoundary World::Engine::Answers::of_world() const {
   std::vector<std::uint32_t> present;
   for (std::uint32_t number = 0; number < engine_.bodies().numbers(); ++number)
     if (body(number).present()) present.push_back(number);
-  Onset first;
+  ContactBoundary first;
   for (const std::uint32_t number : present) consider_touching(number, first);
   if (first.touching) return first;
   // Any pair limits the answer; those at hand limit it well.
-  const PairTimes hot(engine_.hot_pairs());
-  for (const HotPair& pair : hot.pairs())
+  const CertificateTimes hot(engine_.certificates());
+  for (const PairCertificate& pair : hot.pairs())
     if (pair.has_second()) consider(pair.first, pair.second, hot, first);
   for (std::size_t k = 0; k < present.size(); ++k) {
     consider_walls(present[k], hot, first);
@@ -160,35 +163,35 @@ Onset World::Engine::Answers::of_world() const {
 }
 
 /// Until a horizon, in the image in which the middle of its way lies in the primary box.
-RoomyBound World::Engine::Answers::until_horizon(std::uint32_t number, double horizon) const {
-  if (body(number).is_fixed()) return roomy_bound(engine_.bodies(), number, now_);
+InflatedBound World::Engine::Answers::until_horizon(std::uint32_t number, double horizon) const {
+  if (body(number).is_static()) return inflated_bound(engine_.bodies(), number, now_);
   Bound bound = guarded(number);
   const Box box = swept_box(bound, now_, horizon);
   bound.position -= engine_.bodies().space().shift_of(
       engine_.bodies().space().wrapped(0.5 * (box.lower + box.upper)).images);
-  return {MovedBound(bound, now_), 0.0};
+  return {BoundAt(bound, now_), 0.0};
 }
 
 /// Only bodies whose bounds come to the same place before first.time can make it sooner.
 void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t>& numbers,
-                                                 const PairTimes& hot, Onset& first) const {
+                                                 const CertificateTimes& hot, ContactBoundary& first) const {
   if (first.time <= now_) return;
   const double horizon = first.time;
-  Windows windows(engine_.bodies().space());
-  std::vector<Windows::Starter> starters;
+  BroadPhase windows(engine_.bodies().space());
+  std::vector<BroadPhase::Starter> starters;
   std::vector<std::uint32_t> anywhere;
   const auto bound_of = [&](std::uint32_t number) { return until_horizon(number, horizon); };
   for (const std::uint32_t number : numbers) {
-    const bool fixed = body(number).is_fixed();
+    const bool fixed = body(number).is_static();
     if (fixed || (horizon < infinity &&
                   engine_.bodies().space().is_narrow(swept_box(guarded(number), now_, horizon)))) {
       const Window window = fixed ? Window::endless() : Window{0, horizon};
-      starters.push_back({number, SizeLevels::level_of(bound_of(number), window), window});
+      starters.push_back({number, SizeClasses::size_class_of(bound_of(number), window), window});
     } else {
       anywhere.push_back(number);
     }
   }
-  Shift alone;
+  PoolLease alone;
   windows.start(starters, now_, bound_of, alone);
   NeighbourSearch search;
   for (const auto& [a, b] : search.near_started(windows, 0, windows.started(), now_, bound_of))
@@ -202,10 +205,10 @@ DistanceLimits World::Engine::Answers::distance(std::uint32_t a, std::uint32_t b
   const Bound first = present(a);
   Bound second = present(b);
   second.position += engine_.bodies().space().shift_to_nearest(second.centre_at(time), first.centre_at(time));
-  const Extent extent_of_a = extent_of(engine_.bodies(), a, first);
-  const Extent extent_of_b = extent_of(engine_.bodies(), b, second);
+  const CollisionShape extent_of_a = collision_shape_of(engine_.bodies(), a, first);
+  const CollisionShape extent_of_b = collision_shape_of(engine_.bodies(), b, second);
   if (extent_of_a.shape && extent_of_b.shape) return {-infinity, infinity, false};
-  const GapLimits gap = visit_extents(
+  const GapLimits gap = visit_shapes(
       extent_of_a, extent_of_b,
       [time](const Bound& bound, const auto& partner) { return gap_limits(bound, partner, time); });
   // The upper limit of bounds is about the reported bodies: the true ones may be off by what the radii hold
@@ -217,15 +220,15 @@ DistanceLimits World::Engine::Answers::distance(std::uint32_t a, std::uint32_t b
 }
 
 void World::Engine::Answers::consider_approach(std::uint32_t a, std::uint32_t b, double distance,
-                                               Onset& first) const {
+                                               ContactBoundary& first) const {
   if (first.touching || !body(a).present() || !body(b).present()) return;
   Bound bound_of_a = present(a);
   Bound bound_of_b = present(b);
   // A shape has no radius that could be larger by the distance, but then the other body has.
-  double& radius = body(a).is_fixed() ? bound_of_b.radius : bound_of_a.radius;
+  double& radius = body(a).is_static() ? bound_of_b.radius : bound_of_a.radius;
   radius = rounding::sum_up(radius, distance);
-  const Extent extent_of_a = extent_of(engine_.bodies(), a, bound_of_a);
-  const Extent extent_of_b = extent_of(engine_.bodies(), b, bound_of_b);
+  const CollisionShape extent_of_a = collision_shape_of(engine_.bodies(), a, bound_of_a);
+  const CollisionShape extent_of_b = collision_shape_of(engine_.bodies(), b, bound_of_b);
   const bool known = !extent_of_a.shape || !extent_of_b.shape;
   const double time = known ? meeting(extent_of_a, extent_of_b) : now_;
   const bool within = time <= now_ && known && this->distance(a, b, now_).upper <= distance;
@@ -233,8 +236,8 @@ void World::Engine::Answers::consider_approach(std::uint32_t a, std::uint32_t b,
 }
 
 void World::Engine::Answers::consider_approach_to_walls(std::uint32_t number, double distance,
-                                                        Onset& first) const {
-  if (!engine_.bodies().walls() || !body(number).present() || body(number).is_fixed()) return;
+                                                        ContactBoundary& first) const {
+  if (!engine_.bodies().walls() || !body(number).present() || body(number).is_static()) return;
   const Bound bound = present(number);
   for (const Wall wall : walls) {
     if (first.touching || !stands(*engine_.bodies().walls(), wall)) continue;
@@ -248,25 +251,26 @@ void World::Engine::Answers::consider_approach_to_walls(std::uint32_t number, do
   }
 }
 
-Onset World::Engine::Answers::approach_of_pair(std::uint32_t a, std::uint32_t b, double distance) const {
-  Onset first;
+ContactBoundary World::Engine::Answers::approach_of_pair(std::uint32_t a, std::uint32_t b,
+                                                         double distance) const {
+  ContactBoundary first;
   consider_approach(a, b, distance, first);
   return first;
 }
 
-Onset World::Engine::Answers::approach_of_body(std::uint32_t number, double distance) const {
-  Onset first;
+ContactBoundary World::Engine::Answers::approach_of_body(std::uint32_t number, double distance) const {
+  ContactBoundary first;
   consider_approach_to_walls(number, distance, first);
   for (std::uint32_t other = 0; other < engine_.bodies().numbers(); ++other) {
     const bool counts = other != number && body(other).present() &&
-                        !(body(number).is_fixed() && body(other).is_fixed()) &&
+                        !(body(number).is_static() && body(other).is_static()) &&
                         engine_.bodies().may_meet(number, other);
     if (counts) consider_approach(number, other, distance, first);
   }
   return first;
 }
 
-std::vector<std::uint32_t> World::Engine::Answers::concerned(const Onset& onset) {
+std::vector<std::uint32_t> World::Engine::Answers::concerned(const ContactBoundary& onset) {
   std::vector<std::uint32_t> numbers;
   if (!onset.exists() || onset.touching) return numbers;
   numbers.push_back(onset.body);

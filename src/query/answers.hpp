@@ -10,7 +10,7 @@
 namespace kinesphere {
 
 /// A contact that may begin, or a distance that may be reached, and the time before which it cannot.
-struct Onset {
+struct ContactBoundary {
   double time = std::numeric_limits<double>::infinity();
   std::uint32_t body = 0;
   std::optional<std::uint32_t> partner{};
@@ -21,8 +21,8 @@ struct Onset {
 };
 
 /// An answer, and whether the probe was asked for it.
-struct Refined {
-  Onset onset;
+struct ProbedAnswer {
+  ContactBoundary boundary;
   bool probed = false;
 };
 
@@ -31,25 +31,25 @@ class World::Engine::Answers {
  public:
   explicit Answers(const Engine& engine);
 
-  Onset of_pair(std::uint32_t a, std::uint32_t b) const;
-  Onset of_body(std::uint32_t number) const;
-  Onset of_world() const;
+  ContactBoundary of_pair(std::uint32_t a, std::uint32_t b) const;
+  ContactBoundary of_body(std::uint32_t number) const;
+  ContactBoundary of_world() const;
   DistanceLimits distance(std::uint32_t a, std::uint32_t b, double time) const;
   /// When the surfaces of the two may be as near as this, whatever filters say.
-  Onset approach_of_pair(std::uint32_t a, std::uint32_t b, double distance) const;
+  ContactBoundary approach_of_pair(std::uint32_t a, std::uint32_t b, double distance) const;
   /// When a wall, or a body that it may meet, may be as near to it as this.
-  Onset approach_of_body(std::uint32_t number, double distance) const;
+  ContactBoundary approach_of_body(std::uint32_t number, double distance) const;
 
   /// The answer of `ask(Answers)`. What limits it is probed and it is asked again, until fresh reports limit
   /// it; stopping early is safe. Where `valid` is an error there may be no engine. `refresh(numbers)` probes
   /// those of them whose reports are old, at least one in each round, and tells whether there were any.
   template <class Refresh, class Ask>
-  static Result<Refined> answer(const Engine* engine, const Result<void>& valid, Refresh refresh,
-                                std::size_t max_rounds, Ask ask) {
+  static Result<ProbedAnswer> answer(const Engine* engine, const Result<void>& valid, Refresh refresh,
+                                     std::size_t max_rounds, Ask ask) {
     if (!valid) return valid.error();
-    Refined refined{ask(Answers(*engine))};
+    ProbedAnswer refined{ask(Answers(*engine))};
     for (std::size_t round = 0; round < max_rounds; ++round) {
-      const auto probed = refresh(concerned(refined.onset));
+      const auto probed = refresh(concerned(refined.boundary));
       if (!probed) return probed.error();
       if (!probed.value()) break;
       refined = {ask(Answers(*engine)), true};
@@ -58,22 +58,22 @@ class World::Engine::Answers {
   }
 
  private:
-  static std::vector<std::uint32_t> concerned(const Onset& onset);
+  static std::vector<std::uint32_t> concerned(const ContactBoundary& onset);
   const Body& body(std::uint32_t number) const { return engine_.bodies()[number]; }
   Bound present(std::uint32_t number) const;
   Bound guarded(std::uint32_t number) const;
-  double meeting(const Extent& extent_of_a, const Extent& extent_of_b) const;
+  double meeting(const CollisionShape& extent_of_a, const CollisionShape& extent_of_b) const;
   bool settled(std::uint32_t a, std::uint32_t b) const;
-  double recorded(std::uint32_t a, std::uint32_t b, const PairTimes& hot) const;
-  double recorded_of_walls(std::uint32_t number, const PairTimes& hot) const;
-  void consider_touching(std::uint32_t number, Onset& first) const;
-  void consider_walls(std::uint32_t number, const PairTimes& hot, Onset& first) const;
-  void consider(std::uint32_t a, std::uint32_t b, const PairTimes& hot, Onset& first) const;
-  void consider_approach(std::uint32_t a, std::uint32_t b, double distance, Onset& first) const;
-  void consider_approach_to_walls(std::uint32_t number, double distance, Onset& first) const;
-  RoomyBound until_horizon(std::uint32_t number, double horizon) const;
-  void consider_all_within(const std::vector<std::uint32_t>& numbers, const PairTimes& hot,
-                           Onset& first) const;
+  double recorded(std::uint32_t a, std::uint32_t b, const CertificateTimes& hot) const;
+  double recorded_of_walls(std::uint32_t number, const CertificateTimes& hot) const;
+  void consider_touching(std::uint32_t number, ContactBoundary& first) const;
+  void consider_walls(std::uint32_t number, const CertificateTimes& hot, ContactBoundary& first) const;
+  void consider(std::uint32_t a, std::uint32_t b, const CertificateTimes& hot, ContactBoundary& first) const;
+  void consider_approach(std::uint32_t a, std::uint32_t b, double distance, ContactBoundary& first) const;
+  void consider_approach_to_walls(std::uint32_t number, double distance, ContactBoundary& first) const;
+  InflatedBound until_horizon(std::uint32_t number, double horizon) const;
+  void consider_all_within(const std::vector<std::uint32_t>& numbers, const CertificateTimes& hot,
+                           ContactBoundary& first) const;
 
   const Engine& engine_;
   double now_;

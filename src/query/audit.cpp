@@ -31,7 +31,8 @@ std::string times(double recorded, double computed) {
 
 class World::Engine::Audit {
  public:
-  explicit Audit(const Engine& engine) : engine_(engine), now_(engine.time()), hot_(engine.hot_pairs()) {}
+  explicit Audit(const Engine& engine)
+      : engine_(engine), now_(engine.time()), certificates_(engine.certificates()) {}
 
   std::optional<AuditFinding> run() {
     const auto count = static_cast<std::uint32_t>(engine_.bodies().numbers());
@@ -61,30 +62,32 @@ class World::Engine::Audit {
   static bool exact(const Body& body) { return body.position_error == 0.0 && body.bound.growth_speed == 0.0; }
 
   void check_absence(std::uint32_t number) {
-    if (engine_.windows().contains(number))
+    if (engine_.broad_phase().contains(number))
       find("registration", name(number) + " is not here but registered");
-    if (!engine_.book().partners_of(number).empty() || engine_.book().walls_of(number) != 0)
+    if (!engine_.contacts().partners_of(number).empty() || engine_.contacts().walls_of(number) != 0)
       find("contact", name(number) + " is not here but touches something");
-    if (!engine_.book().crossings_of(number).empty())
+    if (!engine_.contacts().overlaps_of(number).empty())
       find("sensor", name(number) + " is not here but within a sensor distance");
   }
 
   void check_registration(std::uint32_t number) {
     const Body& b = body(number);
     if (b.dirty) return;
-    if (!engine_.windows().contains(number)) return find("registration", name(number) + " is in no window");
-    if (const auto wrong = engine_.windows().check(number)) find("registration", name(number) + " " + *wrong);
-    const double end = engine_.windows().end_of(number);
+    if (!engine_.broad_phase().contains(number))
+      return find("registration", name(number) + " is in no window");
+    if (const auto wrong = engine_.broad_phase().check(number))
+      find("registration", name(number) + " " + *wrong);
+    const double end = engine_.broad_phase().end_of(number);
     if (end < now_) find("queue", name(number) + " is in a window that has ended" + times(now_, end));
-    if (end < engine_.everybody().phase_end() && hot_.of(number, HotPair::renewal) > end)
+    if (end < engine_.main().epoch_end() && certificates_.of(number, PairCertificate::window_end) > end)
       find("queue", name(number) + " is in a window that is not renewed when it ends");
-    if (b.is_resting() && !(b.is_at_rest() && b.bound.velocity == Vec3{} && b.largest_acceleration() == 0.0))
+    if (b.is_sleeping() && !(b.is_at_rest() && b.bound.velocity == Vec3{} && b.largest_acceleration() == 0.0))
       find("registration", name(number) + " rests, but its bound does not stand still");
-    if (b.is_fixed()) return check_fixed(number, end);
+    if (b.is_static()) return check_static(number, end);
     if (is_too_wide(number, end)) find("registration", name(number) + " has too wide a box");
     if (!exact(b)) return;
-    const Vec3 room = Vec3{1.0, 1.0, 1.0} * (0.25 * engine_.definition().contact_tolerance);
-    Box box{engine_.box(number).lower - room, engine_.box(number).upper + room};
+    const Vec3 margin = Vec3{1.0, 1.0, 1.0} * (0.25 * engine_.definition().contact_tolerance);
+    Box box{engine_.box(number).lower - margin, engine_.box(number).upper + margin};
     if (engine_.bodies().space().is_flat())
       std::tie(box.lower.z, box.upper.z) = std::pair(-infinity, infinity);
     Bound reach = b.bound;
@@ -102,24 +105,24 @@ class World::Engine::Audit {
   /// time: there is none for the engine to choose in its place.
   bool is_too_wide(std::uint32_t number, double end) const {
     if (has_narrow_way(number)) return false;
-    const Window window = engine_.windows().window_of(number);
+    const Window window = engine_.broad_phase().window_of(number);
     const double began = end < infinity ? window.begin() : now_;
-    const auto shortest_at = [](double time) { return Window::at(time, Window::shortest).tier; };
-    return window.tier > std::max(shortest_at(began), shortest_at(now_));
+    const auto shortest_at = [](double time) { return Window::at(time, Window::shortest).rung; };
+    return window.rung > std::max(shortest_at(began), shortest_at(now_));
   }
 
   /// Rule (2) of space/space.hpp; where it cannot be kept nothing is promised of a pair's image.
   bool has_narrow_way(std::uint32_t number) const {
     const Space& space = engine_.bodies().space();
     if (!space.repeats()) return true;
-    const double end = engine_.windows().end_of(number);
-    const RoomyBound bound = roomy_bound(engine_.bodies(), number, now_);
+    const double end = engine_.broad_phase().end_of(number);
+    const InflatedBound bound = inflated_bound(engine_.bodies(), number, now_);
     return space.is_narrow(bound.box_of_way(duration_until(end, now_)));
   }
 
-  void check_fixed(std::uint32_t number, double end) {
+  void check_static(std::uint32_t number, double end) {
     const Box box = engine_.box(number);
-    const Box shape = box_of_fixed(engine_.bodies(), number);
+    const Box shape = box_of_static(engine_.bodies(), number);
     for (int axis = 0; axis < 3; ++axis)
       if (!(box.lower[axis] <= shape.lower[axis] && shape.upper[axis] <= box.upper[axis]) || end != infinity)
         return find("registration", name(number) + " is fixed but not registered where its shape is");
@@ -127,19 +130,19 @@ class World::Engine::Audit {
 
   void check_walls(std::uint32_t number) {
     const Body& b = body(number);
-    if (!engine_.bodies().walls() || b.is_fixed() || !settled(number, number) ||
-        engine_.book().walls_of(number) != 0 || !exact(b))
+    if (!engine_.bodies().walls() || b.is_static() || !settled(number, number) ||
+        engine_.contacts().walls_of(number) != 0 || !exact(b))
       return;
     // As for pairs: within the tolerance bouncing bodies follow the contact rule.
-    if (impacts() && until_reports_of_walls(engine_.book().rule(), b.bound, *engine_.bodies().walls(), now_,
-                                            infinity) <= now_)
+    if (impacts() && until_reports_of_walls(engine_.contacts().rule(), b.bound, *engine_.bodies().walls(),
+                                            now_, infinity) <= now_)
       return;
-    const double end = engine_.windows().end_of(number);
+    const double end = engine_.broad_phase().end_of(number);
     const double within = impacts() ? engine_.definition().contact_tolerance : 0.0;
-    const Vec3 room = Vec3{1.0, 1.0, 1.0} * within;
-    const Box box{engine_.bodies().walls()->lower - room, engine_.bodies().walls()->upper + room};
+    const Vec3 margin = Vec3{1.0, 1.0, 1.0} * within;
+    const Box box{engine_.bodies().walls()->lower - margin, engine_.bodies().walls()->upper + margin};
     const double reached = earliest_exit(b.bound, box, now_, end);
-    const double recorded = std::min(hot_.of(number, HotPair::walls), end);
+    const double recorded = std::min(certificates_.of(number, PairCertificate::walls), end);
     if (recorded < end && too_late(recorded, reached, now_) && reached > now_)
       find("wall", name(number) + " may reach a wall unseen" + times(recorded, reached));
     if (recorded == end && reached < end && too_late(end, reached, now_) && reached > now_)
@@ -147,26 +150,26 @@ class World::Engine::Audit {
   }
 
   void check_pair(std::uint32_t a, std::uint32_t b) {
-    if (engine_.book().touch(a, b) != engine_.book().touch(b, a))
+    if (engine_.contacts().touch(a, b) != engine_.contacts().touch(b, a))
       return find("contact", pair(a, b) + " touch on one side only");
     if (engine_.bodies().may_meet(a, b) != engine_.bodies().may_meet(b, a))
       return find("filter", "the pair filter is not symmetric for " + pair(a, b));
-    if (engine_.book().touch(a, b) && !engine_.bodies().may_touch(a, b))
+    if (engine_.contacts().touch(a, b) && !engine_.bodies().may_touch(a, b))
       return find("filter", pair(a, b) + " touch though they may not");
-    check_crossings(a, b);
-    check_crossings(b, a);
+    check_overlaps(a, b);
+    check_overlaps(b, a);
     if (!engine_.bodies().may_meet(a, b) || !settled(a, b)) return;
-    engine_.everybody().facts().for_each_threshold(
+    engine_.main().certifier().for_each_threshold(
         a, b, [&](const Threshold& threshold) { check_threshold(a, b, threshold); });
   }
 
-  void check_crossings(std::uint32_t a, std::uint32_t b) {
-    for (const Crossing& crossing : engine_.book().crossings_of(a, b)) {
+  void check_overlaps(std::uint32_t a, std::uint32_t b) {
+    for (const OverlapRecord& overlap : engine_.contacts().overlaps_of(a, b)) {
       const bool senses = engine_.bodies().may_meet(a, b) &&
                           engine_.bodies().sensors.senses(sensing_of(engine_.bodies(), a),
-                                                          sensing_of(engine_.bodies(), b), crossing.distance);
-      const Crossings::List back = engine_.book().crossings_of(b);
-      if (!std::binary_search(back.begin(), back.end(), Crossing{a, crossing.distance}))
+                                                          sensing_of(engine_.bodies(), b), overlap.distance);
+      const OverlapRecords::List back = engine_.contacts().overlaps_of(b);
+      if (!std::binary_search(back.begin(), back.end(), OverlapRecord{a, overlap.distance}))
         find("sensor", pair(a, b) + " sense each other on one side only");
       if (!senses) find("sensor", pair(a, b) + " are within a distance that neither senses");
     }
@@ -174,14 +177,15 @@ class World::Engine::Audit {
 
   void check_threshold(std::uint32_t a, std::uint32_t b, const Threshold& threshold) {
     // It is to be looked at before time moves on.
-    if (!checkable(a, b, threshold) || hot_.of(a, b) <= now_) return;
+    if (!checkable(a, b, threshold) || certificates_.of(a, b) <= now_) return;
     if (!has_narrow_way(a) || !has_narrow_way(b)) return;
-    const Extent first = extent_of(engine_.bodies(), a);
-    const Extent second = extent_of(engine_.bodies(), b);
+    const CollisionShape first = collision_shape_of(engine_.bodies(), a);
+    const CollisionShape second = collision_shape_of(engine_.bodies(), b);
     const PlainGap gap(first, second, engine_.bodies().space().period());
     check_state(a, b, threshold, gap);
     // Beyond the end of a window the two may meet in another image, and will have been found again.
-    const double recorded = std::min(hot_.of(a, b), engine_.everybody().facts().windows_end(a, b));
+    const double recorded =
+        std::min(certificates_.of(a, b), engine_.main().certifier().earliest_window_end(a, b));
     if (!threshold.within && !boxes_overlap(a, b)) return;
     if (const auto change = certain_change(a, b, threshold, gap, recorded))
       find("certificate", pair(a, b) + " may change unseen" + times(recorded, *change));
@@ -189,12 +193,13 @@ class World::Engine::Audit {
 
   /// What the events have told of the two is what their bounds tell now, wherever in them the bodies are.
   void check_state(std::uint32_t a, std::uint32_t b, const Threshold& threshold, const PlainGap& gap) {
-    const ContactRule& rule = engine_.book().rule_of(threshold);
+    const ContactRule& rule = engine_.contacts().rule_of(threshold);
     const PlainGap::Limits limits = gap.of_bodies(now_);
-    const double room = slack_of_gaps() + gap.uncertainty(now_);
-    const bool end_untold = threshold.within && limits.lower > threshold.distance + rule.release_gap() + room;
+    const double margin = slack_of_gaps() + gap.uncertainty(now_);
+    const bool end_untold =
+        threshold.within && limits.lower > threshold.distance + rule.release_gap() + margin;
     const bool begin_untold =
-        !threshold.within && limits.upper < threshold.distance - rule.tolerance() - room;
+        !threshold.within && limits.upper < threshold.distance - rule.tolerance() - margin;
     if (!end_untold && !begin_untold) return;
     const std::string distance = threshold.sensed ? " of " + std::to_string(threshold.distance) : "";
     find(threshold.sensed ? "sensor" : "contact",
@@ -230,7 +235,7 @@ class World::Engine::Audit {
   /// so.
   std::optional<double> certain_change(std::uint32_t a, std::uint32_t b, const Threshold& threshold,
                                        const PlainGap& gap, double recorded) const {
-    const ContactRule& rule = engine_.book().rule_of(threshold);
+    const ContactRule& rule = engine_.contacts().rule_of(threshold);
     const double level = threshold.distance + (threshold.within      ? rule.release_gap()
                                                : rule.impacts_only() ? -rule.tolerance()
                                                                      : 0.0);
@@ -238,16 +243,16 @@ class World::Engine::Audit {
     const bool doubtful = recorded > computed;
     double end = recorded;
     if (end == infinity && doubtful) end = now_ + 8.0 * (computed - now_);
-    if (end == infinity) end = engine_.everybody().facts().windows_end(a, b);
+    if (end == infinity) end = engine_.main().certifier().earliest_window_end(a, b);
     const double least_step = (end - now_) / (doubtful ? 512.0 : 16.0);
     const double last = end - 0x1p-20 * (end - now_);
     for (double time = now_; time < end;) {
-      const double room =
+      const double margin =
           threshold.within ? level - gap.at_farthest(time).lower : gap.of_bounds(time).upper - level;
-      if (room < -(slack_of_gaps() + gap.uncertainty(time))) return time;
+      if (margin < -(slack_of_gaps() + gap.uncertainty(time))) return time;
       if (time >= last) break;
       const double speed = gap.largest_speed(time, end);
-      const double next = std::min(last, time + std::max(least_step, room > 0.0 ? room / speed : 0.0));
+      const double next = std::min(last, time + std::max(least_step, margin > 0.0 ? margin / speed : 0.0));
       // Where times are too coarse for a step nothing more can be told.
       if (!(next > time)) break;
       time = next;
@@ -265,10 +270,10 @@ class World::Engine::Audit {
   /// Bouncing bodies within the tolerance follow the contact rule, not the bare distance.
   bool checkable(std::uint32_t a, std::uint32_t b, const Threshold& threshold) const {
     if (!exact(body(a)) || !exact(body(b))) return false;
-    const ContactRule& rule = engine_.book().rule_of(threshold);
-    return !rule.impacts_only() ||
-           gap_at(engine_.bodies(), now_, extent_of(engine_.bodies(), a), extent_of(engine_.bodies(), b))
-                   .lower > rule.tolerance();
+    const ContactRule& rule = engine_.contacts().rule_of(threshold);
+    return !rule.impacts_only() || gap_at(engine_.bodies(), now_, collision_shape_of(engine_.bodies(), a),
+                                          collision_shape_of(engine_.bodies(), b))
+                                           .lower > rule.tolerance();
   }
 
   /// True when the engine owes a fact about the pair (a body and itself: its walls) now.
@@ -276,10 +281,10 @@ class World::Engine::Audit {
     const auto concerns = [=](const Event& event) {
       return event.first.index == a && (a == b ? event.wall != Wall::none : event.second.index == b);
     };
-    const auto& changed = engine_.everybody().instant().changed();
+    const auto& changed = engine_.main().events().changed();
     return !body(a).dirty && !body(b).dirty &&
            std::find(changed.begin(), changed.end(), std::pair(a, b)) == changed.end() &&
-           engine_.everybody().instant().pending().none_of(concerns);
+           engine_.main().events().pending().none_of(concerns);
   }
 
   bool impacts() const { return engine_.definition().contacts == ContactMode::impacts; }
@@ -287,7 +292,7 @@ class World::Engine::Audit {
 
   const Engine& engine_;
   double now_;
-  PairTimes hot_;
+  CertificateTimes certificates_;
   std::vector<std::optional<Box>> boxes_;
   std::optional<AuditFinding> finding_;
 };

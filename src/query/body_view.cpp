@@ -4,7 +4,7 @@
 
 namespace kinesphere {
 
-BodyView body_view(const Bodies& bodies, const Windows& windows, std::uint32_t number, double now) {
+BodyView body_view(const Bodies& bodies, const BroadPhase& windows, std::uint32_t number, double now) {
   const Body& body = bodies[number];
   const Space& space = bodies.space();
   BodyView view{bodies.definition_of(number),
@@ -13,8 +13,8 @@ BodyView body_view(const Bodies& bodies, const Windows& windows, std::uint32_t n
                 now,
                 {},
                 body.enabled,
-                body.is_fixed(),
-                body.is_resting()};
+                body.is_static(),
+                body.is_sleeping()};
   if (windows.contains(number)) {
     view.box = windows.box_of(number, now);
     view.box_end = windows.end_of(number);
@@ -26,8 +26,8 @@ BodyView body_view(const Bodies& bodies, const Windows& windows, std::uint32_t n
   view.box = {view.box.lower - shift, view.box.upper - shift};
   for (int axis = 0; axis < 3; ++axis) {
     constexpr double limit = 0x1p62;
-    view.image[static_cast<std::size_t>(axis)] =
-        static_cast<std::int64_t>(std::clamp(bodies.homes[number].image[axis] + images[axis], -limit, limit));
+    view.image[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(
+        std::clamp(bodies.images[number].image[axis] + images[axis], -limit, limit));
   }
   return view;
 }

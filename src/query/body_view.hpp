@@ -3,12 +3,12 @@
 
 #include <cstdint>
 
-#include "engine/room.hpp"
+#include "engine/body_bounds.hpp"
 #include "kinesphere/world.hpp"
 
 namespace kinesphere {
 
 /// The body with its last report in the primary box, wherever the engine keeps it.
-BodyView body_view(const Bodies& bodies, const Windows& windows, std::uint32_t number, double now);
+BodyView body_view(const Bodies& bodies, const BroadPhase& windows, std::uint32_t number, double now);
 
 }  // namespace kinesphere

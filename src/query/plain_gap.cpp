@@ -71,13 +71,13 @@ Range from(const Point& centre, const Box& box) {
 /// direction: so the nearest of some points and the farthest of some planes hold the distance between them,
 /// however badly they were chosen.
 Range from(const Point& centre, const Triangle& triangle) {
-  const std::array corners{point(triangle.a), point(triangle.b), point(triangle.c)};
+  const std::array aabb{point(triangle.a), point(triangle.b), point(triangle.c)};
   Range range{0, std::numeric_limits<Long>::infinity()};
   const auto try_direction = [&](const Point& direction) {
     const Long size = length(direction);
     if (!(size > 0)) return;
     Long least = std::numeric_limits<Long>::infinity();
-    for (const Point& corner : corners) least = std::min(least, dot(direction, centre - corner) / size);
+    for (const Point& corner : aabb) least = std::min(least, dot(direction, centre - corner) / size);
     range.lower = std::max(range.lower, least);
   };
   const auto try_point = [&](const Point& on) {
@@ -85,20 +85,20 @@ Range from(const Point& centre, const Triangle& triangle) {
     try_direction(centre - on);
   };
   for (std::size_t k = 0; k < 3; ++k) {
-    const Point side = corners[(k + 1) % 3] - corners[k];
-    const Long part = dot(centre - corners[k], side) / dot(side, side);
-    try_point(corners[k] + side * std::clamp(part, Long(0), Long(1)));
+    const Point side = aabb[(k + 1) % 3] - aabb[k];
+    const Long part = dot(centre - aabb[k], side) / dot(side, side);
+    try_point(aabb[k] + side * std::clamp(part, Long(0), Long(1)));
   }
-  const Point to_b = corners[1] - corners[0];
-  const Point to_c = corners[2] - corners[0];
+  const Point to_b = aabb[1] - aabb[0];
+  const Point to_c = aabb[2] - aabb[0];
   const Point across = cross(to_b, to_c);
-  const Point way = centre - corners[0];
+  const Point way = centre - aabb[0];
   try_direction(across);
   try_direction(across * -1);
   const Long square = dot(across, across);
   const Long along_b = std::clamp(dot(cross(way, to_c), across) / square, Long(0), Long(1));
   const Long along_c = std::clamp(dot(cross(to_b, way), across) / square, Long(0), 1 - along_b);
-  try_point(corners[0] + to_b * along_b + to_c * along_c);
+  try_point(aabb[0] + to_b * along_b + to_c * along_c);
   return range;
 }
 
@@ -117,7 +117,7 @@ constexpr Long result_margin = 128 * std::numeric_limits<Long>::epsilon();
 
 }  // namespace
 
-PlainGap::PlainGap(const Extent& a, const Extent& b, const Vec3& period)
+PlainGap::PlainGap(const CollisionShape& a, const CollisionShape& b, const Vec3& period)
     : moving_(a.shape ? b.bound : a.bound),
       other_(a.shape ? a.bound : b.bound),
       shape_(a.shape ? a.shape : b.shape),
@@ -157,16 +157,16 @@ PlainGap::Limits PlainGap::of_bounds(double time) const { return of_bounds(time,
 
 PlainGap::Limits PlainGap::of_bounds(double time, const Limits& distance) const {
   const double less = radii() + growth(time);
-  const double room = 0x1p-50 * (std::abs(distance.upper) + less);
-  return {distance.lower - less - room, distance.upper - less + room};
+  const double margin = 0x1p-50 * (std::abs(distance.upper) + less);
+  return {distance.lower - less - margin, distance.upper - less + margin};
 }
 
 PlainGap::Limits PlainGap::at_farthest(double time) const { return at_farthest(time, distance(time)); }
 
 PlainGap::Limits PlainGap::at_farthest(double time, const Limits& distance) const {
   const double more = growth(time) - radii();
-  const double room = 0x1p-50 * (std::abs(distance.upper) + radii() + growth(time));
-  return {distance.lower + more - room, distance.upper + more + room};
+  const double margin = 0x1p-50 * (std::abs(distance.upper) + radii() + growth(time));
+  return {distance.lower + more - margin, distance.upper + more + margin};
 }
 
 PlainGap::Limits PlainGap::of_bodies(double time) const {

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "engine/extent.hpp"
+#include "engine/collision_shape.hpp"
 #include "kinesphere/bound.hpp"
 #include "kinesphere/shape.hpp"
 
@@ -15,7 +15,7 @@ namespace kinesphere {
 class PlainGap {
  public:
   /// At most one of the two has a shape. `period` is zero on axes that do not repeat.
-  PlainGap(const Extent& a, const Extent& b, const Vec3& period);
+  PlainGap(const CollisionShape& a, const CollisionShape& b, const Vec3& period);
 
   /// At a time no earlier than both reports; each is a limit of the exact number.
   struct Limits {

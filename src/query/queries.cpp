@@ -27,12 +27,12 @@ Bound resting(const Vec3& centre, double radius) { return {.position = centre, .
 
 /// The gap between a sphere or a box and a shape.
 GapLimits limits_of(const Bound& region, const Shape& shape) {
-  return visit_extents({region}, {region, true, &shape},
-                       [](const Bound& bound, const auto& solid) { return gap_limits(bound, solid, 0.0); });
+  return visit_shapes({region}, {region, true, &shape},
+                      [](const Bound& bound, const auto& solid) { return gap_limits(bound, solid, 0.0); });
 }
 GapLimits limits_of(const Box& region, const Shape& shape) {
   const Bound nothing{};
-  return visit_extents({nothing}, {nothing, true, &shape}, [&](const Bound&, const auto& solid) -> GapLimits {
+  return visit_shapes({nothing}, {nothing, true, &shape}, [&](const Bound&, const auto& solid) -> GapLimits {
     if constexpr (std::is_same_v<std::remove_cvref_t<decltype(solid)>, Bound>) {
       return {-infinity, infinity};  // a ball has no shape here
     } else {
@@ -41,9 +41,9 @@ GapLimits limits_of(const Box& region, const Shape& shape) {
   });
 }
 
-WayLimits touch_of(const Way& way, const Shape& shape) {
+RayLimits touch_of(const SweptRay& way, const Shape& shape) {
   const Bound sphere{.position = way.origin, .velocity = way.direction, .radius = way.radius};
-  return visit_extents({sphere}, {sphere, true, &shape}, [&](const Bound&, const auto& solid) -> WayLimits {
+  return visit_shapes({sphere}, {sphere, true, &shape}, [&](const Bound&, const auto& solid) -> RayLimits {
     if constexpr (std::is_same_v<std::remove_cvref_t<decltype(solid)>, Bound>) {
       return {0.0, infinity};
     } else {
@@ -55,9 +55,9 @@ WayLimits touch_of(const Way& way, const Shape& shape) {
 Box box_around(const Vec3& a, const Vec3& b, double radius) {
   Box box;
   for (int axis = 0; axis < 3; ++axis) {
-    const double room = radius + part_lost * (std::abs(a[axis]) + std::abs(b[axis]) + radius);
-    box.lower[axis] = std::min(a[axis], b[axis]) - room;
-    box.upper[axis] = std::max(a[axis], b[axis]) + room;
+    const double margin = radius + part_lost * (std::abs(a[axis]) + std::abs(b[axis]) + radius);
+    box.lower[axis] = std::min(a[axis], b[axis]) - margin;
+    box.upper[axis] = std::max(a[axis], b[axis]) + margin;
   }
   return box;
 }
@@ -69,7 +69,7 @@ struct Passage {
 };
 
 /// Nothing where the way misses the ball. `wrong` is how much too late or too early the answer may be.
-std::optional<Passage> passage(const Way& way, const Vec3& centre, double radius, double wrong) {
+std::optional<Passage> passage(const SweptRay& way, const Vec3& centre, double radius, double wrong) {
   if (!(radius >= 0.0)) return std::nullopt;
   const Vec3 offset = centre - way.origin;
   const double along = dot(offset, way.direction);
@@ -83,18 +83,18 @@ std::optional<Passage> passage(const Way& way, const Vec3& centre, double radius
 }
 
 /// A body may have been met in several pieces of the way, and in several images.
-void keep_first_of_each_body(std::vector<Hit>& hits) {
-  std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.body < b.body; });
-  std::size_t kept = 0;
-  for (const Hit& hit : hits) {
-    if (kept > 0 && hits[kept - 1].body == hit.body) {
-      hits[kept - 1].lower = std::min(hits[kept - 1].lower, hit.lower);
-      hits[kept - 1].upper = std::min(hits[kept - 1].upper, hit.upper);
+void keep_first_of_each_body(std::vector<CastHit>& hits) {
+  std::sort(hits.begin(), hits.end(), [](const CastHit& a, const CastHit& b) { return a.body < b.body; });
+  std::size_t checkpoint = 0;
+  for (const CastHit& hit : hits) {
+    if (checkpoint > 0 && hits[checkpoint - 1].body == hit.body) {
+      hits[checkpoint - 1].lower = std::min(hits[checkpoint - 1].lower, hit.lower);
+      hits[checkpoint - 1].upper = std::min(hits[checkpoint - 1].upper, hit.upper);
     } else {
-      hits[kept++] = hit;
+      hits[checkpoint++] = hit;
     }
   }
-  hits.resize(kept);
+  hits.resize(checkpoint);
 }
 
 }  // namespace
@@ -102,31 +102,31 @@ void keep_first_of_each_body(std::vector<Hit>& hits) {
 /// About the size of the smallest bodies (length).
 double World::Engine::Queries::finest_length() const {
   const double tolerance = engine_.definition().contact_tolerance;
-  return std::clamp(engine_.windows().least_width(), tolerance, 0x1p30 * tolerance);
+  return std::clamp(engine_.broad_phase().least_width(), tolerance, 0x1p30 * tolerance);
 }
 
 /// In the image that is nearest to a point.
-Place World::Engine::Queries::place(std::uint32_t number, const Vec3& point) const {
-  Place place = place_of(engine_.bodies()[number], now_);
+CertainSphere World::Engine::Queries::certain_sphere(std::uint32_t number, const Vec3& point) const {
+  CertainSphere place = certain_sphere_of(engine_.bodies()[number], now_);
   place.centre += engine_.bodies().space().shift_to_nearest(place.centre, point);
   return place;
 }
 
 template <class Distance, class ShapeGap>
-std::vector<Found> World::Engine::Queries::overlapping(const Box& box, Distance distance_to,
-                                                       ShapeGap gap_to) const {
+std::vector<OverlapHit> World::Engine::Queries::overlapping(const Box& box, Distance distance_to,
+                                                            ShapeGap gap_to) const {
   const Vec3 middle = 0.5 * (box.lower + box.upper);
-  std::vector<Found> found;
+  std::vector<OverlapHit> found;
   const double size = norm_one(box.lower) + norm_one(box.upper);
   for (const std::uint32_t number : engine_.bodies_in(box)) {
-    if (const Shape* shape = extent_of(engine_.bodies(), number).shape) {
+    if (const Shape* shape = collision_shape_of(engine_.bodies(), number).shape) {
       const GapLimits gap = gap_to(*shape);
       if (gap.lower > 0.0) continue;
       found.push_back(
           {engine_.bodies().id_of(number), gap.upper <= 0.0 ? Certainty::certainly : Certainty::possibly});
       continue;
     }
-    const Place at = place(number, middle);
+    const CertainSphere at = certain_sphere(number, middle);
     const double distance = distance_to(at.centre);
     const double wrong = part_lost * (size + norm_one(at.centre) + at.outer);
     if (distance - wrong > at.outer) continue;
@@ -136,29 +136,29 @@ std::vector<Found> World::Engine::Queries::overlapping(const Box& box, Distance 
   return found;
 }
 
-std::vector<Found> World::Engine::Queries::overlapping(const Vec3& centre, double radius) const {
+std::vector<OverlapHit> World::Engine::Queries::overlapping(const Vec3& centre, double radius) const {
   return overlapping(
       box_around(centre, centre, radius), [&](const Vec3& point) { return norm(point - centre) - radius; },
       [&](const Shape& shape) { return limits_of(resting(centre, radius), shape); });
 }
 
-std::vector<Found> World::Engine::Queries::overlapping(const Box& region) const {
+std::vector<OverlapHit> World::Engine::Queries::overlapping(const Box& region) const {
   const Box box = engine_.bodies().space().within(region);
   return overlapping(
       box, [&](const Vec3& point) { return distance_to_box(point, box); },
       [&](const Shape& shape) { return limits_of(box, shape); });
 }
 
-std::vector<Near> World::Engine::Queries::distances(const std::vector<std::uint32_t>& numbers,
-                                                    const Vec3& point) const {
-  std::vector<Near> all;
+std::vector<NearestHit> World::Engine::Queries::distances(const std::vector<std::uint32_t>& numbers,
+                                                          const Vec3& point) const {
+  std::vector<NearestHit> all;
   for (const std::uint32_t number : numbers) {
-    if (const Shape* shape = extent_of(engine_.bodies(), number).shape) {
+    if (const Shape* shape = collision_shape_of(engine_.bodies(), number).shape) {
       const GapLimits gap = limits_of(resting(point, 0.0), *shape);
       all.push_back({engine_.bodies().id_of(number), Certainty::possibly, gap.lower, gap.upper});
       continue;
     }
-    const Place at = place(number, point);
+    const CertainSphere at = certain_sphere(number, point);
     const double distance = norm(at.centre - point);
     const double wrong = part_lost * (norm_one(point) + norm_one(at.centre) + at.outer);
     all.push_back({engine_.bodies().id_of(number), Certainty::possibly, distance - at.outer - wrong,
@@ -173,38 +173,38 @@ std::vector<std::uint32_t> World::Engine::Queries::around(const Vec3& point, std
   const double farthest = 8.0 * coordinate_limit(engine_.definition());
   for (double reach = finest_length(); reach <= farthest; reach *= 2.0) {
     std::vector<std::uint32_t> numbers = engine_.bodies_in(box_around(point, point, reach));
-    const std::vector<Near> all = distances(numbers, point);
+    const std::vector<NearestHit> all = distances(numbers, point);
     const auto within =
-        std::count_if(all.begin(), all.end(), [=](const Near& n) { return n.upper <= reach; });
+        std::count_if(all.begin(), all.end(), [=](const NearestHit& n) { return n.upper <= reach; });
     if (static_cast<std::size_t>(within) >= count ||
         numbers.size() == engine_.bodies().table().present_count())
       return numbers;
   }
-  std::vector<std::uint32_t> everybody;
+  std::vector<std::uint32_t> main;
   for (std::uint32_t number = 0; number < engine_.bodies().numbers(); ++number)
-    if (engine_.bodies()[number].present()) everybody.push_back(number);
-  return everybody;
+    if (engine_.bodies()[number].present()) main.push_back(number);
+  return main;
 }
 
-std::vector<Near> World::Engine::Queries::nearest(const Vec3& point, std::size_t count) const {
+std::vector<NearestHit> World::Engine::Queries::nearest(const Vec3& point, std::size_t count) const {
   count = std::min(count, engine_.bodies().table().present_count());
   if (count == 0) return {};
-  std::vector<Near> all = distances(around(point, count), point);
+  std::vector<NearestHit> all = distances(around(point, count), point);
   std::vector<double> uppers;
   uppers.reserve(all.size());
-  for (const Near& near : all) uppers.push_back(near.upper);
+  for (const NearestHit& near : all) uppers.push_back(near.upper);
   std::nth_element(uppers.begin(), uppers.begin() + static_cast<std::ptrdiff_t>(count - 1), uppers.end());
   const double enough = uppers[count - 1];
-  std::erase_if(all, [=](const Near& near) { return near.lower > enough; });
-  std::sort(all.begin(), all.end(), [](const Near& a, const Near& b) {
+  std::erase_if(all, [=](const NearestHit& near) { return near.lower > enough; });
+  std::sort(all.begin(), all.end(), [](const NearestHit& a, const NearestHit& b) {
     return a.lower != b.lower ? a.lower < b.lower : a.body < b.body;
   });
   // One is certainly among them when fewer than `count` others may be nearer. The list is sorted by `lower`,
   // so these are at its front.
-  for (Near& near : all) {
+  for (NearestHit& near : all) {
     const auto not_farther =
         std::upper_bound(all.begin(), all.end(), near.upper,
-                         [](double limit, const Near& other) { return limit < other.lower; });
+                         [](double limit, const NearestHit& other) { return limit < other.lower; });
     if (static_cast<std::size_t>(std::distance(all.begin(), not_farther)) <= count)
       near.certainty = Certainty::certainly;
   }
@@ -213,14 +213,15 @@ std::vector<Near> World::Engine::Queries::nearest(const Vec3& point, std::size_t
 
 /// What becomes of a body on the way, in the first of its images that comes near this piece of it: nothing
 /// where it is missed.
-std::optional<Hit> World::Engine::Queries::hit(const Way& way, const Box& piece, std::uint32_t number) const {
-  if (const Shape* shape = extent_of(engine_.bodies(), number).shape) {
-    const WayLimits touch = touch_of(way, *shape);
+std::optional<CastHit> World::Engine::Queries::hit(const SweptRay& way, const Box& piece,
+                                                   std::uint32_t number) const {
+  if (const Shape* shape = collision_shape_of(engine_.bodies(), number).shape) {
+    const RayLimits touch = touch_of(way, *shape);
     if (touch.lower == infinity) return std::nullopt;
-    return Hit{engine_.bodies().id_of(number), Certainty::possibly, touch.lower, touch.upper};
+    return CastHit{engine_.bodies().id_of(number), Certainty::possibly, touch.lower, touch.upper};
   }
-  const Place at = place_of(engine_.bodies()[number], now_);
-  std::optional<Hit> first;
+  const CertainSphere at = certain_sphere_of(engine_.bodies()[number], now_);
+  std::optional<CastHit> first;
   engine_.bodies().space().for_each_shift(
       box_around(at.centre, at.centre, at.outer), piece, [&](const Vec3& shift) {
         const Vec3 centre = at.centre + shift;
@@ -228,8 +229,8 @@ std::optional<Hit> World::Engine::Queries::hit(const Way& way, const Box& piece,
         const auto may = passage(way, centre, at.outer + way.radius + wrong, wrong);
         if (!may) return;
         const auto must = passage(way, centre, at.inner + way.radius - wrong, -wrong);
-        const Hit image{engine_.bodies().id_of(number), Certainty::possibly, may->enter,
-                        must ? must->enter : infinity};
+        const CastHit image{engine_.bodies().id_of(number), Certainty::possibly, may->enter,
+                            must ? must->enter : infinity};
         if (!first) first = image;
         first->lower = std::min(first->lower, image.lower);
         first->upper = std::min(first->upper, image.upper);
@@ -237,8 +238,8 @@ std::optional<Hit> World::Engine::Queries::hit(const Way& way, const Box& piece,
   return first;
 }
 
-std::vector<Hit> World::Engine::Queries::cast(const Way& way) const {
-  std::vector<Hit> hits;
+std::vector<CastHit> World::Engine::Queries::cast(const SweptRay& way) const {
+  std::vector<CastHit> hits;
   double sure = infinity;  // something is hit by then
   const double piece = std::max({way.length / most_pieces, 2.0 * way.radius, finest_length()});
   std::vector<std::uint32_t> seen;
@@ -250,7 +251,7 @@ std::vector<Hit> World::Engine::Queries::cast(const Way& way) const {
     const std::vector<std::uint32_t> here = engine_.bodies_in(box);
     std::set_difference(here.begin(), here.end(), seen.begin(), seen.end(), std::back_inserter(fresh));
     for (const std::uint32_t number : fresh) {
-      const std::optional<Hit> found = hit(way, box, number);
+      const std::optional<CastHit> found = hit(way, box, number);
       if (!found) continue;
       hits.push_back(*found);
       sure = std::min(sure, found->upper);
@@ -262,8 +263,8 @@ std::vector<Hit> World::Engine::Queries::cast(const Way& way) const {
     std::inplace_merge(seen.begin(), seen.begin() + middle, seen.end());
   }
   if (engine_.bodies().space().repeats()) keep_first_of_each_body(hits);
-  std::erase_if(hits, [=](const Hit& hit) { return hit.lower > sure; });
-  std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) {
+  std::erase_if(hits, [=](const CastHit& hit) { return hit.lower > sure; });
+  std::sort(hits.begin(), hits.end(), [](const CastHit& a, const CastHit& b) {
     return a.lower != b.lower ? a.lower < b.lower : a.body < b.body;
   });
   if (hits.size() == 1 && hits[0].upper < infinity) hits[0].certainty = Certainty::certainly;

@@ -43,7 +43,7 @@ bool certainly_meets(const Triangle& shape, const Bound& sphere, double from, do
 }
 
 template <class Solid>
-WayLimits touch(const Bound& sphere, const Solid& shape, double length) {
+RayLimits touch(const Bound& sphere, const Solid& shape, double length) {
   const double first = earliest_meeting(sphere, shape, 0.0, length);
   if (first == infinity) return {infinity, infinity};
   // It is met soon after, or perhaps not at all: look farther and farther.
@@ -90,13 +90,13 @@ GapLimits gap_limits(const Box& region, const Triangle& shape) {
   return {gap - wrong, gap + 16.0 * wrong / thick};
 }
 
-WayLimits first_touch(const Bound& sphere, const HalfSpace& shape, double length) {
+RayLimits first_touch(const Bound& sphere, const HalfSpace& shape, double length) {
   return touch(sphere, shape, length);
 }
-WayLimits first_touch(const Bound& sphere, const Box& shape, double length) {
+RayLimits first_touch(const Bound& sphere, const Box& shape, double length) {
   return touch(sphere, shape, length);
 }
-WayLimits first_touch(const Bound& sphere, const Triangle& shape, double length) {
+RayLimits first_touch(const Bound& sphere, const Triangle& shape, double length) {
   return touch(sphere, shape, length);
 }
 

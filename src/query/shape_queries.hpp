@@ -12,14 +12,14 @@ GapLimits gap_limits(const Box& region, const Box& shape);
 GapLimits gap_limits(const Box& region, const Triangle& shape);
 
 /// The part of a way after which a shape is met: at least `lower`; at most `upper`, if it certainly is met.
-struct WayLimits {
+struct RayLimits {
   double lower;  ///< infinite when it certainly is not met
   double upper;  ///< infinite when it may not be met
 };
 
 /// Of a sphere, a Bound whose velocity is its direction, of length 1: lengths of the way are times.
-WayLimits first_touch(const Bound& sphere, const HalfSpace& shape, double length);
-WayLimits first_touch(const Bound& sphere, const Box& shape, double length);
-WayLimits first_touch(const Bound& sphere, const Triangle& shape, double length);
+RayLimits first_touch(const Bound& sphere, const HalfSpace& shape, double length);
+RayLimits first_touch(const Bound& sphere, const Box& shape, double length);
+RayLimits first_touch(const Bound& sphere, const Triangle& shape, double length);
 
 }  // namespace kinesphere

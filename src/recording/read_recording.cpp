@@ -9,24 +9,24 @@
 namespace kinesphere {
 namespace {
 
-bool is_sound(const Event& event) {
+bool is_valid(const Event& event) {
   return static_cast<int>(event.kind) < event_kind_count && static_cast<int>(event.wall) <= wall_count &&
          event.senses <= Senses::both;
 }
 
 /// What was asked for has an end, and an outcome that there can be.
-bool is_sound(const step::Asking& asking) {
+bool is_valid(const step::Asking& asking) {
   if (!asking.answers.empty() && !asking.answers.back().last) return false;
-  if (asking.event && (asking.failed || !asking.until || !is_sound(*asking.event))) return false;
+  if (asking.event && (asking.failed || !asking.until || !is_valid(*asking.event))) return false;
   return true;
 }
 
-bool is_sound(const std::vector<Step>& steps) {
+bool is_valid(const std::vector<Step>& steps) {
   if (steps.empty()) return false;
   for (const Step& step : steps) {
     if (std::holds_alternative<step::End>(step) != (&step == &steps.back())) return false;
     const auto* asking = std::get_if<step::Asking>(&step);
-    if (asking && !is_sound(*asking)) return false;
+    if (asking && !is_valid(*asking)) return false;
   }
   return true;
 }
@@ -49,7 +49,7 @@ Result<RecordingContent> read_content(std::span<const std::byte> recording) {
   ByteReader reader(*bytes);
   reader(content.snapshot, content.has_pair_filter);
   while (!reader.failed() && reader.remaining() > 0) reader(content.steps.emplace_back());
-  if (reader.failed() || !is_sound(content.steps))
+  if (reader.failed() || !is_valid(content.steps))
     return recording_envelope.refusal("must hold a recording, but its content does not have the form of one");
   return content;
 }
@@ -65,7 +65,8 @@ Result<RecordedRun> read_recording(std::span<const std::byte> recording) {
     if (const auto* end = std::get_if<step::End>(&step)) run.end_time = end->time;
     const auto* asking = std::get_if<step::Asking>(&step);
     if (!asking) continue;
-    for (std::size_t k = 0; k < accepted(*asking); ++k) run.reports.push_back(asking->answers[k].report);
+    for (std::size_t k = 0; k < accepted(*asking); ++k)
+      run.probed_states.push_back(asking->answers[k].report);
     if (asking->event) run.events.push_back(*asking->event);
   }
   return run;

@@ -17,8 +17,8 @@
 
 namespace kinesphere {
 
-template <Some<Report> Self, class Archive>
-void transfer(Self& self, Archive& archive) {
+template <Some<ProbedState> Self, class Archive>
+void serialize(Self& self, Archive& archive) {
   auto& [time, body, state] = self;
   archive(time, body, state);
 }
@@ -35,13 +35,13 @@ struct New {
     return added ? Result<void>() : Result<void>(added.error());
   }
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [definition] = self;
     archive(definition);
   }
 };
 using Add = New<BodyDefinition, &World::add>;
-using AddFixed = New<FixedDefinition, &World::add_fixed>;
+using AddStatic = New<StaticDefinition, &World::add_static>;
 
 /// A change of one body that takes no argument, by its call.
 template <Result<void> (World::*call)(BodyId)>
@@ -50,15 +50,15 @@ struct Plain {
 
   Result<void> repeat(World& world) const { return (world.*call)(body); }
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [id] = self;
     archive(id);
   }
 };
 using Remove = Plain<&World::remove>;
 using Disable = Plain<&World::disable>;
-using Refilter = Plain<&World::refilter>;
-using RestBody = Plain<&World::rest>;
+using RefreshFilter = Plain<&World::refresh_filter>;
+using SleepBody = Plain<&World::sleep>;
 using Wake = Plain<&World::wake>;
 
 /// A change of one body, or of a sensor class, that takes one argument. `Parameter` is as the call declares
@@ -70,7 +70,7 @@ struct With {
 
   Result<void> repeat(World& world) const { return (world.*call)(subject, argument); }
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [changed, value] = self;
     archive(changed, value);
   }
@@ -91,7 +91,7 @@ struct SetPairFilter {
   bool given = false;
 
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [is_given] = self;
     archive(is_given);
   }
@@ -99,11 +99,11 @@ struct SetPairFilter {
 
 /// A report as one of several that a single call of a probe gave.
 struct Answer {
-  Report report{};
+  ProbedState report{};
   bool last = false;
 
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [reported, is_last] = self;
     archive(reported, is_last);
   }
@@ -118,7 +118,7 @@ struct Asking {
   std::uint64_t hash = 0;  ///< of all outcomes so far
 
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [advance_until, all_answers, has_failed, outcome, running_hash] = self;
     archive(advance_until, all_answers, has_failed, outcome, running_hash);
   }
@@ -130,7 +130,7 @@ struct End {
   std::uint64_t checksum = 0;  ///< of the world's snapshot
 
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [end_time, sum] = self;
     archive(end_time, sum);
   }
@@ -140,10 +140,10 @@ struct End {
 
 /// Their order is part of the format.
 using Step =
-    std::variant<step::Asking, step::Add, step::AddFixed, step::Remove, step::SetVelocity, step::Teleport,
+    std::variant<step::Asking, step::Add, step::AddStatic, step::Remove, step::SetVelocity, step::Teleport,
                  step::SetRadius, step::SetMotionLimits, step::Disable, step::Enable, step::SetFilter,
-                 step::SetPairFilter, step::Refilter, step::SetSolid, step::SetSensor, step::SetSensorClass,
-                 step::SetUserData, step::End, step::RestBody, step::Wake>;
+                 step::SetPairFilter, step::RefreshFilter, step::SetSolid, step::SetSensor,
+                 step::SetSensorClass, step::SetUserData, step::End, step::SleepBody, step::Wake>;
 
 /// A hash over the outcomes of all steps so far: events to the last bit, and all work that was done.
 class StepHash {

@@ -45,9 +45,9 @@ Box Space::moved(const Box& box, const Vec3& shift) {
   Box image = box;
   for (int axis = 0; axis < 3; ++axis) {
     if (shift[axis] == 0.0) continue;
-    const auto room = [&](double edge) { return shift_margin * (std::abs(edge) + std::abs(shift[axis])); };
-    image.lower[axis] = box.lower[axis] + shift[axis] - room(box.lower[axis]);
-    image.upper[axis] = box.upper[axis] + shift[axis] + room(box.upper[axis]);
+    const auto margin = [&](double edge) { return shift_margin * (std::abs(edge) + std::abs(shift[axis])); };
+    image.lower[axis] = box.lower[axis] + shift[axis] - margin(box.lower[axis]);
+    image.upper[axis] = box.upper[axis] + shift[axis] + margin(box.upper[axis]);
   }
   return image;
 }
@@ -76,9 +76,9 @@ Space::Images Space::images_near(const Box& box, double largest_extent) const {
       images.box.upper[axis] = upper;
       continue;
     }
-    const double room = 4.0 * shift_margin * (size + std::abs(box.lower[axis]) + std::abs(box.upper[axis]));
-    images.first[axis] = std::ceil((lower - box.upper[axis] - room) * per_period_[axis]);
-    const double last = std::floor((upper - box.lower[axis] + room) * per_period_[axis]);
+    const double margin = 4.0 * shift_margin * (size + std::abs(box.lower[axis]) + std::abs(box.upper[axis]));
+    images.first[axis] = std::ceil((lower - box.upper[axis] - margin) * per_period_[axis]);
+    const double last = std::floor((upper - box.lower[axis] + margin) * per_period_[axis]);
     // Never more than four, whatever rounding does to numbers that are too large for any promise.
     const double count = last - images.first[axis] + 1.0;
     images.count[static_cast<std::size_t>(axis)] = static_cast<int>(std::clamp(count, 0.0, 4.0));

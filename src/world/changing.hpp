@@ -7,7 +7,7 @@
 namespace kinesphere {
 
 template <class Change>
-World::Changes World::changing(const Change& change) {
+World::WorldEditor World::changing(const Change& change) {
   if (recorder_) recorder_->note(change);
   return changeable().changes();
 }

@@ -8,7 +8,7 @@
 #include "archive/heap_counter.hpp"
 #include "engine/engine.hpp"
 #include "recording/recorder.hpp"
-#include "world/check.hpp"
+#include "world/preconditions.hpp"
 
 namespace kinesphere {
 namespace {
@@ -31,12 +31,12 @@ class Stopwatch {
 
 Memory World::Engine::memory() const {
   Memory memory;
-  memory.pairs = everybody_.agenda().bytes();
+  memory.pairs = main_.queue().bytes();
   memory.bodies = heap_bytes(bodies());
-  memory.contacts = heap_bytes(book());
-  memory.windows = heap_bytes(windows());
-  memory.other = sizeof *this + everybody_.bytes() - memory.pairs;
-  for (const FoundPairs& found : found_) memory.other += heap_bytes(found.hot);
+  memory.contacts = heap_bytes(contacts());
+  memory.windows = heap_bytes(broad_phase());
+  memory.other = sizeof *this + main_.bytes() - memory.pairs;
+  for (const SearchResults& found : found_) memory.other += heap_bytes(found.certificates);
   return memory;
 }
 
@@ -48,7 +48,7 @@ Memory World::memory() const {
 
 std::vector<CellView> World::cells() const {
   std::vector<CellView> all;
-  for (const WindowLayer& layer : engine("cells").windows().layers())
+  for (const GridLevel& layer : engine("cells").broad_phase().levels())
     layer.for_each_cell([&](const Box& box, std::size_t bodies) { all.push_back({box, bodies}); });
   return all;
 }
@@ -56,20 +56,20 @@ std::vector<CellView> World::cells() const {
 std::vector<Certificate> World::certificates() const {
   const Engine& engine = this->engine("certificates");
   std::vector<Certificate> all;
-  for (const HotPair& pair : engine.hot_pairs()) {
-    if (pair.second == HotPair::renewal) continue;
-    const BodyId other = pair.second == HotPair::walls ? no_body : engine.bodies().id_of(pair.second);
+  for (const PairCertificate& pair : engine.certificates()) {
+    if (pair.second == PairCertificate::window_end) continue;
+    const BodyId other = pair.second == PairCertificate::walls ? no_body : engine.bodies().id_of(pair.second);
     const auto [first, second] = std::minmax({engine.bodies().id_of(pair.first), other});
-    all.push_back({first, second, pair.time});
+    all.push_back({first, second, pair.failure_time});
   }
   return all;
 }
 
-Result<void> World::set_timing(bool on) {
-  auto valid = Check(*this, "set_timing").idle();
+Result<void> World::set_profiling(bool on) {
+  auto valid = Preconditions(*this, "set_timing").idle();
   if (!valid) return valid;
-  if (on && !timing_) timings_ = {};
-  timing_ = on;
+  if (on && !profiling_) timings_ = {};
+  profiling_ = on;
   return valid;
 }
 

@@ -9,7 +9,7 @@
 #include "input/input_check.hpp"
 #include "number/bit_cast.hpp"
 #include "recording/step.hpp"
-#include "world/check.hpp"
+#include "world/preconditions.hpp"
 
 namespace kinesphere {
 namespace {
@@ -71,7 +71,7 @@ class RecordedProbe {
  private:
   std::string expected() const {
     if (next_ >= answers_.size()) return "expected no further probe";
-    const Report& report = answers_[next_].report;
+    const ProbedState& report = answers_[next_].report;
     return "expected a probe of " + text_of(report.body) + " at time " + text_of(report.time) +
            (answers_[next_].last ? ", the last of its call" : "");
   }
@@ -161,7 +161,7 @@ class Replay::Player {
   Result<bool> refresh(const step::Asking& recorded, const Probe& probe) {
     std::vector<std::uint32_t> numbers;
     for (const step::Answer& answer : recorded.answers) {
-      if (auto valid = World::Check(world_, "refresh").enabled(answer.report.body, true); !valid)
+      if (auto valid = World::Preconditions(world_, "refresh").enabled(answer.report.body, true); !valid)
         return valid.error();
       numbers.push_back(answer.report.body.index);
     }

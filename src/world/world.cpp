@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "engine/engine.hpp"
-#include "engine/fixed.hpp"
+#include "engine/static_body.hpp"
 #include "engine/validation.hpp"
 #include "input/input_check.hpp"
 #include "query/body_view.hpp"
 #include "recording/recorder.hpp"
 #include "world/changing.hpp"
-#include "world/check.hpp"
+#include "world/preconditions.hpp"
 #include "world/run.hpp"
 
 namespace kinesphere {
@@ -27,26 +27,26 @@ World& World::operator=(World&& other) noexcept {
   other.require_idle("moved from");
   engine_ = std::move(other.engine_);
   recorder_ = std::move(other.recorder_);
-  backlog_ = std::move(other.backlog_);
+  untold_ = std::move(other.untold_);
   timings_ = other.timings_;
-  timing_ = other.timing_;
+  profiling_ = other.profiling_;
   return *this;
 }
 
 World::~World() { require_idle("destroyed"); }
 
-Activity World::activity() const {
-  const Activity activity = engine_->activity();
-  return running_ && activity != Activity::filtering ? Activity::running : activity;
+CallState World::activity() const {
+  const CallState activity = engine_->activity();
+  return running_ && activity != CallState::filtering ? CallState::running : activity;
 }
 
 /// Stops the program if a call that asks the caller's own code would come back to a world that is no more.
 void World::require_idle(const char* done) const noexcept {
-  if (!engine_ || activity() == Activity::idle) return;
+  if (!engine_ || activity() == CallState::idle) return;
   std::fprintf(stderr, "kinesphere: a World was %s inside its own %s\n", done,
-               activity() == Activity::probing   ? "probe"
-               : activity() == Activity::running ? "run"
-                                                 : "pair filter");
+               activity() == CallState::probing   ? "probe"
+               : activity() == CallState::running ? "run"
+                                                  : "pair filter");
   std::abort();
 }
 
@@ -64,7 +64,7 @@ Result<World> World::create(const WorldDefinition& definition) {
 }
 
 Result<BodyId> World::add(const BodyDefinition& body) {
-  const Check check(*this, "add");
+  const Preconditions check(*this, "add");
   if (auto idle = check.idle(); !idle) return idle.error();
   if (auto valid = check.new_body(body, engine_->bodies().table().next_id()); !valid) return valid.error();
   return changing(step::Add{body}).add(body);
@@ -72,7 +72,7 @@ Result<BodyId> World::add(const BodyDefinition& body) {
 
 Result<void> World::reserve(std::size_t bodies) {
   const std::size_t most = no_body.index;
-  auto valid = Check(*this, "reserve").idle();
+  auto valid = Preconditions(*this, "reserve").idle();
   if (valid) {
     valid = InputCheck("reserve")
                 .require(bodies <= most, ErrorCode::out_of_range, {"bodies"}, "must be at most", most, bodies)
@@ -83,13 +83,13 @@ Result<void> World::reserve(std::size_t bodies) {
 }
 
 Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodies) {
-  if (auto idle = Check(*this, "add_all").idle(); !idle) return idle.error();
+  if (auto idle = Preconditions(*this, "add_all").idle(); !idle) return idle.error();
   const auto call_for = [](std::size_t number) { return "add_all: bodies[" + std::to_string(number) + "]"; };
   std::size_t valid = 0;
   std::optional<Error> wrong;
   for (; valid < bodies.size() && !wrong; ++valid) {
-    const auto checked =
-        Check(*this, call_for(valid)).new_body(bodies[valid], engine_->bodies().table().next_id(valid));
+    const auto checked = Preconditions(*this, call_for(valid))
+                             .new_body(bodies[valid], engine_->bodies().table().next_id(valid));
     if (!checked) {
       wrong = checked.error();
       break;
@@ -111,17 +111,17 @@ Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodie
 }
 
 Result<void> World::remove(BodyId body) {
-  auto valid = Check(*this, "remove").changeable(body);
+  auto valid = Preconditions(*this, "remove").changeable(body);
   if (valid) changing(step::Remove{body}).remove(body);
   return valid;
 }
 
 Result<void> World::remove_all(std::span<const BodyId> bodies) {
-  if (auto idle = Check(*this, "remove_all").idle(); !idle) return idle;
+  if (auto idle = Preconditions(*this, "remove_all").idle(); !idle) return idle;
   std::set<BodyId> earlier;
   for (std::size_t number = 0; number < bodies.size(); ++number) {
     const std::string call = "remove_all: bodies[" + std::to_string(number) + "]";
-    if (auto valid = Check(*this, call).known(bodies[number]); !valid) return valid;
+    if (auto valid = Preconditions(*this, call).known(bodies[number]); !valid) return valid;
     if (!earlier.insert(bodies[number]).second) {
       return Error{ErrorCode::stale_body, "body", bodies[number],
                    call + ": " + text_of(bodies[number]) + " is named twice"};
@@ -132,96 +132,96 @@ Result<void> World::remove_all(std::span<const BodyId> bodies) {
 }
 
 Result<void> World::set_velocity(BodyId body, const Vec3& velocity) {
-  auto valid = Check(*this, "set_velocity").mobile(body);
+  auto valid = Preconditions(*this, "set_velocity").mobile(body);
   if (valid) valid = check_velocity(velocity, body, engine_->definition(), "set_velocity");
   if (valid) changing(step::SetVelocity{body, velocity}).set_velocity(body, velocity);
   return valid;
 }
 
 Result<void> World::teleport(BodyId body, const State& state) {
-  auto valid = Check(*this, "teleport").mobile(body);
-  if (valid) valid = Check(*this, "teleport").moved(body, state);
+  auto valid = Preconditions(*this, "teleport").mobile(body);
+  if (valid) valid = Preconditions(*this, "teleport").moved(body, state);
   if (valid) changing(step::Teleport{body, state}).teleport(body, state);
   return valid;
 }
 
 Result<void> World::enable(BodyId body, const State& state) {
-  auto valid = Check(*this, "enable").enabled(body, false);
+  auto valid = Preconditions(*this, "enable").enabled(body, false);
   if (valid) {
-    valid = engine_->bodies().table()[body.index].is_fixed()
-                ? Check(*this, "enable").fixed_room(fixed_definition(engine_->bodies(), body), body)
-                : Check(*this, "enable").moved(body, state);
+    valid = engine_->bodies().table()[body.index].is_static()
+                ? Preconditions(*this, "enable").static_room(static_definition(engine_->bodies(), body), body)
+                : Preconditions(*this, "enable").moved(body, state);
   }
   if (valid) changing(step::Enable{body, state}).enable(body, state);
   return valid;
 }
 
 Result<void> World::disable(BodyId body) {
-  auto valid = Check(*this, "disable").enabled(body, true);
+  auto valid = Preconditions(*this, "disable").enabled(body, true);
   if (valid) changing(step::Disable{body}).disable(body);
   return valid;
 }
 
-Result<void> World::rest(BodyId body) {
-  auto valid = Check(*this, "rest").mobile(body);
-  if (valid) changing(step::RestBody{body}).rest(body);
+Result<void> World::sleep(BodyId body) {
+  auto valid = Preconditions(*this, "rest").mobile(body);
+  if (valid) changing(step::SleepBody{body}).sleep(body);
   return valid;
 }
 
 Result<void> World::wake(BodyId body) {
-  auto valid = Check(*this, "wake").mobile(body);
+  auto valid = Preconditions(*this, "wake").mobile(body);
   if (valid) changing(step::Wake{body}).wake_up(body);
   return valid;
 }
 
 Result<void> World::set_radius(BodyId body, double radius) {
-  auto valid = Check(*this, "set_radius").moving(body);
+  auto valid = Preconditions(*this, "set_radius").moving(body);
   if (!valid) return valid;
   BodyDefinition changed = engine_->bodies().definition_of(body.index);
   changed.radius = radius;
   valid = check_radius(changed, body, engine_->definition(), "set_radius");
-  if (valid) valid = Check(*this, "set_radius").growth(changed, body, "radius");
+  if (valid) valid = Preconditions(*this, "set_radius").growth(changed, body, "radius");
   if (valid) changing(step::SetRadius{body, radius}).set_radius(body, radius);
   return valid;
 }
 
 Result<void> World::set_motion_limits(BodyId body, const MotionLimits& limits) {
-  auto valid = Check(*this, "set_motion_limits").moving(body);
+  auto valid = Preconditions(*this, "set_motion_limits").moving(body);
   if (!valid) return valid;
   const BodyDefinition changed = with_motion_limits(engine_->bodies().definition_of(body.index), limits);
-  valid = check_promise(changed, body, engine_->definition(), "set_motion_limits");
-  if (valid) valid = Check(*this, "set_motion_limits").growth(changed, body, "position_error");
+  valid = check_limits(changed, body, engine_->definition(), "set_motion_limits");
+  if (valid) valid = Preconditions(*this, "set_motion_limits").growth(changed, body, "position_error");
   if (valid) changing(step::SetMotionLimits{body, limits}).set_motion_limits(body, limits);
   return valid;
 }
 
 Result<void> World::set_filter(BodyId body, const Filter& filter) {
-  auto valid = Check(*this, "set_filter").changeable(body);
+  auto valid = Preconditions(*this, "set_filter").changeable(body);
   if (valid) changing(step::SetFilter{body, filter}).set_filter(body, filter);
   return valid;
 }
 
 Result<void> World::set_pair_filter(PairFilter filter) {
-  auto valid = Check(*this, "set_pair_filter").idle();
+  auto valid = Preconditions(*this, "set_pair_filter").idle();
   const bool given = static_cast<bool>(filter);
   if (valid) changing(step::SetPairFilter{given}).set_pair_filter(std::move(filter));
   return valid;
 }
 
-Result<void> World::refilter(BodyId body) {
-  auto valid = Check(*this, "refilter").changeable(body);
-  if (valid) changing(step::Refilter{body}).refilter(body);
+Result<void> World::refresh_filter(BodyId body) {
+  auto valid = Preconditions(*this, "refilter").changeable(body);
+  if (valid) changing(step::RefreshFilter{body}).refresh_filter(body);
   return valid;
 }
 
 Result<void> World::set_solid(BodyId body, bool solid) {
-  auto valid = Check(*this, "set_solid").changeable(body);
+  auto valid = Preconditions(*this, "set_solid").changeable(body);
   if (valid) changing(step::SetSolid{body, solid}).set_solid(body, solid);
   return valid;
 }
 
 Result<void> World::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
-  auto valid = Check(*this, "set_sensor").idle();
+  auto valid = Preconditions(*this, "set_sensor").idle();
   if (valid) valid = check_sensor(sensor, engine_->definition());
   if (!valid) return valid;
   const double reach = reach_of(sensor);
@@ -235,11 +235,11 @@ Result<void> World::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
 }
 
 Result<void> World::set_sensor_class(BodyId body, SensorClass sensor_class) {
-  auto valid = Check(*this, "set_sensor_class").changeable(body);
+  auto valid = Preconditions(*this, "set_sensor_class").changeable(body);
   if (!valid) return valid;
   BodyDefinition changed = engine_->bodies().definition_of(body.index);
   changed.sensor_class = sensor_class;
-  valid = Check(*this, "set_sensor_class").reach(changed, body, "sensor_class");
+  valid = Preconditions(*this, "set_sensor_class").reach(changed, body, "sensor_class");
   if (valid) changing(step::SetSensorClass{body, sensor_class}).set_sensor_class(body, sensor_class);
   return valid;
 }
@@ -249,26 +249,26 @@ const Sensor& World::sensor(SensorClass sensor_class) const {
 }
 
 Result<void> World::set_user_data(BodyId body, std::uint64_t data) {
-  auto valid = Check(*this, "set_user_data").changeable(body);
+  auto valid = Preconditions(*this, "set_user_data").changeable(body);
   if (valid) changing(step::SetUserData{body, data}).set_user_data(body, data);
   return valid;
 }
 
 Result<std::uint64_t> World::user_data(BodyId body) const {
-  if (auto valid = Check(*this, "user_data").known(body); !valid) return valid.error();
+  if (auto valid = Preconditions(*this, "user_data").known(body); !valid) return valid.error();
   return engine_->bodies().table()[body.index].user_data;
 }
 
 Result<std::optional<Event>> World::advance(double until, Probe probe) {
-  auto valid = Check(*this, "advance").may_ask(probe);
+  auto valid = Preconditions(*this, "advance").may_ask(probe);
   if (valid) valid = check_time(until, engine_->time());
   if (!valid) return valid.error();
-  if (backlog_ && !backlog_->empty()) return backlog_->take();
+  if (untold_ && !untold_->empty()) return untold_->take();
   return engine_advance(until, probe);
 }
 
 Result<std::optional<Event>> World::engine_advance(double until, const Probe& probe) {
-  return timing_ ? timed_advance(until, probe) : recorded_advance(until, probe);
+  return profiling_ ? timed_advance(until, probe) : recorded_advance(until, probe);
 }
 
 EventRange World::events(double until, Probe probe) { return {*this, until, std::move(probe)}; }
@@ -299,14 +299,14 @@ const Counters& World::counters() const { return engine("counters").counters(); 
 
 std::optional<AuditFinding> World::audit() const {
   const Engine& audited = engine("audit");
-  if (const auto idle = Check(*this, "audit").idle(); !idle)
+  if (const auto idle = Preconditions(*this, "audit").idle(); !idle)
     return AuditFinding{"call", idle.error().message};
   return audited.audit();
 }
 
 bool World::contains(BodyId body) const {
   (void)engine("contains");
-  return Check(*this, "contains").is_known(body);
+  return Preconditions(*this, "contains").is_known(body);
 }
 
 bool World::recording() const {
@@ -315,7 +315,7 @@ bool World::recording() const {
 }
 
 Result<std::vector<std::byte>> World::save() const {
-  if (auto all_told = Check(*this, "save").all_told(); !all_told) return all_told.error();
+  if (auto all_told = Preconditions(*this, "save").all_told(); !all_told) return all_told.error();
   return engine_->save();
 }
 
@@ -326,14 +326,14 @@ Result<World> World::restore(std::span<const std::byte> snapshot, PairFilter pai
 }
 
 Result<World> World::clone() const {
-  if (auto idle = Check(*this, "clone").idle(); !idle) return idle.error();
+  if (auto idle = Preconditions(*this, "clone").idle(); !idle) return idle.error();
   World copy(std::make_unique<Engine>(*engine_));
-  if (backlog_) copy.backlog_ = std::make_unique<Backlog>(*backlog_);
+  if (untold_) copy.untold_ = std::make_unique<UntoldEvents>(*untold_);
   return copy;
 }
 
 Result<void> World::start_recording() {
-  auto all_told = Check(*this, "start_recording").all_told();
+  auto all_told = Preconditions(*this, "start_recording").all_told();
   if (!all_told) return all_told;
   if (recorder_)
     return Error{ErrorCode::recording, "world", no_body,
@@ -343,7 +343,7 @@ Result<void> World::start_recording() {
 }
 
 Result<std::vector<std::byte>> World::stop_recording() {
-  if (auto all_told = Check(*this, "stop_recording").all_told(); !all_told) return all_told.error();
+  if (auto all_told = Preconditions(*this, "stop_recording").all_told(); !all_told) return all_told.error();
   if (!recorder_)
     return Error{ErrorCode::not_recording, "world", no_body,
                  "stop_recording: the world is not being recorded"};
@@ -351,23 +351,23 @@ Result<std::vector<std::byte>> World::stop_recording() {
 }
 
 Result<BodyView> World::body(BodyId id) const {
-  if (auto valid = Check(*this, "body").known(id); !valid) return valid.error();
-  return body_view(engine_->bodies(), engine_->windows(), id.index, engine_->time());
+  if (auto valid = Preconditions(*this, "body").known(id); !valid) return valid.error();
+  return body_view(engine_->bodies(), engine_->broad_phase(), id.index, engine_->time());
 }
 
 Result<std::vector<BodyId>> World::touching(BodyId body) const {
-  if (auto valid = Check(*this, "touching").known(body); !valid) return valid.error();
+  if (auto valid = Preconditions(*this, "touching").known(body); !valid) return valid.error();
   std::vector<BodyId> partners;
-  for (const std::uint32_t partner : engine_->book().partners_of(body.index))
+  for (const std::uint32_t partner : engine_->contacts().partners_of(body.index))
     partners.push_back(engine_->bodies().id_of(partner));
   return partners;
 }
 
-Result<std::vector<Sensed>> World::sensed(BodyId body) const {
-  if (auto valid = Check(*this, "sensed").known(body); !valid) return valid.error();
-  std::vector<Sensed> within;
-  for (const Crossing& crossing : engine_->book().crossings_of(body.index))
-    within.push_back({engine_->bodies().id_of(crossing.partner), crossing.distance});
+Result<std::vector<SensorOverlap>> World::sensor_overlaps(BodyId body) const {
+  if (auto valid = Preconditions(*this, "sensed").known(body); !valid) return valid.error();
+  std::vector<SensorOverlap> within;
+  for (const OverlapRecord& overlap : engine_->contacts().overlaps_of(body.index))
+    within.push_back({engine_->bodies().id_of(overlap.partner), overlap.distance});
   return within;
 }
 

@@ -4,8 +4,8 @@
 #include "engine/validation.hpp"
 #include "input/input_check.hpp"
 #include "query/answers.hpp"
-#include "world/check.hpp"
-#include "world/refresher.hpp"
+#include "world/preconditions.hpp"
+#include "world/stale_prober.hpp"
 
 namespace kinesphere {
 namespace {
@@ -21,16 +21,16 @@ Result<void> check_not_past(double time, double now, std::string_view call) {
       .result();
 }
 
-Result<SafeTime> safe_time(const Result<Refined>& refined) {
+Result<SafeTime> safe_time(const Result<ProbedAnswer>& refined) {
   if (!refined) return refined.error();
-  return SafeTime{refined->onset.time, refined->onset.touching, refined->probed};
+  return SafeTime{refined->boundary.time, refined->boundary.touching, refined->probed};
 }
 
 /// EarliestContact and EarliestApproach list the same fields.
 template <class Earliest, class Engine>
-Result<Earliest> earliest(const Engine* engine, const Result<Refined>& refined) {
+Result<Earliest> earliest(const Engine* engine, const Result<ProbedAnswer>& refined) {
   if (!refined) return refined.error();
-  const Onset& onset = refined->onset;
+  const ContactBoundary& onset = refined->boundary;
   const BodyId partner = onset.partner ? engine->bodies().id_of(*onset.partner) : no_body;
   return Earliest{onset.time, partner, onset.wall, onset.touching, refined->probed};
 }
@@ -40,9 +40,9 @@ Result<void> check_distance(double distance, const WorldDefinition& world, std::
   return require_length(check, "distance", distance, world).result();
 }
 
-Result<SafeSeparation> safe_separation(const Result<Refined>& refined) {
+Result<SafeSeparation> safe_separation(const Result<ProbedAnswer>& refined) {
   if (!refined) return refined.error();
-  return SafeSeparation{refined->onset.time, refined->onset.touching, refined->probed};
+  return SafeSeparation{refined->boundary.time, refined->boundary.touching, refined->probed};
 }
 
 const auto about_world = [](const auto& answers) { return answers.of_world(); };
@@ -66,71 +66,74 @@ auto about_approach(BodyId body, double distance) {
 }  // namespace
 
 Result<SafeTime> World::safe_until(BodyId first, BodyId second) const {
-  return safe_time(Engine::Answers::answer(engine_.get(), Check(*this, "safe_until").pair(first, second),
+  return safe_time(Engine::Answers::answer(engine_.get(),
+                                           Preconditions(*this, "safe_until").pair(first, second),
                                            without_probe, any_number, about_pair(first, second)));
 }
 
 Result<SafeTime> World::safe_until(BodyId first, BodyId second, Probe probe) {
-  const Check check(*this, "safe_until");
-  return safe_time(
-      Engine::Answers::answer(engine_.get(), first_error(check.may_ask(probe), check.pair(first, second)),
-                              Refresher(*this, probe, "safe_until"), any_number, about_pair(first, second)));
+  const Preconditions check(*this, "safe_until");
+  return safe_time(Engine::Answers::answer(
+      engine_.get(), first_error(check.may_ask(probe), check.pair(first, second)),
+      StaleProber(*this, probe, "safe_until"), any_number, about_pair(first, second)));
 }
 
 Result<SafeTime> World::safe_until(BodyId body) const {
-  return safe_time(Engine::Answers::answer(engine_.get(), Check(*this, "safe_until").changeable(body),
+  return safe_time(Engine::Answers::answer(engine_.get(), Preconditions(*this, "safe_until").changeable(body),
                                            without_probe, any_number, about_body(body)));
 }
 
 Result<SafeTime> World::safe_until(BodyId body, Probe probe) {
-  const Check check(*this, "safe_until");
+  const Preconditions check(*this, "safe_until");
   return safe_time(
       Engine::Answers::answer(engine_.get(), first_error(check.may_ask(probe), check.known(body)),
-                              Refresher(*this, probe, "safe_until"), any_number, about_body(body)));
+                              StaleProber(*this, probe, "safe_until"), any_number, about_body(body)));
 }
 
 Result<SafeTime> World::safe_until() const {
-  return safe_time(Engine::Answers::answer(engine_.get(), Check(*this, "safe_until").idle(), without_probe,
-                                           max_rounds_of_world, about_world));
+  return safe_time(Engine::Answers::answer(engine_.get(), Preconditions(*this, "safe_until").idle(),
+                                           without_probe, max_rounds_of_world, about_world));
 }
 
 Result<SafeTime> World::safe_until(Probe probe) {
-  return safe_time(Engine::Answers::answer(engine_.get(), Check(*this, "safe_until").may_ask(probe),
-                                           Refresher(*this, probe, "safe_until"), max_rounds_of_world,
+  return safe_time(Engine::Answers::answer(engine_.get(), Preconditions(*this, "safe_until").may_ask(probe),
+                                           StaleProber(*this, probe, "safe_until"), max_rounds_of_world,
                                            about_world));
 }
 
 Result<EarliestContact> World::earliest_contact(BodyId body) const {
   return earliest<EarliestContact>(
-      engine_.get(), Engine::Answers::answer(engine_.get(), Check(*this, "earliest_contact").changeable(body),
-                                             without_probe, any_number, about_body(body)));
+      engine_.get(),
+      Engine::Answers::answer(engine_.get(), Preconditions(*this, "earliest_contact").changeable(body),
+                              without_probe, any_number, about_body(body)));
 }
 
 Result<EarliestContact> World::earliest_contact(BodyId body, Probe probe) {
-  const Check check(*this, "earliest_contact");
+  const Preconditions check(*this, "earliest_contact");
   return earliest<EarliestContact>(
       engine_.get(),
       Engine::Answers::answer(engine_.get(), first_error(check.may_ask(probe), check.known(body)),
-                              Refresher(*this, probe, "earliest_contact"), any_number, about_body(body)));
+                              StaleProber(*this, probe, "earliest_contact"), any_number, about_body(body)));
 }
 
 Result<SafeSeparation> World::safe_until(BodyId first, BodyId second, double distance) const {
-  auto valid = Check(*this, "safe_until").pair(first, second);
+  auto valid = Preconditions(*this, "safe_until").pair(first, second);
   if (valid) valid = check_distance(distance, definition(), "safe_until");
   return safe_separation(Engine::Answers::answer(engine_.get(), valid, without_probe, any_number,
                                                  about_separation(first, second, distance)));
 }
 
 Result<SafeSeparation> World::safe_until(BodyId first, BodyId second, double distance, Probe probe) {
-  const Check check(*this, "safe_until");
+  const Preconditions check(*this, "safe_until");
   auto valid = first_error(check.may_ask(probe), check.pair(first, second));
   if (valid) valid = check_distance(distance, definition(), "safe_until");
-  return safe_separation(Engine::Answers::answer(engine_.get(), valid, Refresher(*this, probe, "safe_until"),
-                                                 any_number, about_separation(first, second, distance)));
+  return safe_separation(Engine::Answers::answer(engine_.get(), valid,
+                                                 StaleProber(*this, probe, "safe_until"), any_number,
+                                                 about_separation(first, second, distance)));
 }
 
 Result<EarliestApproach> World::earliest_approach(BodyId body, double distance) const {
-  auto valid = Check(*this, "earliest_approach").changeable(body);
+  auto valid = Preconditions(*this, "earliest_approach").changeable(body);
   if (valid) valid = check_distance(distance, definition(), "earliest_approach");
   return earliest<EarliestApproach>(engine_.get(),
                                     Engine::Answers::answer(engine_.get(), valid, without_probe, any_number,
@@ -138,24 +141,24 @@ Result<EarliestApproach> World::earliest_approach(BodyId body, double distance) 
 }
 
 Result<EarliestApproach> World::earliest_approach(BodyId body, double distance, Probe probe) {
-  const Check check(*this, "earliest_approach");
+  const Preconditions check(*this, "earliest_approach");
   auto valid = first_error(check.may_ask(probe), check.known(body));
   if (valid) valid = check_distance(distance, definition(), "earliest_approach");
   return earliest<EarliestApproach>(
       engine_.get(),
-      Engine::Answers::answer(engine_.get(), valid, Refresher(*this, probe, "earliest_approach"), any_number,
-                              about_approach(body, distance)));
+      Engine::Answers::answer(engine_.get(), valid, StaleProber(*this, probe, "earliest_approach"),
+                              any_number, about_approach(body, distance)));
 }
 
 Result<DistanceLimits> World::distance_limits(BodyId first, BodyId second, double time) const {
-  auto valid = Check(*this, "distance_limits").pair(first, second);
+  auto valid = Preconditions(*this, "distance_limits").pair(first, second);
   if (valid) valid = check_not_past(time, engine_->time(), "distance_limits");
   if (!valid) return valid.error();
   return Engine::Answers(*engine_).distance(first.index, second.index, time);
 }
 
 Result<DistanceLimits> World::distance_limits(BodyId first, BodyId second, double time, Probe probe) {
-  const Check check(*this, "distance_limits");
+  const Preconditions check(*this, "distance_limits");
   auto valid = first_error(check.may_ask(probe), check.pair(first, second));
   if (valid) valid = check_not_past(time, engine_->time(), "distance_limits");
   if (!valid) return valid.error();

@@ -7,8 +7,8 @@
 #include "input/input_check.hpp"
 #include "kinesphere/limits.hpp"
 #include "query/queries.hpp"
-#include "world/check.hpp"
-#include "world/refresher.hpp"
+#include "world/preconditions.hpp"
+#include "world/stale_prober.hpp"
 
 namespace kinesphere {
 namespace {
@@ -37,7 +37,7 @@ Result<void> check_point(const Vec3& point, const WorldDefinition& world) {
   return check.result();
 }
 
-Result<void> check_way(const Vec3& origin, double radius, const Vec3& direction, double length,
+Result<void> check_ray(const Vec3& origin, double radius, const Vec3& direction, double length,
                        const WorldDefinition& world, std::string_view call) {
   InputCheck check(call);
   check.within({"origin"}, origin, coordinate_limit(world));
@@ -67,9 +67,9 @@ Vec3 unit(const Vec3& direction) {
 }
 
 /// A body in doubt may be settled by a probe; of one that stands for a distance the probe tells that, too.
-bool leaves_open(const Found& found) { return found.certainty == Certainty::possibly; }
-bool leaves_open(const Near&) { return true; }
-bool leaves_open(const Hit&) { return true; }
+bool leaves_open(const OverlapHit& found) { return found.certainty == Certainty::possibly; }
+bool leaves_open(const NearestHit&) { return true; }
+bool leaves_open(const CastHit&) { return true; }
 
 /// Asks for the states that leave the answer open, and again, until fresh reports stand behind it. Without a
 /// probe the first answer is the last. `callable` says whether the engine may be asked at all, and `valid`
@@ -103,9 +103,9 @@ auto fit_point(const Vec3& point) {
   return [=](const WorldDefinition& world) { return check_point(point, world); };
 }
 
-auto fit_way(const Vec3& origin, double radius, const Vec3& direction, double length, std::string_view call) {
+auto fit_ray(const Vec3& origin, double radius, const Vec3& direction, double length, std::string_view call) {
   return
-      [=](const WorldDefinition& world) { return check_way(origin, radius, direction, length, world, call); };
+      [=](const WorldDefinition& world) { return check_ray(origin, radius, direction, length, world, call); };
 }
 
 auto about_sphere(const Vec3& centre, double radius) {
@@ -120,70 +120,71 @@ auto about_nearest(const Vec3& point, std::size_t count) {
   return [=](const auto& queries) { return queries.nearest(point, count); };
 }
 
-auto about_way(const Vec3& origin, double radius, const Vec3& direction, double length) {
-  return [=](const auto& queries) { return queries.cast(Way{origin, radius, unit(direction), length}); };
+auto about_ray(const Vec3& origin, double radius, const Vec3& direction, double length) {
+  return [=](const auto& queries) { return queries.cast(SweptRay{origin, radius, unit(direction), length}); };
 }
 
 }  // namespace
 
-Result<std::vector<Found>> World::overlapping(const Vec3& centre, double radius) const {
-  return answer<Engine::Queries>(engine_.get(), Check(*this, "overlapping").idle(),
+Result<std::vector<OverlapHit>> World::overlapping(const Vec3& centre, double radius) const {
+  return answer<Engine::Queries>(engine_.get(), Preconditions(*this, "overlapping").idle(),
                                  fit_sphere(centre, radius), without_probe, about_sphere(centre, radius));
 }
 
-Result<std::vector<Found>> World::overlapping(const Vec3& centre, double radius, Probe probe) {
-  return answer<Engine::Queries>(engine_.get(), Check(*this, "overlapping").may_ask(probe),
-                                 fit_sphere(centre, radius), Refresher(*this, probe, "overlapping"),
+Result<std::vector<OverlapHit>> World::overlapping(const Vec3& centre, double radius, Probe probe) {
+  return answer<Engine::Queries>(engine_.get(), Preconditions(*this, "overlapping").may_ask(probe),
+                                 fit_sphere(centre, radius), StaleProber(*this, probe, "overlapping"),
                                  about_sphere(centre, radius));
 }
 
-Result<std::vector<Found>> World::overlapping(const Box& box) const {
-  return answer<Engine::Queries>(engine_.get(), Check(*this, "overlapping").idle(), fit_box(box),
+Result<std::vector<OverlapHit>> World::overlapping(const Box& box) const {
+  return answer<Engine::Queries>(engine_.get(), Preconditions(*this, "overlapping").idle(), fit_box(box),
                                  without_probe, about_box(box));
 }
 
-Result<std::vector<Found>> World::overlapping(const Box& box, Probe probe) {
-  return answer<Engine::Queries>(engine_.get(), Check(*this, "overlapping").may_ask(probe), fit_box(box),
-                                 Refresher(*this, probe, "overlapping"), about_box(box));
+Result<std::vector<OverlapHit>> World::overlapping(const Box& box, Probe probe) {
+  return answer<Engine::Queries>(engine_.get(), Preconditions(*this, "overlapping").may_ask(probe),
+                                 fit_box(box), StaleProber(*this, probe, "overlapping"), about_box(box));
 }
 
-Result<std::vector<Near>> World::nearest(const Vec3& point, std::size_t count) const {
-  return answer<Engine::Queries>(engine_.get(), Check(*this, "nearest").idle(), fit_point(point),
+Result<std::vector<NearestHit>> World::nearest(const Vec3& point, std::size_t count) const {
+  return answer<Engine::Queries>(engine_.get(), Preconditions(*this, "nearest").idle(), fit_point(point),
                                  without_probe, about_nearest(point, count));
 }
 
-Result<std::vector<Near>> World::nearest(const Vec3& point, std::size_t count, Probe probe) {
-  return answer<Engine::Queries>(engine_.get(), Check(*this, "nearest").may_ask(probe), fit_point(point),
-                                 Refresher(*this, probe, "nearest"), about_nearest(point, count));
+Result<std::vector<NearestHit>> World::nearest(const Vec3& point, std::size_t count, Probe probe) {
+  return answer<Engine::Queries>(engine_.get(), Preconditions(*this, "nearest").may_ask(probe),
+                                 fit_point(point), StaleProber(*this, probe, "nearest"),
+                                 about_nearest(point, count));
 }
 
-Result<std::vector<Hit>> World::ray_cast(const Vec3& origin, const Vec3& direction, double length) const {
-  return answer<Engine::Queries>(engine_.get(), Check(*this, "ray_cast").idle(),
-                                 fit_way(origin, 0.0, direction, length, "ray_cast"), without_probe,
-                                 about_way(origin, 0.0, direction, length));
+Result<std::vector<CastHit>> World::ray_cast(const Vec3& origin, const Vec3& direction, double length) const {
+  return answer<Engine::Queries>(engine_.get(), Preconditions(*this, "ray_cast").idle(),
+                                 fit_ray(origin, 0.0, direction, length, "ray_cast"), without_probe,
+                                 about_ray(origin, 0.0, direction, length));
 }
 
-Result<std::vector<Hit>> World::ray_cast(const Vec3& origin, const Vec3& direction, double length,
-                                         Probe probe) {
-  return answer<Engine::Queries>(engine_.get(), Check(*this, "ray_cast").may_ask(probe),
-                                 fit_way(origin, 0.0, direction, length, "ray_cast"),
-                                 Refresher(*this, probe, "ray_cast"),
-                                 about_way(origin, 0.0, direction, length));
+Result<std::vector<CastHit>> World::ray_cast(const Vec3& origin, const Vec3& direction, double length,
+                                             Probe probe) {
+  return answer<Engine::Queries>(engine_.get(), Preconditions(*this, "ray_cast").may_ask(probe),
+                                 fit_ray(origin, 0.0, direction, length, "ray_cast"),
+                                 StaleProber(*this, probe, "ray_cast"),
+                                 about_ray(origin, 0.0, direction, length));
 }
 
-Result<std::vector<Hit>> World::sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
-                                            double length) const {
-  return answer<Engine::Queries>(engine_.get(), Check(*this, "sphere_cast").idle(),
-                                 fit_way(origin, radius, direction, length, "sphere_cast"), without_probe,
-                                 about_way(origin, radius, direction, length));
+Result<std::vector<CastHit>> World::sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
+                                                double length) const {
+  return answer<Engine::Queries>(engine_.get(), Preconditions(*this, "sphere_cast").idle(),
+                                 fit_ray(origin, radius, direction, length, "sphere_cast"), without_probe,
+                                 about_ray(origin, radius, direction, length));
 }
 
-Result<std::vector<Hit>> World::sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
-                                            double length, Probe probe) {
-  return answer<Engine::Queries>(engine_.get(), Check(*this, "sphere_cast").may_ask(probe),
-                                 fit_way(origin, radius, direction, length, "sphere_cast"),
-                                 Refresher(*this, probe, "sphere_cast"),
-                                 about_way(origin, radius, direction, length));
+Result<std::vector<CastHit>> World::sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
+                                                double length, Probe probe) {
+  return answer<Engine::Queries>(engine_.get(), Preconditions(*this, "sphere_cast").may_ask(probe),
+                                 fit_ray(origin, radius, direction, length, "sphere_cast"),
+                                 StaleProber(*this, probe, "sphere_cast"),
+                                 about_ray(origin, radius, direction, length));
 }
 
 }  // namespace kinesphere

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "engine/engine.hpp"
+#include "engine/scoped_flag.hpp"
 #include "engine/validation.hpp"
-#include "engine/while_true.hpp"
 #include "world/changing.hpp"
-#include "world/check.hpp"
+#include "world/preconditions.hpp"
 
 namespace kinesphere {
 namespace {
@@ -28,46 +28,46 @@ Result<void> check_given(bool given, std::string_view argument) {
 
 }  // namespace
 
-std::optional<Event> World::Backlog::take() {
-  if (untold.empty()) return std::exchange(unanswered, std::nullopt);
-  std::optional<Event> first = untold.front();
-  untold.pop_front();
+std::optional<Event> World::UntoldEvents::take() {
+  if (events.empty()) return std::exchange(unanswered, std::nullopt);
+  std::optional<Event> first = events.front();
+  events.pop_front();
   return first;
 }
 
 /// An event whose answer is being worked out: back in the backlog unless that came to its end.
-class World::Run::Unanswered {
+class World::Run::UnansweredGuard {
  public:
-  Unanswered(Backlog& backlog, const Event& event) : backlog_(backlog), event_(event) {}
-  Unanswered(const Unanswered&) = delete;
-  Unanswered& operator=(const Unanswered&) = delete;
-  ~Unanswered() {
+  UnansweredGuard(UntoldEvents& backlog, const Event& event) : backlog_(backlog), event_(event) {}
+  UnansweredGuard(const UnansweredGuard&) = delete;
+  UnansweredGuard& operator=(const UnansweredGuard&) = delete;
+  ~UnansweredGuard() {
     if (!answered_) backlog_.unanswered = event_;
   }
   void is_answered() { answered_ = true; }
 
  private:
-  Backlog& backlog_;
+  UntoldEvents& backlog_;
   const Event& event_;
   bool answered_ = false;
 };
 
-Result<void> World::run(double until, Mover& mover, const Respond& respond, const Sink& sink,
+Result<void> World::run(double until, MotionSource& source, const ResponseFn& respond, const EventFn& sink,
                         Workers* workers) {
-  const Probe probe = [&mover](std::span<const BodyId> ids, double time, std::span<State> states) {
-    mover.states(ids, time, states);
+  const Probe probe = [&source](std::span<const BodyId> ids, double time, std::span<State> states) {
+    source.states(ids, time, states);
   };
-  auto valid = Check(*this, "run").idle();
+  auto valid = Preconditions(*this, "run").idle();
   if (valid) valid = check_given(static_cast<bool>(respond), "respond");
   if (valid) valid = check_given(static_cast<bool>(sink), "sink");
   if (!valid) return valid;
   Run run(*this, until, probe, sink, workers);
-  run.answer_by(mover, respond);
+  run.respond_by(source, respond);
   return run.go();
 }
 
-Result<void> World::run(double until, const Probe& probe, const Sink& sink, Workers* workers) {
-  auto valid = Check(*this, "run").may_ask(probe);
+Result<void> World::run(double until, const Probe& probe, const EventFn& sink, Workers* workers) {
+  auto valid = Preconditions(*this, "run").may_ask(probe);
   if (valid) valid = check_given(static_cast<bool>(sink), "sink");
   if (!valid) return valid;
   return Run(*this, until, probe, sink, workers).go();
@@ -75,12 +75,12 @@ Result<void> World::run(double until, const Probe& probe, const Sink& sink, Work
 
 Result<void> World::Run::go() {
   if (auto valid = check_time(until_, world_.time()); !valid) return renamed(valid.error());
-  if (!shift_) {
+  if (!lease_) {
     return Error{ErrorCode::workers_busy, "workers", no_body,
                  "run: workers must not be at work in another run, but are"};
   }
-  if (!world_.backlog_) world_.backlog_ = std::make_unique<Backlog>();
-  const WhileTrue running(world_.running_);
+  if (!world_.untold_) world_.untold_ = std::make_unique<UntoldEvents>();
+  const ScopedFlag running(world_.running_);
   tell();
   for (;;) {
     const auto done = work();
@@ -91,71 +91,71 @@ Result<void> World::Run::go() {
 }
 
 void World::Run::tell() {
-  std::deque<Event>& untold = world_.backlog_->untold;
+  std::deque<Event>& untold = world_.untold_->events;
   while (!untold.empty()) {
     const Event event = untold.front();
     untold.pop_front();
-    sink_(event);
+    on_event_(event);
   }
 }
 
 Result<bool> World::Run::work() {
   // A recording and the timings follow one event after the other.
-  const bool alone = shift_.count() == 1 || world_.recorder_ || world_.timing_ || !world_.backlog_->empty();
-  if (alone || world_.engine_->phase_end() == one_by_one_) return step();
+  const bool alone = lease_.count() == 1 || world_.recorder_ || world_.profiling_ || !world_.untold_->empty();
+  if (alone || world_.engine_->epoch_end() == one_by_one_) return step();
   return phase();
 }
 
 /// Many events at once, where that is possible.
 Result<bool> World::Run::phase() {
   Engine& engine = world_.changeable();
-  if (!islands_) islands_.emplace(engine.islands(shift_, probe_, respond_ != nullptr ? this : nullptr));
-  const auto done = engine.run_phase(until_, probe_, shift_, *islands_, world_.backlog_->untold);
+  if (!runner_) runner_.emplace(engine.runner(lease_, probe_, respond_ != nullptr ? this : nullptr));
+  const auto done = engine.run_epoch(until_, probe_, lease_, *runner_, world_.untold_->events);
   if (!done) return renamed(done.error());
   if (*done) return engine.time() == until_ && !engine.is_due();
-  one_by_one_ = engine.phase_end();
+  one_by_one_ = engine.epoch_end();
   return step();
 }
 
 /// One event.
 Result<bool> World::Run::step() {
-  Backlog& backlog = *world_.backlog_;
+  UntoldEvents& backlog = *world_.untold_;
   const auto event = next();
   if (!event) return renamed(event.error());
   if (!*event) return true;
   if (respond_ != nullptr) {
-    Unanswered unanswered(backlog, **event);
+    UnansweredGuard unanswered(backlog, **event);
     if (auto answered = answer_one(**event); !answered) return answered.error();
     unanswered.is_answered();
   }
-  backlog.untold.push_back(**event);
+  backlog.events.push_back(**event);
   return false;
 }
 
 Result<std::optional<Event>> World::Run::next() {
-  if (auto event = world_.backlog_->take()) return event;
+  if (auto event = world_.untold_->take()) return event;
   return world_.engine_advance(until_, probe_);
 }
 
 Result<void> World::Run::answer_one(const Event& event) {
-  const auto checked = answer(event);
+  const auto checked = respond(event);
   if (!checked) return checked.error();
-  if (auto turned = turn(event, *checked); !turned) return turned;
-  const auto kick = [this](BodyId body, const std::optional<Vec3>& velocity) {
+  if (auto turned = apply(event, *checked); !turned) return turned;
+  const auto update = [this](BodyId body, const std::optional<Vec3>& velocity) {
     if (velocity) world_.changing(step::SetVelocity{body, *velocity}).set_velocity(body, *velocity);
   };
-  kick(event.first, checked->first_velocity);
-  kick(event.second, checked->second_velocity);
+  update(event.first, checked->first_velocity);
+  update(event.second, checked->second_velocity);
   return {};
 }
 
-Result<Answer> World::Run::answer(const Event& event) {
-  const Answer answer = (*respond_)(event);
+Result<Response> World::Run::respond(const Event& event) {
+  const Response answer = (*respond_)(event);
   if (auto valid = check(event, answer); !valid) return valid.error();
   return answer;
 }
 
-Result<void> World::Run::check(const Event& event, const Answer& answer) const {
+Result<void> World::Run::check(const Event& event, const Response& answer) const {
   auto valid = check_kick(event, event.first, answer.first_velocity, "first_velocity");
   return valid ? check_kick(event, event.second, answer.second_velocity, "second_velocity") : valid;
 }
@@ -164,7 +164,7 @@ Result<void> World::Run::check_kick(const Event& event, BodyId body, const std::
                                     std::string_view argument) const {
   if (!velocity) return {};
   const auto check_for = [&](std::string_view call) {
-    auto valid = Check(world_, call).can_turn(body);
+    auto valid = Preconditions(world_, call).can_turn(body);
     return valid ? check_velocity(*velocity, body, world_.definition(), call) : valid;
   };
   if (check_for("run")) return {};

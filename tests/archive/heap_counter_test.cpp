@@ -11,7 +11,7 @@ struct Tree {
   std::vector<Tree> children;
   double value = 0.0;
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [below, number] = self;
     archive(below, number);
   }

@@ -80,9 +80,9 @@ TEST_P(Boxes, a_bound_stays_in_its_swept_box_as_long_as_that_was_meant_for) {
     Random random = Random::at(seed, k, 2);
     const PairCase c = GetParam().draw(random);
     Box box = swept_box(c.a, c.from, c.horizon);
-    const double room = Tightness{}.length * length_scale(c.a, c.horizon);
-    box.lower -= {room, room, room};
-    box.upper += {room, room, room};
+    const double margin = Tightness{}.length * length_scale(c.a, c.horizon);
+    box.lower -= {margin, margin, margin};
+    box.upper += {margin, margin, margin};
     const double got = earliest_exit(c.a, box, c.from, c.horizon);
     ASSERT_TRUE(hardly_early(got, infinity, c.from, c.horizon, 0.0))
         << "seed " << seed << ", case " << k << "\n"

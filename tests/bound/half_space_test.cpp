@@ -39,9 +39,9 @@ WallCase draw(const Family& family, Random& random, bool inside) {
   }
   const Vec3 now = c.bound.centre_at(c.from);
   const double later = c.from + (c.horizon - c.from) * random.uniform();
-  const double room = c.bound.radius_at(later) + (alongside ? 0.0 : norm(c.bound.centre_at(later) - now));
+  const double margin = c.bound.radius_at(later) + (alongside ? 0.0 : norm(c.bound.centre_at(later) - now));
   const double part = chance(random, 0.2) ? log_uniform(random, -50, -1) : 1.0;
-  const double gap = part * room * random.uniform();
+  const double gap = part * margin * random.uniform();
   if (inside) {
     c.wall.offset = dot(c.wall.normal, now) - c.bound.radius_at(c.from) - c.distance - gap;
   } else {

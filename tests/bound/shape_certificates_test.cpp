@@ -197,8 +197,8 @@ TEST(ShapeMeeting, OfFallingBalls) {
   const Bound over_corner{
       .position = {-0.3, -0.4, 5 + std::sqrt(0.75)}, .planned_acceleration = down, .radius = 1};
   EXPECT_NEAR(earliest_meeting(over_corner, flat, 0, 10), 1.0, tiny);
-  const Bound beside{.position = {2, -1.000001, 5}, .velocity = {0, 0, -5}, .radius = 1};
-  EXPECT_EQ(earliest_meeting(beside, flat, 0, infinity), infinity);
+  const Bound log{.position = {2, -1.000001, 5}, .velocity = {0, 0, -5}, .radius = 1};
+  EXPECT_EQ(earliest_meeting(log, flat, 0, infinity), infinity);
 }
 
 TEST(ShapeMeeting, OfACentreInsideABox) {
@@ -281,8 +281,8 @@ TEST(Mesh, NamesTheTriangleThatIsWrong) {
   EXPECT_EQ(std::get<Triangle>(good[1].shape), (Triangle{vertices[1], vertices[3], vertices[2]}));
   EXPECT_EQ(good[1].user_data, 1u);
   EXPECT_EQ(good[1].filter.category, 4u);
-  const auto refused = [&](const std::array<std::uint32_t, 3>& corners) {
-    const auto result = mesh(vertices, Corners{{0, 1, 2}, corners});
+  const auto refused = [&](const std::array<std::uint32_t, 3>& aabb) {
+    const auto result = mesh(vertices, Corners{{0, 1, 2}, aabb});
     EXPECT_FALSE(result);
     EXPECT_EQ(result.error().message.rfind("mesh: triangle 1: ", 0), 0u) << result.error().message;
     return result.error();

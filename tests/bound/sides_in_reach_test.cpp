@@ -33,7 +33,7 @@ double rounding_error(const BoxCase& c) {
 
 /// Contains the bound as it counts here: as large as it is in the end, and larger by half of what it turns.
 Box straightened_box(const Bound& bound, double from, double horizon) {
-  const MovedBound moved(bound, from);
+  const BoundAt moved(bound, from);
   const double duration = horizon - from;
   Bound straight{.time = from, .position = moved.centre, .velocity = moved.velocity};
   straight.radius = bound.radius_at(horizon) + 0.5 * norm_one(moved.acceleration) * duration * duration;
@@ -62,7 +62,7 @@ bool is_cleared(const Box& near, int axis) {
 }
 
 Box near_sides(const BoxCase& c) {
-  return sides_in_reach(MovedBound(c.bound, c.from), c.box, c.horizon - c.from, c.room);
+  return sides_in_reach(BoundAt(c.bound, c.from), c.box, c.horizon - c.from, c.room);
 }
 
 class SidesInReach : public FamilyTest<seed, in_a_box> {};
@@ -90,10 +90,10 @@ TEST_P(SidesInReach, are_cleared_where_the_straightened_way_stays_off) {
   for_each_case(1, [](const BoxCase& c, Random&) {
     const Box near = near_sides(c);
     const Box way = straightened_box(c.bound, c.from, c.horizon);
-    const double room = c.room + 2.0 * rounding_error(c);
+    const double margin = c.room + 2.0 * rounding_error(c);
     for (int axis = 0; axis < 3; ++axis) {
       const bool off =
-          way.lower[axis] - room > c.box.lower[axis] && way.upper[axis] + room < c.box.upper[axis];
+          way.lower[axis] - margin > c.box.lower[axis] && way.upper[axis] + margin < c.box.upper[axis];
       if (off) {
         EXPECT_TRUE(is_cleared(near, axis)) << axis;
       }
@@ -104,7 +104,7 @@ TEST_P(SidesInReach, are_cleared_where_the_straightened_way_stays_off) {
 INSTANTIATE_TEST_SUITE_P(Families, SidesInReach, testing::ValuesIn(all_families), family_name);
 
 TEST(SidesInReach, of_a_straight_way_are_exact) {
-  const MovedBound ball({.velocity = {1, -2, 0}, .radius = 1}, 0.0);
+  const BoundAt ball({.velocity = {1, -2, 0}, .radius = 1}, 0.0);
   const Box box{{-5, -5, -5}, {5, 5, 5}};
   const Box near = sides_in_reach(ball, box, 2.0, 0.5);
   EXPECT_TRUE(is_cleared(near, 0));
@@ -118,10 +118,10 @@ TEST(SidesInReach, of_a_straight_way_are_exact) {
 
 TEST(SidesInReach, are_all_that_there_are_where_a_number_is_none) {
   const Box box{{-5, -5, -5}, {5, 5, 5}};
-  EXPECT_EQ(sides_in_reach(MovedBound({.radius = 1}, 0.0), box, infinity, 0.0), box);
+  EXPECT_EQ(sides_in_reach(BoundAt({.radius = 1}, 0.0), box, infinity, 0.0), box);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(sides_in_reach(MovedBound({.velocity = {nan, nan, nan}}, 0.0), box, 1.0, 0.0), box);
-  EXPECT_EQ(sides_in_reach(MovedBound({.radius = nan}, 0.0), box, 1.0, 0.0), box);
+  EXPECT_EQ(sides_in_reach(BoundAt({.velocity = {nan, nan, nan}}, 0.0), box, 1.0, 0.0), box);
+  EXPECT_EQ(sides_in_reach(BoundAt({.radius = nan}, 0.0), box, 1.0, 0.0), box);
 }
 
 }  // namespace

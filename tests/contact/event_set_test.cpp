@@ -27,7 +27,7 @@ void expect_same(const EventSet& events, const std::set<Event, DeliveredBefore>&
   for (const Event& event : mirror) wanted.push_back(event.gap);
   ASSERT_EQ(found, wanted);
   ASSERT_EQ(events.empty(), mirror.empty());
-  ASSERT_TRUE(events.is_sound());
+  ASSERT_TRUE(events.is_valid());
 }
 
 TEST(EventSet, is_a_set) {
@@ -70,23 +70,23 @@ TEST(EventSet, asks_all_or_none) {
 }
 
 /// Bytes of a set with these parts, read back.
-bool is_sound(const std::optional<Event>& first, const std::set<Event, DeliveredBefore>& others) {
+bool is_valid(const std::optional<Event>& first, const std::set<Event, DeliveredBefore>& others) {
   ByteWriter writer;
   writer(first, others);
   ByteReader reader(writer.bytes());
   EventSet events;
   reader(events);
-  return !reader.failed() && reader.remaining() == 0 && events.is_sound();
+  return !reader.failed() && reader.remaining() == 0 && events.is_valid();
 }
 
 TEST(EventSet, that_was_read_is_sound_if_the_first_comes_first) {
   const Event a{.first = {1, 0}}, b{.first = {2, 0}};
-  EXPECT_TRUE(is_sound({}, {}));
-  EXPECT_TRUE(is_sound(a, {}));
-  EXPECT_TRUE(is_sound(a, {b}));
-  EXPECT_FALSE(is_sound(b, {a}));
-  EXPECT_FALSE(is_sound(a, {a}));
-  EXPECT_FALSE(is_sound({}, {a}));
+  EXPECT_TRUE(is_valid({}, {}));
+  EXPECT_TRUE(is_valid(a, {}));
+  EXPECT_TRUE(is_valid(a, {b}));
+  EXPECT_FALSE(is_valid(b, {a}));
+  EXPECT_FALSE(is_valid(a, {a}));
+  EXPECT_FALSE(is_valid({}, {a}));
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ std::unique_ptr<Motion> empty_motion(const Scene& scene) {
 std::vector<Part> parts_at(const Setting& setting, double time, std::vector<OrderedEvent>& told) {
   const std::unique_ptr<Motion> motion = setting.scene.motion->clone();
   DistributedWorld world = spread(setting, *motion);
-  const Respond respond = [&](const Event& event) { return setting.answer(event); };
+  const ResponseFn respond = [&](const Event& event) { return setting.answer(event); };
   world.run(time, respond, [&](const OrderedEvent& event) { told.push_back(event); }).value();
   Communicator communicator;
   return communicator.gather(world.save().value());

@@ -39,7 +39,7 @@ struct Fixture {
   std::unique_ptr<Motion> motion = setting.scene.motion->clone();
   DistributedWorld world = spread(setting, *motion);
 
-  Result<void> run(const Respond& respond, const OrderedSink& sink) {
+  Result<void> run(const ResponseFn& respond, const OrderedEventFn& sink) {
     return world.run(setting.scene.end_time, respond, sink);
   }
   void expect_over() {
@@ -70,9 +70,9 @@ class Failing final : public Motion {
   Result<void> set_velocity(std::uint32_t body, double t, const Vec3& velocity) override {
     return inner_->set_velocity(body, t, velocity);
   }
-  Departure departure(std::uint32_t body) const override { return inner_->departure(body); }
-  Result<void> depart(std::uint32_t body, const Departure& departure) override {
-    return inner_->depart(body, departure);
+  MotionOrigin origin(std::uint32_t body) const override { return inner_->origin(body); }
+  Result<void> set_origin(std::uint32_t body, const MotionOrigin& origin) override {
+    return inner_->set_origin(body, origin);
   }
   Result<void> remove(std::uint32_t body) override { return inner_->remove(body); }
   Result<void> write_body(std::uint32_t body, std::vector<std::byte>& bytes) const override {
@@ -159,8 +159,8 @@ TEST(DistributedFailures, OfBodiesThatCannotMoveEndAllRanks) {
 
 TEST(DistributedFailures, OfAnAnswerEndAllRanks) {
   Fixture fixture;
-  const Respond respond = [&](const Event& event) {
-    Answer answer = fixture.setting.answer(event);
+  const ResponseFn respond = [&](const Event& event) {
+    Response answer = fixture.setting.answer(event);
     if (event.time > 0.4 && answer.first_velocity) answer.first_velocity->y = std::nan("");
     return answer;
   };
@@ -171,7 +171,7 @@ TEST(DistributedFailures, OfAnAnswerEndAllRanks) {
 
 TEST(DistributedFailures, OfTheSinkEndAllRanks) {
   Fixture fixture;
-  const Respond respond = [&](const Event& event) { return fixture.setting.answer(event); };
+  const ResponseFn respond = [&](const Event& event) { return fixture.setting.answer(event); };
   const auto sink = [&](const OrderedEvent& event) {
     if (fixture.world.rank() == 0 && event.event.time > 0.3) throw std::runtime_error("the disk is full");
   };
@@ -188,7 +188,7 @@ TEST(DistributedFailures, OfNamesThatAreThereTwice) {
   const std::uint32_t mine =
       fixture.world.rank() == 0 ? 0u : static_cast<std::uint32_t>(fixture.world.rank());
   fixture.world.add(index, fixture.setting.body(mine), mine).value();
-  expect_everywhere(fixture.run([](const Event&) { return Answer{}; }, [](const OrderedEvent&) {}),
+  expect_everywhere(fixture.run([](const Event&) { return Response{}; }, [](const OrderedEvent&) {}),
                     ErrorCode::out_of_range, "index must be that of no other body");
 }
 

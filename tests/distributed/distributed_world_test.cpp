@@ -55,7 +55,7 @@ TEST(DistributedWorld, TellsOfAGasInASpaceThatRepeats) {
   expect_the_same_as_alone({.scene = scene_of(parameters)}, 100);
 }
 
-/// Islands are large, and their bodies come to ranks while these are at work.
+/// SpeculativeRunner are large, and their bodies come to ranks while these are at work.
 TEST(DistributedWorld, TellsOfADenseGasWithSensors) {
   SceneParameters parameters = parameters_of("gas", 220, 0.5);
   parameters.packing = 0.45;
@@ -75,7 +75,7 @@ TEST(DistributedWorld, TellsOfDrones) {
   parameters.speed_min = parameters.speed_max = 15.0;
   parameters.limit_min = parameters.limit_max = 5.0;
   parameters.box = {{0, 0, 0}, {400, 400, 40}};
-  parameters.response = Response::pass_through;
+  parameters.response = SceneResponse::pass_through;
   parameters.seconds = 5.0;
   Setting setting{.scene = scene_of(parameters), .sensors = true, .position_error = 0.01};
   setting.distances = {5.0, 20.0};
@@ -139,7 +139,7 @@ TEST(DistributedWorld, TellsOfManyThingsAtOneInstant) {
       scene.bodies.push_back({.radius = 1.0});
     }
     scene.motion = Ballistic::create({.start = states}).value().clone();
-    scene.response = Response::bounce;
+    scene.response = SceneResponse::bounce;
     scene.end_time = 6.0;
     expect_the_same_as_alone({.scene = std::move(scene)}, 500);
   }
@@ -160,7 +160,7 @@ TEST(DistributedWorld, TellsOfManyPairsThatAreDueAtOneInstant) {
     scene.bodies.push_back({.radius = 1.5});
   }
   scene.motion = RandomForces::create(forces).value().clone();
-  scene.response = Response::bounce;
+  scene.response = SceneResponse::bounce;
   scene.end_time = 3.0;
   expect_the_same_as_alone({.scene = std::move(scene)}, 200);
 }
@@ -177,7 +177,7 @@ TEST(DistributedWorld, TellsOfChainsThroughAllOfSpace) {
     }
   }
   scene.motion = Ballistic::create({.start = states}).value().clone();
-  scene.response = Response::bounce;
+  scene.response = SceneResponse::bounce;
   scene.end_time = 3.0;
   expect_the_same_as_alone({.scene = std::move(scene)}, 200);
 }
@@ -188,7 +188,7 @@ TEST(DistributedWorld, CanBeGivenMoreBodiesLater) {
   Setting setting{.scene = scene_of(parameters)};
   const std::unique_ptr<Motion> motion = setting.scene.motion->clone();
   const auto late = [](std::uint32_t number) { return number % 10 == 7; };
-  const Respond respond = [&](const Event& event) { return setting.answer(event); };
+  const ResponseFn respond = [&](const Event& event) { return setting.answer(event); };
 
   RunOutcome one;
   EventHash hash;
@@ -202,9 +202,9 @@ TEST(DistributedWorld, CanBeGivenMoreBodiesLater) {
   // In one world a body's index is its place in this order.
   Setting ordered{.scene = scene_of(parameters)};
   for (std::size_t k = 0; k < order.size(); ++k) ordered.scene.bodies[k] = setting.scene.bodies[order[k]];
-  const Respond ordered_respond = [&](const Event& event) { return ordered.answer(event); };
-  const auto body_at = [&](std::uint32_t place, const Motion& mover, double time) {
-    BodyDefinition body = mover.definition(order[place], time);
+  const ResponseFn ordered_respond = [&](const Event& event) { return ordered.answer(event); };
+  const auto body_at = [&](std::uint32_t place, const Motion& source, double time) {
+    BodyDefinition body = source.definition(order[place], time);
     body.radius = ordered.scene.bodies[place].radius;
     return body;
   };
@@ -212,8 +212,8 @@ TEST(DistributedWorld, CanBeGivenMoreBodiesLater) {
   for (const double until : {1.0, 2.0}) {
     for (; place < order.size() && late(order[place]) == (until == 2.0); ++place)
       map.add(world, *motion, order[place], body_at(place, *motion, world.time())).value();
-    BodyMap::MapMover mover = map.mover();
-    world.run(until, mover, ordered_respond, sink).value();
+    BodyMap::MapSource source = map.source();
+    world.run(until, source, ordered_respond, sink).value();
   }
 
   const std::unique_ptr<Motion> spread_motion = setting.scene.motion->clone();

@@ -55,16 +55,16 @@ struct Setting {
     return body;
   }
   Sensor sensor() const { return {.distances = distances}; }
-  Answer answer(const Event& event) const {
+  Response answer(const Event& event) const {
     const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
-    if (scene.response != Response::bounce || !begins || event.approach_speed <= 0.0) return {};
+    if (scene.response != SceneResponse::bounce || !begins || event.approach_speed <= 0.0) return {};
     const auto mass = [&](BodyId body) {
       const double radius = scene.bodies[body.index].radius;
       return radius * radius * radius;
     };
     const double second = event.second == no_body ? 1.0 : mass(event.second);
     const Bounce after = bounce(event, mass(event.first), second, scene.restitution);
-    Answer answer{after.first_velocity, std::nullopt};
+    Response answer{after.first_velocity, std::nullopt};
     if (event.second != no_body) answer.second_velocity = after.second_velocity;
     return answer;
   }
@@ -82,9 +82,9 @@ inline RunOutcome alone(const Setting& setting) {
     outcome.events.push_back(event);
     hash.add(event);
   };
-  const Respond respond = [&](const Event& event) { return setting.answer(event); };
-  MotionMover mover(*motion);
-  world.run(scene.end_time, mover, respond, sink).value();
+  const ResponseFn respond = [&](const Event& event) { return setting.answer(event); };
+  SingleMotionSource source(*motion);
+  world.run(scene.end_time, source, respond, sink).value();
   outcome.counters = world.counters();
   outcome.hash = hash.value();
   return outcome;
@@ -131,7 +131,7 @@ inline RunOutcome finish(const Setting& setting, DistributedWorld& world,
     }
     told.push_back(event);
   };
-  const Respond respond = [&](const Event& event) { return setting.answer(event); };
+  const ResponseFn respond = [&](const Event& event) { return setting.answer(event); };
   const double begin = world.time();
   for (int slice = 1; slice <= setting.slices; ++slice) {
     const double part = static_cast<double>(slice) / setting.slices;

@@ -56,7 +56,7 @@ TEST(Result, ThatIsTemporaryGivesItsValueAndNoReferenceIntoItself) {
   World world = World::create({}).value();
   world.add_all(std::vector<BodyDefinition>(3)).value();
   std::size_t found = 0;
-  for (const Found& each : *world.overlapping({0, 0, 0}, 100.0)) found += each.body.index + 1u;
+  for (const OverlapHit& each : *world.overlapping({0, 0, 0}, 100.0)) found += each.body.index + 1u;
   EXPECT_EQ(found, 6u);
 }
 

@@ -11,7 +11,7 @@ namespace kinesphere::certainty_test {
 namespace {
 
 Verdict verdict_at(const Separation& separation, double tolerance, const Vec3& way,
-                   const Spread& error = {}) {
+                   const ErrorBound& error = {}) {
   Monitor monitor = Monitor::create({.classes = {{.acceleration_limit = 0.0}},
                                      .separations = {{0, 0, {separation}}},
                                      .tolerance = tolerance})
@@ -25,9 +25,9 @@ Verdict verdict_at(const Separation& separation, double tolerance, const Vec3& w
 TEST(MonitorCertainty, WithinATallEllipsoidIsNoFartherOutsideThanTheTolerance) {
   const Separation tall = Separation::ellipsoid(1.0, 1000.0);
   EXPECT_EQ(verdict_at(tall, 0.5, {0, 0, 999.9}), Verdict::within);
-  EXPECT_EQ(verdict_at(tall, 0.5, {0, 0, 1249.0}, Spread::cylinder(0, 250)), Verdict::undecided);
-  EXPECT_NE(verdict_at(tall, 0.5, {0, 0, 999.0}, Spread::cylinder(0, 2.0)), Verdict::within);
-  EXPECT_EQ(verdict_at(tall, 0.5, {0, 0, 999.0}, Spread::cylinder(0, 1.4)), Verdict::within);
+  EXPECT_EQ(verdict_at(tall, 0.5, {0, 0, 1249.0}, ErrorBound::cylinder(0, 250)), Verdict::undecided);
+  EXPECT_NE(verdict_at(tall, 0.5, {0, 0, 999.0}, ErrorBound::cylinder(0, 2.0)), Verdict::within);
+  EXPECT_EQ(verdict_at(tall, 0.5, {0, 0, 999.0}, ErrorBound::cylinder(0, 1.4)), Verdict::within);
   EXPECT_EQ(verdict_at(tall, 0.5, {0, 0, 1000.1}), Verdict::apart);
 }
 
@@ -79,10 +79,10 @@ TEST(MonitorCertainty, ReportsFromAfterNowLeaveRoomForTheirRoundings) {
                                        .separations = {{0, 0, {Separation::sphere(1.0)}}},
                                        .tolerance = 1e-6})
                           .value();
-    monitor.report(1, {.stamp = ahead, .state = {{position, 0, 0}, {velocity, 0, 0}}}).value();
+    monitor.report(1, {.timestamp = ahead, .state = {{position, 0, 0}, {velocity, 0, 0}}}).value();
     const auto other = static_cast<double>(truth + 1.0L);
     const long double distance = static_cast<long double>(other) - truth;
-    monitor.report(2, {.stamp = 0.0, .state = {{other, 0, 0}, {velocity, 0, 0}}}).value();
+    monitor.report(2, {.timestamp = 0.0, .state = {{other, 0, 0}, {velocity, 0, 0}}}).value();
     const PairAnswer answer = monitor.answer(1, 2).value();
     EXPECT_LE(answer.lower, distance) << position << ' ' << velocity << ' ' << ahead;
     EXPECT_GE(answer.upper, distance) << position << ' ' << velocity << ' ' << ahead;
@@ -97,8 +97,8 @@ TEST(MonitorCertainty, ReportsFromAfterNowCountInFullFromTheirStamp) {
                                      .classes = {{.acceleration_limit = 2.0}},
                                      .separations = {{0, 0, {Separation::sphere(10.0)}}}})
                         .value();
-  monitor.report(1, {.stamp = 10.0}).value();
-  monitor.report(2, {.stamp = 10.0, .state = {{40, 0, 0}, {}}}).value();
+  monitor.report(1, {.timestamp = 10.0}).value();
+  monitor.report(2, {.timestamp = 10.0, .state = {{40, 0, 0}, {}}}).value();
   std::vector<MonitorEvent> events;
   for (const MonitorEvent& event : monitor.events(10.0)) events.push_back(event);
   ASSERT_EQ(events.size(), 2u);
@@ -115,11 +115,11 @@ TEST(MonitorCertainty, AnswersKeepWhatWasCertifiedBefore) {
                                      .separations = {{0, 0, {Separation::sphere(20.0)}}},
                                      .window = 4.0})
                         .value();
-  monitor.report(1, {.stamp = 0.5}).value();
-  monitor.report(2, {.stamp = 0.5, .state = {{30, 0, 0}, {}}}).value();
+  monitor.report(1, {.timestamp = 0.5}).value();
+  monitor.report(2, {.timestamp = 0.5, .state = {{30, 0, 0}, {}}}).value();
   EXPECT_TRUE(monitor.advance(1.0).value() == std::nullopt);
   // By itself this report, which soon will say more than the first one, leaves open what was called apart.
-  TrackReport rough{.stamp = 1.0, .position_error = 15.0};
+  TrackReport rough{.timestamp = 1.0, .position_error = 15.0};
   rough.plan = TrackReport::Plan{.acceleration = {}, .acceleration_limit = 0.0};
   monitor.report(1, rough).value();
   EXPECT_TRUE(monitor.advance(1.0).value() == std::nullopt);

@@ -16,7 +16,7 @@ MonitorDefinition definition() {
 }
 
 TrackReport at(double stamp, const Vec3& position, const Vec3& velocity = {}) {
-  return {.stamp = stamp, .state = {position, velocity}};
+  return {.timestamp = stamp, .state = {position, velocity}};
 }
 
 std::size_t events_until(Monitor& monitor, double time) {
@@ -54,7 +54,7 @@ TEST(MonitorClock, StartsAtTheFirstTimeThatItIsAdvancedTo) {
 
 TEST(MonitorClock, IsNotSetByAReportThatIsRefused) {
   Monitor monitor = Monitor::create(definition()).value();
-  EXPECT_FALSE(monitor.report(1, {.stamp = 5.0, .track_class = 3}));
+  EXPECT_FALSE(monitor.report(1, {.timestamp = 5.0, .track_class = 3}));
   EXPECT_EQ(monitor.time(), 0.0);
   monitor.report(1, at(4.0, {})).value();
   EXPECT_EQ(monitor.time(), 4.0);
@@ -72,7 +72,7 @@ void expect_few_steps(MonitorDefinition definition, double start, double first, 
     EXPECT_EQ(monitor.time(), std::max(start, time));
   }
   EXPECT_LT(monitor.counters().windows, 10'000u) << start << ' ' << first << ' ' << step;
-  EXPECT_LT(monitor.counters().looks, 100'000u) << start << ' ' << first << ' ' << step;
+  EXPECT_LT(monitor.counters().rechecks, 100'000u) << start << ' ' << first << ' ' << step;
 }
 
 TEST(MonitorClock, GetsAnywhereInFewSteps) {
@@ -122,7 +122,7 @@ TEST(MonitorClock, RefusesWhatCannotWork) {
   }
   Monitor monitor = Monitor::create(definition()).value();
   EXPECT_EQ(monitor.advance(1e31).error().code, ErrorCode::out_of_range);
-  EXPECT_EQ(monitor.report(1, {.stamp_error = 1e31}).error().code, ErrorCode::out_of_range);
+  EXPECT_EQ(monitor.report(1, {.timestamp_error = 1e31}).error().code, ErrorCode::out_of_range);
 }
 
 }  // namespace

@@ -16,10 +16,10 @@ Monitor watching() {
                                      .classes = {{.acceleration_limit = 1.0, .largest_speed = 100.0}},
                                      .separations = {{0, 0, {Separation::sphere(5.0)}}}})
                         .value();
-  TrackReport planned{.stamp = 0.0, .state = {{0, 900, 0}, {}}};
+  TrackReport planned{.timestamp = 0.0, .state = {{0, 900, 0}, {}}};
   planned.plan = TrackReport::Plan{{0, 0, 0.5}, 0.5, 1.5};
   monitor.report(1, planned).value();
-  monitor.report(2, {.stamp = 0.0, .state = {{0, 0, 0}, {20, 0, 0}}}).value();
+  monitor.report(2, {.timestamp = 0.0, .state = {{0, 0, 0}, {20, 0, 0}}}).value();
   return monitor;
 }
 
@@ -27,7 +27,7 @@ Monitor watching() {
 /// start took its layer away, and it was never found again.
 void expect_to_see_who_comes_then(Monitor monitor) {
   ASSERT_EQ(monitor.time(), 1.0);
-  monitor.report(3, {.stamp = 1.0, .state = {{50, 0, 0}, {-20, 0, 0}}}).value();
+  monitor.report(3, {.timestamp = 1.0, .state = {{50, 0, 0}, {-20, 0, 0}}}).value();
   const auto restored = Monitor::restore(monitor.save());
   EXPECT_TRUE(restored) << restored.error().message;
   std::vector<MonitorEvent> events;
@@ -44,7 +44,8 @@ TEST(FailedPoll, LosesNobodyAfterABadAnswer) {
   Monitor monitor = watching();
   const auto failed = monitor.advance(1.5, [](auto, double time, auto reports) {
     for (auto& report : reports)
-      report = TrackReport{.stamp = time, .state = {{std::numeric_limits<double>::quiet_NaN(), 0, 0}, {}}};
+      report =
+          TrackReport{.timestamp = time, .state = {{std::numeric_limits<double>::quiet_NaN(), 0, 0}, {}}};
   });
   ASSERT_FALSE(failed);
   expect_to_see_who_comes_then(std::move(monitor));

@@ -24,7 +24,7 @@ MonitorDefinition definition(double acceleration_limit = 2.0) {
 Monitor made(const MonitorDefinition& definition) { return Monitor::create(definition).value(); }
 
 TrackReport at(double stamp, const Vec3& position, const Vec3& velocity = {}) {
-  return {.stamp = stamp, .state = {position, velocity}};
+  return {.timestamp = stamp, .state = {position, velocity}};
 }
 
 /// The message names what is wrong.
@@ -125,7 +125,7 @@ TEST(Monitor, CountsTheErrorsOfEachReportByItself) {
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].verdict, Verdict::apart);
   // One that is less exact does not spoil what is known.
-  rough.stamp = 0.75;
+  rough.timestamp = 0.75;
   monitor.report(1, rough).value();
   EXPECT_TRUE(all(monitor.events(2.0)).empty());
 }
@@ -228,8 +228,8 @@ TEST(Monitor, FindsAContradictionInVelocities) {
 
 TEST(Monitor, TellsOfSilenceAndForgets) {
   MonitorDefinition one = definition();
-  one.silence_after = 5.0;
-  one.forget_after = 60.0;
+  one.stale_after = 5.0;
+  one.drop_after = 60.0;
   Monitor monitor = made(one);
   monitor.report(1, at(0.0, {0, 0, 0})).value();
   monitor.report(2, at(0.0, {5, 0, 0})).value();
@@ -237,17 +237,17 @@ TEST(Monitor, TellsOfSilenceAndForgets) {
   monitor.report(2, at(0.0, {5, 0, 0})).value();  // repeated: nothing new
   auto events = all(monitor.events(50.0));
   ASSERT_EQ(events.size(), 3u);
-  EXPECT_EQ(events[1].kind, MonitorEventKind::silent);
+  EXPECT_EQ(events[1].kind, MonitorEventKind::stale);
   EXPECT_EQ(events[1].time, 5.0);
   EXPECT_EQ(events[2].first, 2u);
-  EXPECT_TRUE(monitor.track(1)->silent);
+  EXPECT_TRUE(monitor.track(1)->stale);
   monitor.report(2, at(49.0, {5, 0, 0})).value();
   events = all(monitor.events(200.0));
   ASSERT_EQ(events.size(), 4u);
-  EXPECT_EQ(events[0].kind, MonitorEventKind::heard);
-  EXPECT_EQ(events[1].kind, MonitorEventKind::silent);
+  EXPECT_EQ(events[0].kind, MonitorEventKind::resumed);
+  EXPECT_EQ(events[1].kind, MonitorEventKind::stale);
   EXPECT_EQ(events[1].time, 54.0);
-  EXPECT_EQ(events[2].kind, MonitorEventKind::left);
+  EXPECT_EQ(events[2].kind, MonitorEventKind::dropped);
   EXPECT_EQ(events[2].first, 1u);
   EXPECT_EQ(events[2].time, 60.0);
   EXPECT_EQ(events[3].time, 109.0);
@@ -302,7 +302,7 @@ TEST(Monitor, APlanHoldsUntilItEnds) {
 TEST(Monitor, AStampMayBeWrongByItsError) {
   Monitor monitor = made(definition(2.0));
   TrackReport report = at(0.0, {0, 0, 0}, {3, 4, 0});
-  report.stamp_error = 2.0;
+  report.timestamp_error = 2.0;
   monitor.report(1, report).value();
   // 5 m/s for 2 s, and 1/2 2 2^2.
   EXPECT_NEAR(monitor.track(1)->places[0].radius.total(), 14.0, 1e-6);
@@ -320,7 +320,7 @@ TEST(Monitor, ACylinderHasTwoLimits) {
   monitor.report(2, at(20.0, {30, 0, 10}, {-5, 0, -1.25})).value();
   const auto more = all(monitor.events(40.0));
   ASSERT_GE(more.size(), 3u);
-  EXPECT_EQ(more[0].kind, MonitorEventKind::left);
+  EXPECT_EQ(more[0].kind, MonitorEventKind::dropped);
   EXPECT_NEAR(more[1].time, 26.4, 2e-3);
   EXPECT_NEAR(more.back().time, 28.0, 2e-3);
 }
@@ -416,7 +416,7 @@ TEST(Monitor, NamesTheTracksOfACrowd) {
                                      .separations = {{0, 0, {Separation::sphere(10.0)}}}})
                         .value();
   const auto report = [&](TrackId id, double x) {
-    monitor.report(id, {.stamp = 0.0, .state = {{x, 0, 0}, {}}, .position_error = 1.0}).value();
+    monitor.report(id, {.timestamp = 0.0, .state = {{x, 0, 0}, {}}, .position_error = 1.0}).value();
   };
   // Five at one spot make ten pairs, and two elsewhere one.
   for (TrackId id = 1; id <= 5; ++id) report(id, 0.1 * static_cast<double>(id));

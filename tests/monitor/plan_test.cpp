@@ -19,7 +19,7 @@ Monitor made() {
 }
 
 TrackReport at(double stamp, double height, double speed = 0.0) {
-  return {.stamp = stamp, .state = {{0, 0, height}, {0, 0, speed}}};
+  return {.timestamp = stamp, .state = {{0, 0, height}, {0, 0, speed}}};
 }
 
 TrackReport falls(double stamp, double height, double speed = 0.0, double until = infinity) {
@@ -107,7 +107,7 @@ TEST(MonitorPlan, CountsFromAStampThatMayBeWrong) {
     Monitor monitor = made();
     monitor.report(2, at(0.0, 0.0)).value();
     TrackReport report = falls(0.0, 100.0);
-    report.stamp_error = 0.3;
+    report.timestamp_error = 0.3;
     monitor.report(1, report).value();
     go_to(monitor, 4.6, height);
   }
@@ -120,7 +120,7 @@ TEST(MonitorPlan, ThatIsLateKeepsTheLatestState) {
   monitor.report(1, at(1.0, 95.0, -10.0)).value();
   monitor.report(1, falls(0.0, 100.0)).value();
   EXPECT_EQ(monitor.counters().contradictions, 0u);
-  EXPECT_EQ(monitor.track(1)->stamp, 1.0);
+  EXPECT_EQ(monitor.track(1)->timestamp, 1.0);
   EXPECT_NEAR(monitor.track(1)->places[0].radius.total(), 0.0, 1e-9);
   go_to(monitor, 4.4, [](double t) { return 100.0 - 5.0 * t * t; });
 }

@@ -72,7 +72,7 @@ class RandomSky : public testing::TestWithParam<Sky> {
     for (std::uint32_t k = 0; k < sky.tracks; ++k) {
       for (double time = next[k]; time < until; time += sky.interval * random.uniform(0.2, 1.8)) {
         const State exact = seen(sky, truth.state(k, time));
-        TrackReport report{.stamp = time, .state = exact};
+        TrackReport report{.timestamp = time, .state = exact};
         report.position_error = sky.error;
         report.velocity_error = sky.velocity_error;
         report.state.position += seen(sky, {sky.error * random.point_in_ball(), {}}).position;
@@ -132,10 +132,10 @@ TEST_P(RandomSky, IsNeverWrongWhereItIsCertain) {
           const State x = seen(sky, truth.state(static_cast<std::uint32_t>(id - 100), time));
           const State y = seen(sky, truth.state(static_cast<std::uint32_t>(other - 100), time));
           const auto ahead = [&](const TrackReport& last) {
-            return last.state.position + last.state.velocity * (time - last.stamp);
+            return last.state.position + last.state.velocity * (time - last.timestamp);
           };
           const auto radius = [&](const TrackReport& last) {
-            const double s = time - last.stamp;
+            const double s = time - last.timestamp;
             return sky.error + (sky.velocity_error + 0.5 * sky.limit * s) * s;
           };
           const double doubt = radius(report) + radius(other_report);
@@ -185,7 +185,7 @@ TEST_P(RandomSky, IsNeverWrongWhereItIsCertain) {
       go_to(arrival.time);
       monitor.report(arrival.id, arrival.report).value();
       TrackReport& last = latest[arrival.id];
-      if (last.stamp <= arrival.report.stamp) last = arrival.report;
+      if (last.timestamp <= arrival.report.timestamp) last = arrival.report;
       go_to(arrival.time);
     }
     EXPECT_EQ(undecided_needlessly, 0);

@@ -12,16 +12,16 @@
 namespace kinesphere::share_test {
 namespace {
 
-MonitorDefinition definition(PairShare share) {
+MonitorDefinition definition(Shard share) {
   return {.classes = {{.acceleration_limit = 4.0, .largest_speed = 20.0}},
           .separations = {{0, 0, {Separation::sphere(5.0), Separation::cylinder(3.0, 1.0)}}},
-          .silence_after = 4.0,
-          .forget_after = 9.0,
-          .share = share};
+          .stale_after = 4.0,
+          .drop_after = 9.0,
+          .shard = share};
 }
 
 /// The events of a share after the same reports: late ones, wrong ones, tracks that leave.
-std::vector<MonitorEvent> watch(PairShare share) {
+std::vector<MonitorEvent> watch(Shard share) {
   Monitor monitor = Monitor::create(definition(share)).value();
   Random random(11);
   std::vector<MonitorEvent> events;
@@ -36,8 +36,8 @@ std::vector<MonitorEvent> watch(PairShare share) {
       continue;
     }
     TrackReport report{
-        .stamp = time - random.uniform(0.0, 0.4), .position_error = 0.5, .velocity_error = 0.5};
-    const double angle = 0.3 * report.stamp + static_cast<double>(id);
+        .timestamp = time - random.uniform(0.0, 0.4), .position_error = 0.5, .velocity_error = 0.5};
+    const double angle = 0.3 * report.timestamp + static_cast<double>(id);
     report.state = {{30 * std::cos(angle), 30 * std::sin(angle), 0.5 * static_cast<double>(id % 7)},
                     {-9 * std::sin(angle), 9 * std::cos(angle), 0}};
     if (k % 60 == 59) report.state.position.x += 200;
@@ -57,14 +57,14 @@ TEST(MonitorShare, SharesTellTogetherWhatOneTells) {
       std::vector<MonitorEvent> expected;
       std::copy_if(all.begin(), all.end(), std::back_inserter(expected),
                    [&](const MonitorEvent& event) { return event.first % of == share; });
-      const PairShare one{.of = of, .first = share};
+      const Shard one{.of = of, .first = share};
       EXPECT_EQ(watch(one), expected) << share << " of " << of;
       told += expected.size();
     }
     EXPECT_EQ(told, all.size());
   }
   // Shares that are watched together.
-  const PairShare several{.of = 8, .first = 3, .count = 4};
+  const Shard several{.of = 8, .first = 3, .count = 4};
   std::vector<MonitorEvent> expected;
   std::copy_if(all.begin(), all.end(), std::back_inserter(expected),
                [&](const MonitorEvent& event) { return several.contains(event.first); });
@@ -77,13 +77,13 @@ TEST(MonitorShare, AnswersForItsOwnPairsAlone) {
   EXPECT_TRUE(monitor.answer(1, 2));
   EXPECT_TRUE(monitor.answer(3, 1));
   expect_error(monitor.answer(2, 3), ErrorCode::out_of_range, "second", "answer");
-  EXPECT_EQ(Monitor::restore(monitor.save())->definition().share, (PairShare{.of = 2, .first = 1}));
+  EXPECT_EQ(Monitor::restore(monitor.save())->definition().shard, (Shard{.of = 2, .first = 1}));
 }
 
 TEST(MonitorShare, IsChecked) {
-  for (const PairShare wrong : {PairShare{.of = 0}, PairShare{.of = 3, .count = 0},
-                                PairShare{.of = 3, .first = 3}, PairShare{.of = 3, .first = 2, .count = 2},
-                                PairShare{.of = 3, .first = ~std::uint64_t{0}, .count = 2}})
+  for (const Shard wrong :
+       {Shard{.of = 0}, Shard{.of = 3, .count = 0}, Shard{.of = 3, .first = 3},
+        Shard{.of = 3, .first = 2, .count = 2}, Shard{.of = 3, .first = ~std::uint64_t{0}, .count = 2}})
     expect_error(Monitor::create(definition(wrong)), ErrorCode::out_of_range, "share", "Monitor::create");
 }
 

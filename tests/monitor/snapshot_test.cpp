@@ -28,8 +28,8 @@ std::vector<MonitorEvent> drive(Monitor& monitor, int stretch) {
     go_to(time);
     const auto id = static_cast<TrackId>(random.uniform(0.0, static_cast<double>(tracks)));
     TrackReport report{
-        .stamp = time - random.uniform(0.0, 0.5), .position_error = 0.5, .velocity_error = 0.5};
-    const double angle = 0.3 * report.stamp + static_cast<double>(id);
+        .timestamp = time - random.uniform(0.0, 0.5), .position_error = 0.5, .velocity_error = 0.5};
+    const double angle = 0.3 * report.timestamp + static_cast<double>(id);
     // On a circle each; now and then somewhere else.
     report.state = {{30 * std::cos(angle), 30 * std::sin(angle), 0.5 * static_cast<double>(id % 7)},
                     {-9 * std::sin(angle), 9 * std::cos(angle), 0}};
@@ -46,8 +46,8 @@ std::vector<MonitorEvent> drive(Monitor& monitor, int stretch) {
 Monitor made() {
   return Monitor::create({.classes = {{.acceleration_limit = 4.0, .largest_speed = 20.0}},
                           .separations = {{0, 0, {Separation::sphere(5.0), Separation::cylinder(3.0, 1.0)}}},
-                          .silence_after = 4.0,
-                          .forget_after = 9.0})
+                          .stale_after = 4.0,
+                          .drop_after = 9.0})
       .value();
 }
 
@@ -73,8 +73,8 @@ std::vector<MonitorEvent> watch_dense_sky(std::uint64_t seed, bool is_restored_o
   Monitor monitor = Monitor::create({.classes = {{.acceleration_limit = 6.0, .largest_speed = 400.0}},
                                      .separations = {{0, 0, {Separation::sphere(500.0)}}},
                                      .window = 1.0,
-                                     .silence_after = 3.0,
-                                     .forget_after = 8.0})
+                                     .stale_after = 3.0,
+                                     .drop_after = 8.0})
                         .value();
   Random random(seed);
   std::vector<MonitorEvent> events;
@@ -85,7 +85,7 @@ std::vector<MonitorEvent> watch_dense_sky(std::uint64_t seed, bool is_restored_o
     const double stamp = time - random.uniform(0.0, 0.2),
                  angle = 0.25 * stamp + 1.7 * static_cast<double>(id);
     const double radius = 2000.0 + 100.0 * static_cast<double>(id % 9);
-    TrackReport report{.stamp = stamp, .position_error = 10.0, .velocity_error = 25.0};
+    TrackReport report{.timestamp = stamp, .position_error = 10.0, .velocity_error = 25.0};
     report.state = {{radius * std::cos(angle), radius * std::sin(angle), 0},
                     {-0.08 * radius * std::sin(angle), 0.08 * radius * std::cos(angle), 0}};
     monitor.report(id, report).value();
@@ -177,8 +177,8 @@ bool is_refused(const Bytes& damaged) {
 TEST(MonitorSnapshot, RefusesTwoHypothesesOfOneSlot) {
   constexpr double stamp = 0.15625;
   Monitor monitor = made();
-  monitor.report(3, {.stamp = 0.0}).value();
-  monitor.report(3, {.stamp = stamp, .state = {{500, 0, 0}, {}}}).value();
+  monitor.report(3, {.timestamp = 0.0}).value();
+  monitor.report(3, {.timestamp = stamp, .state = {{500, 0, 0}, {}}}).value();
   Bytes snapshot = monitor.save();
   const auto places = places_of(snapshot, stamp, std::uint32_t{1});
   ASSERT_EQ(places.size(), 1u);
@@ -193,9 +193,9 @@ TEST(MonitorSnapshot, RefusesWindowsThatEndApart) {
                                      .classes = {{.acceleration_limit = 4.0, .largest_speed = 20.0}},
                                      .separations = {{0, 0, {Separation::sphere(2.0)}}}})
                         .value();
-  monitor.report(1, {.stamp = 5.0}).value();
+  monitor.report(1, {.timestamp = 5.0}).value();
   // In a layer of larger capsules.
-  monitor.report(2, {.stamp = 5.0, .state = {{900, 0, 0}, {}}, .position_error = 300.0}).value();
+  monitor.report(2, {.timestamp = 5.0, .state = {{900, 0, 0}, {}}, .position_error = 300.0}).value();
   const Bytes snapshot = monitor.save();
   const auto places = places_of(snapshot, end);
   // The monitor's, two tracks', two layers', and that of the window which ends next.
@@ -216,8 +216,8 @@ TEST(MonitorSnapshot, RefusesWhatIsLeftOfATrack) {
   constexpr TrackId id = 0x1122334455667788;
   constexpr std::size_t size_of_none = 46;
   Monitor monitor = made();
-  monitor.report(1, {.stamp = 0.0}).value();
-  monitor.report(id, {.stamp = 0.0}).value();
+  monitor.report(1, {.timestamp = 0.0}).value();
+  monitor.report(id, {.timestamp = 0.0}).value();
   monitor.remove(1).value();
   while (monitor.advance(0.0).value()) continue;
   const Bytes snapshot = monitor.save();
@@ -235,7 +235,7 @@ TEST(MonitorSnapshot, RefusesWhatIsLeftOfATrack) {
 /// Lengths overflowed where a plan ended, or the largest speed was reached, after all times that there are.
 TEST(MonitorSnapshot, IsNotRefusedWhenAPlanOutlivesAllTimes) {
   Monitor monitor = made();
-  TrackReport report{.stamp = 0.0, .plan = TrackReport::Plan{{0, 0, 1}, 0.1, 1e200}};
+  TrackReport report{.timestamp = 0.0, .plan = TrackReport::Plan{{0, 0, 1}, 0.1, 1e200}};
   monitor.report(1, report).value();
   static_cast<void>(monitor.advance(1.0).value());
   const auto restored = Monitor::restore(monitor.save());

@@ -1,4 +1,5 @@
-// What Knowledge::is_sound() refuses of what was read: each of these would abort, or be believed, later on.
+// What TrackEstimate::is_valid() refuses of what was read: each of these would abort, or be believed, later
+// on.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +10,7 @@
 
 #include "archive/archive.hpp"
 #include "archive/fields.hpp"
-#include "monitor/knowledge.hpp"
+#include "monitor/track_estimate.hpp"
 #include "number/infinity.hpp"
 
 namespace kinesphere::soundness_test {
@@ -22,26 +23,26 @@ constexpr double now = 1.0;
 /// Two hypotheses: the second report contradicts the first one.
 Hypotheses contradicting() {
   const TrackClass promise{.acceleration_limit = 1.0, .largest_speed = 10.0};
-  Knowledge knowledge;
+  TrackEstimate estimate;
   for (const double x : {0.0, 500.0}) {
-    const TrackReport report{.stamp = now, .state = {{x, 0, 0}, {1, 0, 0}}, .position_error = 1.0};
-    knowledge.learn(report, promise, now, 1.0);
+    const TrackReport report{.timestamp = now, .state = {{x, 0, 0}, {1, 0, 0}}, .position_error = 1.0};
+    estimate.update(report, promise, now, 1.0);
   }
-  return {knowledge.hypotheses().begin(), knowledge.hypotheses().end()};
+  return {estimate.hypotheses().begin(), estimate.hypotheses().end()};
 }
 
-bool is_sound(const Hypotheses& hypotheses) {
+bool is_valid(const Hypotheses& hypotheses) {
   ByteWriter written;
   written(hypotheses);
   ByteReader reader(written.bytes());
-  Knowledge knowledge;
-  reader(knowledge);
-  return !reader.failed() && knowledge.is_sound(now);
+  TrackEstimate estimate;
+  reader(estimate);
+  return !reader.failed() && estimate.is_valid(now);
 }
 
 TEST(Soundness, WhatWasLearnedIsSound) {
   ASSERT_EQ(contradicting().size(), 2u);
-  EXPECT_TRUE(is_sound(contradicting()));
+  EXPECT_TRUE(is_valid(contradicting()));
 }
 
 TEST(Soundness, WhatCannotBeLearnedIsNot) {
@@ -57,35 +58,35 @@ TEST(Soundness, WhatCannotBeLearnedIsNot) {
          for (const std::uint32_t slot : {2u, 3u}) (all.push_back(all.back()), all.back().slot = slot);
        }},
       {"a slot that two have", [](Hypotheses& all) { all[1].slot = all[0].slot; }},
-      {"a slot that is none", [](Hypotheses& all) { all[1].slot = Knowledge::slots; }},
-      {"a stamp beyond all times", [](Hypotheses& all) { all[0].stamp = 1e31; }},
+      {"a slot that is none", [](Hypotheses& all) { all[1].slot = TrackEstimate::slots; }},
+      {"a stamp beyond all times", [](Hypotheses& all) { all[0].timestamp = 1e31; }},
       {"a state that is no number", [](Hypotheses& all) { all[0].state.position.x = nan; }},
       {"a state at infinity", [](Hypotheses& all) { all[0].state.velocity.y = infinity; }},
       {"a motion that is no number", [](Hypotheses& all) { all[0].motion.speed = nan; }},
       {"plans that end never or always", [](Hypotheses& all) { all[0].plans.end = nan; }},
-      {"no claim", [](Hypotheses& all) { (all[0].claims.clear(), all[0].latest_claims = 0); }},
-      {"no claim of the latest report", [](Hypotheses& all) { all[0].latest_claims = 0; }},
-      {"more claims than there are", [](Hypotheses& all) { ++all[0].latest_claims; }},
+      {"no claim", [](Hypotheses& all) { (all[0].sets.clear(), all[0].latest_sets = 0); }},
+      {"no claim of the latest report", [](Hypotheses& all) { all[0].latest_sets = 0; }},
+      {"more claims than there are", [](Hypotheses& all) { ++all[0].latest_sets; }},
       {"no claim that holds now",
        [](Hypotheses& all) {
-         for (Claim& claim : all[0].claims) claim.time = 2.0;
+         for (ReachableSet& set : all[0].sets) set.time = 2.0;
        }},
       {"no claim that holds for ever",
        [](Hypotheses& all) {
-         for (Claim& claim : all[0].claims) claim.end = 3.0;
+         for (ReachableSet& set : all[0].sets) set.end = 3.0;
        }},
-      {"a claim from beyond all times", [](Hypotheses& all) { all[0].claims[0].time = -1e31; }},
-      {"a position that overflows", [](Hypotheses& all) { all[0].claims[0].position.z = -1e300; }},
-      {"a velocity that overflows", [](Hypotheses& all) { all[0].claims[0].velocity.x = 1e300; }},
-      {"an acceleration that overflows", [](Hypotheses& all) { all[0].claims[0].acceleration.x = 1e300; }},
-      {"a radius below zero", [](Hypotheses& all) { all[0].claims[0].radius = -1.0; }},
-      {"a speed without limit", [](Hypotheses& all) { all[0].claims[0].speed = infinity; }},
-      {"a growth without limit", [](Hypotheses& all) { all[0].claims[0].growth = infinity; }},
+      {"a claim from beyond all times", [](Hypotheses& all) { all[0].sets[0].time = -1e31; }},
+      {"a position that overflows", [](Hypotheses& all) { all[0].sets[0].position.z = -1e300; }},
+      {"a velocity that overflows", [](Hypotheses& all) { all[0].sets[0].velocity.x = 1e300; }},
+      {"an acceleration that overflows", [](Hypotheses& all) { all[0].sets[0].acceleration.x = 1e300; }},
+      {"a radius below zero", [](Hypotheses& all) { all[0].sets[0].radius = -1.0; }},
+      {"a speed without limit", [](Hypotheses& all) { all[0].sets[0].speed = infinity; }},
+      {"a growth without limit", [](Hypotheses& all) { all[0].sets[0].growth = infinity; }},
   };
   for (const Damage& damage : damages) {
     Hypotheses all = contradicting();
     damage.done(all);
-    EXPECT_FALSE(is_sound(all)) << damage.what;
+    EXPECT_FALSE(is_valid(all)) << damage.what;
   }
 }
 
@@ -97,11 +98,11 @@ TEST(Soundness, NothingThatIsReportedOverflows) {
       for (const double stamp : {-1e30, 0.0, 1e30})
         for (const double valid_until : {-1e30 + 1e15, 1.0, 1e29, 1e31, 1e200, 1e300, infinity}) {
           const TrackClass promise{.acceleration_limit = limit, .largest_speed = largest_speed};
-          TrackReport report{.stamp = stamp, .state = {{1e30, -1e30, 0}, {most, most, -most}}};
+          TrackReport report{.timestamp = stamp, .state = {{1e30, -1e30, 0}, {most, most, -most}}};
           if (valid_until > stamp) report.plan = TrackReport::Plan{{0, most, most}, most, valid_until};
-          Knowledge knowledge;
-          knowledge.learn(report, promise, now, 1.0);
-          EXPECT_TRUE(knowledge.is_sound(now))
+          TrackEstimate estimate;
+          estimate.update(report, promise, now, 1.0);
+          EXPECT_TRUE(estimate.is_valid(now))
               << limit << ", " << largest_speed << ", " << stamp << ", " << valid_until;
         }
 }

@@ -18,11 +18,11 @@
 #include <vector>
 
 #include "kinesphere/motion/ballistic.hpp"
-#include "kinesphere/motion/frames.hpp"
+#include "kinesphere/motion/frame_motion.hpp"
 #include "kinesphere/motion/piecewise_motion.hpp"
 #include "kinesphere/motion/random_forces.hpp"
 #include "kinesphere/motion/recorded_tracks.hpp"
-#include "kinesphere/motion/steered.hpp"
+#include "kinesphere/motion/steered_motion.hpp"
 #include "kinesphere/motion/velocity_field.hpp"
 #include "motion/motion_properties.hpp"
 #include "motion/still.hpp"
@@ -72,8 +72,8 @@ Pair random_forces(Random& random) {
 }
 
 Pair steered(Random& random) {
-  return pair_of<Steered>(SteeredDefinition{.start = random_states(random, bodies, 100, 30),
-                                            .acceleration_limits = random_limits(random)});
+  return pair_of<SteeredMotion>(SteeredMotionDefinition{.start = random_states(random, bodies, 100, 30),
+                                                        .acceleration_limits = random_limits(random)});
 }
 
 Pair velocity_field(Random& random) {
@@ -116,16 +116,16 @@ Pair recorded_tracks(Random& random) {
 }
 
 Pair frames(Random& random) {
-  FramesDefinition definition{.start = {},
-                              .acceleration_limits = random_limits(random),
-                              .interval = random.uniform(0.01, 0.5),
-                              .position_error = random.uniform(0, 1e-3),
-                              .start_time = random.uniform(-5, 5)};
+  FrameMotionDefinition definition{.start = {},
+                                   .acceleration_limits = random_limits(random),
+                                   .interval = random.uniform(0.01, 0.5),
+                                   .position_error = random.uniform(0, 1e-3),
+                                   .start_time = random.uniform(-5, 5)};
   for (const State& state : random_states(random, bodies, 100, 30)) {
     definition.start.push_back(state.position);
     definition.velocities.push_back(state.velocity);
   }
-  return pair_of<Frames>(std::move(definition));
+  return pair_of<FrameMotion>(std::move(definition));
 }
 
 /// Bit for bit: 0 and -0 differ.
@@ -165,8 +165,8 @@ std::uint32_t read(Motion& motion, std::span<const std::byte> bytes) {
 
 /// The times that may be asked for, and at which it may be changed.
 std::pair<double, double> known_times(const Motion& motion, std::uint32_t body, bool changeable) {
-  const double begin = changeable ? motion.departure(body).time : -10.0;
-  const auto* const frames = dynamic_cast<const Frames*>(&motion);
+  const double begin = changeable ? motion.origin(body).time : -10.0;
+  const auto* const frames = dynamic_cast<const FrameMotion*>(&motion);
   return {begin, frames != nullptr ? frames->latest_time() : begin + 25.0};
 }
 
@@ -174,7 +174,7 @@ std::pair<double, double> known_times(const Motion& motion, std::uint32_t body, 
 void require_same(const Motion& motion, std::uint32_t body, const Motion& other, std::uint32_t number,
                   bool changeable, Random& random) {
   RC_ASSERT(bytes_of(motion, body) == bytes_of(other, number));
-  if (changeable) RC_ASSERT(same_bits(motion.departure(body), other.departure(number)));
+  if (changeable) RC_ASSERT(same_bits(motion.origin(body), other.origin(number)));
   const auto [begin, end] = known_times(motion, body, changeable);
   for (int k = 0; k < 6; ++k) {
     const double t = random.uniform(begin, end);
@@ -196,8 +196,8 @@ struct Traveller {
 /// The next frame in both motions, for those that have frames: everybody goes somewhere, and travellers to
 /// the same place in both.
 void next_frame(const Pair& motions, std::span<const Traveller> travellers, Random& random) {
-  auto* const here = dynamic_cast<Frames*>(motions.here.get());
-  auto* const there = dynamic_cast<Frames*>(motions.there.get());
+  auto* const here = dynamic_cast<FrameMotion*>(motions.here.get());
+  auto* const there = dynamic_cast<FrameMotion*>(motions.there.get());
   if (here == nullptr) return;
   std::vector<Vec3> positions_here = here->latest(), positions_there = there->latest();
   for (Vec3& position : positions_here) position += random.point_in_ball();
@@ -212,21 +212,21 @@ std::function<void(Motion&, std::uint32_t)> random_change(const Motion& motion, 
   const auto [begin, end] = known_times(motion, body, true);
   const double t = random.uniform(begin, end);
   const State state = random_states(random, 1, 100, 30).front();
-  const Departure last = motion.departure(body);
+  const MotionOrigin last = motion.origin(body);
   switch (random.bits() % 4) {
     case 0:
       return [=](Motion& changed, std::uint32_t number) { changed.teleport(number, t, state).value(); };
     case 1:
-      if (dynamic_cast<const Frames*>(&motion) == nullptr)
+      if (dynamic_cast<const FrameMotion*>(&motion) == nullptr)
         return [=](Motion& changed, std::uint32_t number) {
-          changed.depart(number, {last.time - 0.5, state}).value();
+          changed.set_origin(number, {last.time - 0.5, state}).value();
         };
-      return [=](Motion& changed, std::uint32_t number) { changed.depart(number, {t, state}).value(); };
+      return [=](Motion& changed, std::uint32_t number) { changed.set_origin(number, {t, state}).value(); };
     case 2:
-      if (dynamic_cast<const Steered*>(&motion) != nullptr) {
+      if (dynamic_cast<const SteeredMotion*>(&motion) != nullptr) {
         const Vec3 push = motion.definition(body, t).acceleration_limit * 0.9 * random.unit_vector();
         return [=](Motion& changed, std::uint32_t number) {
-          dynamic_cast<Steered&>(changed).steer(number, t, push).value();
+          dynamic_cast<SteeredMotion&>(changed).steer(number, t, push).value();
         };
       }
       [[fallthrough]];
@@ -422,20 +422,21 @@ Bytes steered_body(std::initializer_list<double> numbers, std::uint32_t mark = 3
   return bytes;
 }
 
-Steered steered_one() {
-  Steered motion = Steered::create({.start = {{{1, 2, 3}, {4, 5, 6}}}, .acceleration_limits = {9}}).value();
+SteeredMotion steered_one() {
+  SteeredMotion motion =
+      SteeredMotion::create({.start = {{{1, 2, 3}, {4, 5, 6}}}, .acceleration_limits = {9}}).value();
   motion.steer(0, 2.0, {0, 0, -9}).value();
   return motion;
 }
 
 TEST(WrittenBodies, HaveTheSameOrderOnAllMachines) {
-  const Steered motion = steered_one();
+  const SteeredMotion motion = steered_one();
   const double limit = motion.definition(0, 2.0).acceleration_limit;
   EXPECT_EQ(bytes_of(motion, 0), steered_body({2, 9, 12, 15, 4, 5, 6, limit, 0, 0, -9}));
 }
 
 TEST(WrittenBodies, AreRefusedWithTheReason) {
-  Steered motion = steered_one();
+  SteeredMotion motion = steered_one();
   const auto refusal = [&](const Bytes& bytes) {
     std::span<const std::byte> rest = bytes;
     const auto read = motion.read_body(rest);
@@ -460,7 +461,7 @@ TEST(WrittenBodies, AreRefusedWithTheReason) {
 TEST(WrittenBodies, OfAFrameAreReadInThatFrame) {
   Random random(1);
   const Pair motions = frames(random);
-  auto& there = dynamic_cast<Frames&>(*motions.there);
+  auto& there = dynamic_cast<FrameMotion&>(*motions.there);
   const Bytes bytes = bytes_of(*motions.here, 0);
   there.push({}).value();
   std::span<const std::byte> rest = bytes;

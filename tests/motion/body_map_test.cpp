@@ -8,7 +8,7 @@
 
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/motion/recorded_tracks.hpp"
-#include "kinesphere/motion/steered.hpp"
+#include "kinesphere/motion/steered_motion.hpp"
 #include "motion/still.hpp"
 #include "support/expect_error.hpp"
 
@@ -70,7 +70,8 @@ TEST(BodyMap, FollowsBulletsThatComeAndGo) {
 }
 
 TEST(BodyMap, ChangesTheMotionAndTheWorld) {
-  Steered ships = Steered::create({.start = {{}, {{20, 0, 0}, {}}}, .acceleration_limits = {1, 1}}).value();
+  SteeredMotion ships =
+      SteeredMotion::create({.start = {{}, {{20, 0, 0}, {}}}, .acceleration_limits = {1, 1}}).value();
   World world = World::create({}).value();
   BodyMap map;
   const auto ids = map.add_all(world, ships).value();
@@ -124,21 +125,22 @@ TEST(BodyMap, LeavesBodiesToMotionsThatCannotRemoveThem) {
 }
 
 TEST(BodyMap, TellsViolationsAtTheirFrameOnly) {
-  Frames frames = Frames::create({.start = {{}}, .acceleration_limits = {1.0}, .interval = 1.0}).value();
+  FrameMotion frames =
+      FrameMotion::create({.start = {{}}, .acceleration_limits = {1.0}, .interval = 1.0}).value();
   World world = World::create({}).value();
   BodyMap map;
   map.add_all(world, frames).value();
   frames.push(std::vector<Vec3>{{5, 0, 0}}).value();
   ASSERT_EQ(frames.violations().size(), 1u);
-  map.tell_violations(world, frames).value();
+  map.report_violations(world, frames).value();
   EXPECT_FALSE(world.advance(frames.latest_time(), map.probe()).value()) << "no violation";
   frames.push(std::vector<Vec3>{{10, 0, 0}}).value();
-  map.tell_violations(world, frames).value();
+  map.report_violations(world, frames).value();
   EXPECT_FALSE(world.advance(frames.latest_time(), map.probe()).value());
   frames.push(std::vector<Vec3>{{10, 0, 0}}).value();
   EXPECT_FALSE(world.advance(2.5, map.probe()).value());
-  expect_error(map.tell_violations(world, frames), ErrorCode::out_of_range, "world",
-               "BodyMap::tell_violations: ");
+  expect_error(map.report_violations(world, frames), ErrorCode::out_of_range, "world",
+               "BodyMap::report_violations: ");
 }
 
 }  // namespace

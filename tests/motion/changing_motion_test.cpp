@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "kinesphere/motion/ballistic.hpp"
-#include "kinesphere/motion/frames.hpp"
+#include "kinesphere/motion/frame_motion.hpp"
 #include "kinesphere/motion/random_forces.hpp"
-#include "kinesphere/motion/steered.hpp"
+#include "kinesphere/motion/steered_motion.hpp"
 #include "kinesphere/motion/velocity_field.hpp"
 
 namespace kinesphere::changing_motion_test {
@@ -28,7 +28,8 @@ TEST(AddedBodies, FlyOn) {
 }
 
 TEST(AddedBodies, TakeTheNumbersOfRemovedOnes) {
-  Steered motion = Steered::create({.start = {{}, {}, {}}, .acceleration_limits = {1.0, 2.0, 3.0}}).value();
+  SteeredMotion motion =
+      SteeredMotion::create({.start = {{}, {}, {}}, .acceleration_limits = {1.0, 2.0, 3.0}}).value();
   motion.steer(1, 0.0, {0, 0, 2}).value();
   motion.remove(1).value();
   EXPECT_EQ(motion.add(4.0, muzzle, 5.0).value(), 1u);
@@ -76,8 +77,9 @@ TEST(AddedBodies, AreForcedAndDrawnAlong) {
 }
 
 TEST(AddedBodies, JoinTheFrames) {
-  Frames frames =
-      Frames::create({.start = {{}, {5, 5, 5}}, .acceleration_limits = {8.0, 8.0}, .interval = 1.0}).value();
+  FrameMotion frames =
+      FrameMotion::create({.start = {{}, {5, 5, 5}}, .acceleration_limits = {8.0, 8.0}, .interval = 1.0})
+          .value();
   frames.push(std::vector<Vec3>{{}, {5, 5, 5}}).value();
   EXPECT_EQ(frames.add(1.5, muzzle, 3.0).error().code, ErrorCode::out_of_range);
   EXPECT_EQ(frames.add(0.5, {{nan, 0, 0}, {}}, 3.0).error().argument, "state");
@@ -98,7 +100,8 @@ TEST(AddedBodies, JoinTheFrames) {
 }
 
 TEST(TeleportedBodies, GoOnFromTheirNewPlaceInTheFrames) {
-  Frames frames = Frames::create({.start = {{}}, .acceleration_limits = {8.0}, .interval = 1.0}).value();
+  FrameMotion frames =
+      FrameMotion::create({.start = {{}}, .acceleration_limits = {8.0}, .interval = 1.0}).value();
   frames.push(std::vector<Vec3>{{1, 0, 0}}).value();
   frames.teleport(0, 0.5, {{100, 0, 0}, {0, 2, 0}}).value();
   EXPECT_EQ(frames.state(0, 0.5), (State{{100, 0, 0}, {0, 2, 0}}));

@@ -14,7 +14,7 @@
 #include "kinesphere/motion/piecewise_motion.hpp"
 #include "kinesphere/motion/random_forces.hpp"
 #include "kinesphere/motion/recorded_tracks.hpp"
-#include "kinesphere/motion/steered.hpp"
+#include "kinesphere/motion/steered_motion.hpp"
 #include "kinesphere/motion/velocity_field.hpp"
 #include "kinesphere/world.hpp"
 #include "motion/motion_properties.hpp"
@@ -55,8 +55,8 @@ std::unique_ptr<Motion> ballistic(Random& random) {
 }
 
 std::unique_ptr<Motion> steered(Random& random) {
-  auto motion = Steered::create({.start = random_states(random, bodies, 100, 30),
-                                 .acceleration_limits = std::vector<double>(bodies, 7.0)});
+  auto motion = SteeredMotion::create({.start = random_states(random, bodies, 100, 30),
+                                       .acceleration_limits = std::vector<double>(bodies, 7.0)});
   for (std::uint32_t body = 0; body < bodies; ++body) {
     motion->steer(body, 0.0, 7.0 * random.unit_vector()).value();
   }
@@ -313,43 +313,43 @@ TEST_P(EveryMotion, TeleportsWhatCanBeChangedAndRemoves) {
 TEST_P(EveryMotion, GoesBackToAnEarlierDepartureToTheLastBit) {
   for_motions([&](Motion& motion, Random& random) {
     if (!GetParam().can_be_kicked) {
-      EXPECT_EQ(refusal([&] { (void)motion.departure(1); })->code, ErrorCode::unsupported);
-      EXPECT_EQ(motion.depart(1, {}).error().code, ErrorCode::unsupported);
+      EXPECT_EQ(refusal([&] { (void)motion.origin(1); })->code, ErrorCode::unsupported);
+      EXPECT_EQ(motion.set_origin(1, {}).error().code, ErrorCode::unsupported);
       return;
     }
     motion.set_velocity(1, 2.0, 10 * random.point_in_ball()).value();
     const auto before = motion.clone();
-    const Departure departure = motion.departure(1);
-    EXPECT_EQ(departure.time, 2.0);
-    EXPECT_EQ(departure.state, motion.state(1, 2.0));
+    const MotionOrigin origin = motion.origin(1);
+    EXPECT_EQ(origin.time, 2.0);
+    EXPECT_EQ(origin.state, motion.state(1, 2.0));
     const double kicked_at = random.uniform(2.0, 10.0);
     motion.set_velocity(1, kicked_at, {1, 2, 3}).value();
     EXPECT_NE(motion.state(1, 15.0), before->state(1, 15.0));
     const auto kicked = motion.clone();
-    motion.depart(1, departure).value();
+    motion.set_origin(1, origin).value();
     for (const double time : {15.0, 2.0, kicked_at, 9.0})
       EXPECT_EQ(motion.state(1, time), before->state(1, time)) << time;
-    motion.depart(1, kicked->departure(1)).value();
+    motion.set_origin(1, kicked->origin(1)).value();
     EXPECT_EQ(motion.state(1, 15.0), kicked->state(1, 15.0));
 
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(motion.depart(1, {nan, {}}).error().code, ErrorCode::not_finite);
-    EXPECT_EQ(motion.depart(1, {2.0, {{}, {0, nan, 0}}}).error().argument, "departure");
-    EXPECT_EQ(motion.depart(bodies, departure).error().code, ErrorCode::unknown_body);
-    EXPECT_EQ(refusal([&] { (void)motion.departure(bodies); })->code, ErrorCode::unknown_body);
+    EXPECT_EQ(motion.set_origin(1, {nan, {}}).error().code, ErrorCode::not_finite);
+    EXPECT_EQ(motion.set_origin(1, {2.0, {{}, {0, nan, 0}}}).error().argument, "departure");
+    EXPECT_EQ(motion.set_origin(bodies, origin).error().code, ErrorCode::unknown_body);
+    EXPECT_EQ(refusal([&] { (void)motion.origin(bodies); })->code, ErrorCode::unknown_body);
     EXPECT_EQ(motion.state(1, 15.0), kicked->state(1, 15.0));
     motion.remove(1).value();
-    EXPECT_EQ(motion.depart(1, departure).error().code, ErrorCode::stale_body);
-    EXPECT_EQ(refusal([&] { (void)motion.departure(1); })->code, ErrorCode::stale_body);
+    EXPECT_EQ(motion.set_origin(1, origin).error().code, ErrorCode::stale_body);
+    EXPECT_EQ(refusal([&] { (void)motion.origin(1); })->code, ErrorCode::stale_body);
   });
 }
 
 TEST_P(EveryMotion, MoverRefusesBodiesOfTheWorldThatAreNoneOfItsOwn) {
   for_motions([&](Motion& motion, Random&) {
-    MotionMover mover(motion);
+    SingleMotionSource source(motion);
     for (const BodyId id : {BodyId{1, 1}, BodyId{bodies, 0}}) {
-      EXPECT_EQ(refusal([&] { (void)mover.departure(id); })->code, ErrorCode::unknown_body);
-      EXPECT_EQ(refusal([&] { mover.depart(id, {}); })->code, ErrorCode::unknown_body);
+      EXPECT_EQ(refusal([&] { (void)source.origin(id); })->code, ErrorCode::unknown_body);
+      EXPECT_EQ(refusal([&] { source.set_origin(id, {}); })->code, ErrorCode::unknown_body);
     }
   });
 }
@@ -361,10 +361,10 @@ TEST_P(EveryMotion, ServesThreadsWithDifferentBodies) {
     const auto visit = [&](Motion& visited, std::uint32_t body, std::vector<State>& states) {
       for (const double time : {15.0, 5.0, 9.0, 6.5}) states.push_back(visited.state(body, time));
       if (!GetParam().can_be_kicked) return;
-      const Departure departure = visited.departure(body);
+      const MotionOrigin origin = visited.origin(body);
       visited.set_velocity(body, 7.0, {1, 2, 3}).value();
       states.push_back(visited.state(body, 12.0));
-      visited.depart(body, departure).value();
+      visited.set_origin(body, origin).value();
       states.push_back(visited.state(body, 12.0));
     };
     const auto alone = motion.clone();

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "kinesphere/body_map.hpp"
-#include "kinesphere/motion/frames.hpp"
+#include "kinesphere/motion/frame_motion.hpp"
 #include "kinesphere/random.hpp"
 
 namespace kinesphere::frame_violations_test {
@@ -55,12 +55,12 @@ class BouncingGame {
   std::vector<Vec3> position, velocity;
 };
 
-Frames frames_of(const BouncingGame& game, bool refuse = false) {
-  return Frames::create({.start = game.position,
-                         .velocities = game.velocity,
-                         .acceleration_limits = std::vector(game.balls, game.limit),
-                         .interval = game.dt,
-                         .refuse_violations = refuse})
+FrameMotion frames_of(const BouncingGame& game, bool refuse = false) {
+  return FrameMotion::create({.start = game.position,
+                              .velocities = game.velocity,
+                              .acceleration_limits = std::vector(game.balls, game.limit),
+                              .interval = game.dt,
+                              .refuse_violations = refuse})
       .value();
 }
 
@@ -69,7 +69,7 @@ TEST(FrameViolations, NameEveryTurnAndNothingElse) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     BouncingGame game(seed);
-    Frames frames = frames_of(game);
+    FrameMotion frames = frames_of(game);
     std::vector<Vec3> before = game.position, last = game.position;
     for (std::uint32_t k = 0; k < game.balls; ++k) before[k] -= game.velocity[k] * game.dt;
     std::set<std::uint32_t> waiting;  // turned in the last frame, and not named in it
@@ -103,8 +103,8 @@ TEST(FrameViolations, NameEveryTurnAndNothingElse) {
 }
 
 TEST(FrameViolations, CanBeRefused) {
-  Frames frames =
-      Frames::create(
+  FrameMotion frames =
+      FrameMotion::create(
           {.start = {{}, {}}, .acceleration_limits = {4.0, 4.0}, .interval = 0.5, .refuse_violations = true})
           .value();
   frames.push(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}}).value();
@@ -126,8 +126,8 @@ TEST(FrameViolations, AreNoRoundingOfTheGame) {
     // The limit to the last digit, far from the origin.
     Vec3 position = 1e6 * random.point_in_ball(), velocity = 10 * random.point_in_ball();
     const double limit = 9.81, dt = 1.0 / 60;
-    Frames frames =
-        Frames::create(
+    FrameMotion frames =
+        FrameMotion::create(
             {.start = {position}, .velocities = {velocity}, .acceleration_limits = {limit}, .interval = dt})
             .value();
     for (int k = 0; k < 1000; ++k) {
@@ -167,7 +167,7 @@ struct Outcome {
 Outcome watch(std::uint64_t seed, bool tell) {
   constexpr double tolerance = 1e-4, deep_enough = 0.01;
   BouncingGame game(seed);
-  Frames frames = frames_of(game);
+  FrameMotion frames = frames_of(game);
   World world = World::create({.contact_tolerance = tolerance}).value();
   BodyMap bodies;
   bodies.add_all(world, frames, {.radius = game.radius}).value();
@@ -182,7 +182,7 @@ Outcome watch(std::uint64_t seed, bool tell) {
     game.step();
     const std::vector<Vec3> before = frames.latest();
     frames.push(game.position).value();
-    if (tell) bodies.tell_violations(world, frames).value();
+    if (tell) bodies.report_violations(world, frames).value();
     while (const auto event = world.advance(frames.latest_time(), bodies.probe()).value()) {
       if (event->kind == EventKind::bound_violation) ++outcome.breaches;
       if (event->kind == EventKind::contact_begin)

@@ -17,7 +17,7 @@
 
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/world.hpp"
-#include "parallel/crew.hpp"
+#include "parallel/thread_pool.hpp"
 #include "support/expect_error.hpp"
 
 namespace kinesphere::workers_test {
@@ -56,14 +56,14 @@ struct LateTasks {
 };
 
 void expect_each_item_once(Workers* workers) {
-  Shift shift(workers);
+  PoolLease shift(workers);
   ASSERT_TRUE(shift);
   for (const std::size_t items : {0u, 1u, 2u, 7u, 1000u, 100003u}) {
     for (const std::size_t range : {0u, 1u, 16u, 5000u}) {
       if (items / std::max<std::size_t>(range, 1) > 10000) continue;
       std::vector<std::atomic<int>> done(items);
       std::vector<std::atomic<int>> in_use(shift.count());
-      shift.for_each(items, range, [&](std::size_t begin, std::size_t end, std::size_t worker) {
+      shift.parallel_for(items, range, [&](std::size_t begin, std::size_t end, std::size_t worker) {
         ASSERT_LT(worker, shift.count());
         EXPECT_EQ(in_use[worker]++, 0) << "two threads with one number";
         EXPECT_LT(begin, end);
@@ -98,12 +98,12 @@ TEST(Workers, DoEachItemOnce) {
 
 TEST(Workers, WorkAtTheSameTime) {
   Workers workers = Workers::create(3).value();
-  Shift shift(&workers);
+  PoolLease shift(&workers);
   std::promise<void> all_here;
   const std::shared_future<void> opened = all_here.get_future().share();
   std::atomic<int> here = 0;
   std::vector<std::thread::id> threads(3);
-  shift.for_each(3, 1, [&](std::size_t item, std::size_t, std::size_t) {
+  shift.parallel_for(3, 1, [&](std::size_t item, std::size_t, std::size_t) {
     threads[item] = std::this_thread::get_id();
     if (++here == 3) all_here.set_value();
     ASSERT_EQ(opened.wait_for(std::chrono::seconds(60)), std::future_status::ready);
@@ -114,11 +114,11 @@ TEST(Workers, WorkAtTheSameTime) {
 
 TEST(Workers, LeaveTheRestToOthersWhileOneIsSlow) {
   Workers workers = Workers::create(2).value();
-  Shift shift(&workers);
+  PoolLease shift(&workers);
   std::promise<void> rest_done;
   const std::shared_future<void> done = rest_done.get_future().share();
   std::atomic<int> left = 99;
-  shift.for_each(100, 1, [&](std::size_t item, std::size_t, std::size_t) {
+  shift.parallel_for(100, 1, [&](std::size_t item, std::size_t, std::size_t) {
     if (item == 0) {
       EXPECT_EQ(done.wait_for(std::chrono::seconds(60)), std::future_status::ready);
     } else if (--left == 0) {
@@ -132,12 +132,12 @@ TEST(Workers, PassOnWhatTheFirstItemThrew) {
   LateTasks tasks;
   Workers own = Workers::create(4).value(), by_tasks = Workers::create(tasks.system(4)).value();
   for (Workers* const workers : {static_cast<Workers*>(nullptr), &own, &by_tasks}) {
-    Shift shift(workers);
+    PoolLease shift(workers);
     for (int round = 0; round < 200; ++round) {
       std::atomic<int> working = 0;
       std::string thrown;
       try {
-        shift.for_each(50, 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+        shift.parallel_for(50, 1, [&](std::size_t begin, std::size_t end, std::size_t) {
           ++working;
           for (std::size_t item = begin; item < end; ++item) {
             if (item % 7 != 5) continue;
@@ -153,14 +153,14 @@ TEST(Workers, PassOnWhatTheFirstItemThrew) {
       ASSERT_EQ(thrown, "5");
     }
     int items = 0;
-    shift.for_each(1, 1, [&](std::size_t, std::size_t, std::size_t) { ++items; });
+    shift.parallel_for(1, 1, [&](std::size_t, std::size_t, std::size_t) { ++items; });
     EXPECT_EQ(items, 1) << "and go on";
   }
 }
 
 TEST(Workers, PassOnWhatTheFirstItemThrewAlsoWhenALaterOneWasFaster) {
   Workers workers = Workers::create(2).value();
-  Shift shift(&workers);
+  PoolLease shift(&workers);
   std::promise<void> later_throws;
   const std::shared_future<void> thrown = later_throws.get_future().share();
   const auto fail = [&](std::size_t item, std::size_t, std::size_t) {
@@ -172,7 +172,7 @@ TEST(Workers, PassOnWhatTheFirstItemThrewAlsoWhenALaterOneWasFaster) {
     throw std::runtime_error(std::to_string(item));
   };
   try {
-    shift.for_each(10, 1, fail);
+    shift.parallel_for(10, 1, fail);
     ADD_FAILURE() << "nothing was thrown";
   } catch (const std::runtime_error& error) {
     EXPECT_STREQ(error.what(), "0");
@@ -185,8 +185,8 @@ TEST(Workers, ComeAndGo) {
     if (round % 2 == 0) continue;
     Workers moved = std::move(workers);
     std::atomic<std::size_t> sum = 0;
-    Shift(&moved).for_each(100, 3,
-                           [&](std::size_t begin, std::size_t end, std::size_t) { sum += end - begin; });
+    PoolLease(&moved).parallel_for(
+        100, 3, [&](std::size_t begin, std::size_t end, std::size_t) { sum += end - begin; });
     EXPECT_EQ(sum, 100u);
   }
 }

@@ -37,7 +37,7 @@ TEST(SceneFile, ReadsEveryField) {
   EXPECT_FALSE(p.walls);
   EXPECT_TRUE(p.periodic);
   EXPECT_EQ(p.redraw_interval, 0.5);
-  EXPECT_EQ(p.response, Response::pass_through);
+  EXPECT_EQ(p.response, SceneResponse::pass_through);
   EXPECT_EQ(p.restitution, 0.25);
   EXPECT_EQ(p.resting_speed, 0.75);
   EXPECT_EQ(p.zeno_interval, 0.125);

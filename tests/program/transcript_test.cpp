@@ -11,14 +11,14 @@
 namespace kinesphere::program::transcript_test {
 namespace {
 
-Scene scene(Response response) {
+Scene scene(SceneResponse response) {
   SceneParameters parameters = first_experiment(400, 1.0);
   parameters.response = response;
   return require(make_scene(parameters));
 }
 
 TEST(Transcript, HoldsTheRunThatAnyoneElseSees) {
-  const Scene bouncing = scene(Response::bounce);
+  const Scene bouncing = scene(SceneResponse::bounce);
   for (const NamedDetector& detector : {world_engine(), paper_engine()}) {
     const Transcript transcript = write_down(bouncing, detector.make);
     const SimulationResult plain = require(simulate(bouncing, detector.make));
@@ -31,12 +31,12 @@ TEST(Transcript, HoldsTheRunThatAnyoneElseSees) {
 }
 
 TEST(Transcript, IsForTheDetectorThatItWasWrittenFor) {
-  const Transcript transcript = write_down(scene(Response::bounce), world_engine().make);
+  const Transcript transcript = write_down(scene(SceneResponse::bounce), world_engine().make);
   EXPECT_THROW(play(transcript, paper_engine().make), ProgramError);
 }
 
 TEST(Recall, FineStepsMissLessAndSweptOnesNothing) {
-  const Scene passing = scene(Response::pass_through);
+  const Scene passing = scene(SceneResponse::pass_through);
   const ContactCounts truth = count_contacts(passing, world_engine().make);
   ASSERT_GT(total(truth), 100u);
   const std::uint64_t coarse = missed(truth, contacts_at_steps(passing, 0.5, 2, SphereTest::at_steps));

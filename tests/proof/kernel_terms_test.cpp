@@ -39,15 +39,15 @@ kernels::Bound bound(const std::string& name) {
           .growth_acceleration = field(name, "growth_acceleration")};
 }
 
-kernels::Capsule capsule(const std::string& name) {
+kernels::SweptSphere capsule(const std::string& name) {
   const auto part = [&](const std::string& of) { return variable<Single>(name + ".(" + of + ")"); };
   return {.centre = {part("centre_x"), part("centre_y"), part("centre_z")},
           .velocity = {part("motion_x"), part("motion_y"), part("motion_z")},
           .radius = part("ball")};
 }
 
-kernels::CapsuleQuery query(const std::string& name, const std::string& number = "") {
-  return {.capsule = capsule(name),
+kernels::SweptSphereQuery query(const std::string& name, const std::string& number = "") {
+  return {.sphere = capsule(name),
           .from = variable<Single>("from" + number),
           .to = variable<Single>("to" + number)};
 }
@@ -70,24 +70,24 @@ Double bound_of_report() {
 }
 
 /// What a search finds, run by run, in a table of these capsules.
-std::vector<std::vector<std::uint32_t>> found(const std::vector<kernels::Capsule>& capsules,
-                                              const std::vector<kernels::CapsuleQuery>& queries,
-                                              const std::vector<kernels::Run>& runs) {
+std::vector<std::vector<std::uint32_t>> found(const std::vector<kernels::SweptSphere>& spheres,
+                                              const std::vector<kernels::SweptSphereQuery>& queries,
+                                              const std::vector<kernels::SlotRange>& runs) {
   std::array<std::vector<Single>, 7> columns;
-  for (const kernels::Capsule& capsule : capsules) {
+  for (const kernels::SweptSphere& sphere : spheres) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      columns[axis].push_back(capsule.centre[axis]);
-      columns[3 + axis].push_back(capsule.velocity[axis]);
+      columns[axis].push_back(sphere.centre[axis]);
+      columns[3 + axis].push_back(sphere.velocity[axis]);
     }
-    columns[6].push_back(capsule.radius);
+    columns[6].push_back(sphere.radius);
   }
-  kernels::CapsuleColumns table;
+  kernels::SweptSphereColumns table;
   for (std::size_t k = 0; k < columns.size(); ++k) table[k] = columns[k].data();
-  std::vector<std::uint64_t> words(capsules.size() * runs.size());
-  kernels::near_capsules_plain(table, queries, runs, words.data());
+  std::vector<std::uint64_t> words(spheres.size() * runs.size());
+  kernels::near_swept_spheres_plain(table, queries, runs, words.data());
   std::vector<std::vector<std::uint32_t>> answer;
   const std::uint64_t* word = words.data();
-  for (const kernels::Run& run : runs) {
+  for (const kernels::SlotRange& run : runs) {
     answer.emplace_back();
     kernels::for_each_near(std::span(&run, 1), word,
                            [&](std::uint32_t, std::uint32_t place) { answer.back().push_back(place); });
@@ -97,8 +97,8 @@ std::vector<std::vector<std::uint32_t>> found(const std::vector<kernels::Capsule
 }
 
 /// Whether a search leaves a capsule out.
-bool left_out(const kernels::Capsule& other, const kernels::CapsuleQuery& one) {
-  return found({other}, {one}, {kernels::Run{.begin = 0, .end = 1}})[0].empty();
+bool left_out(const kernels::SweptSphere& other, const kernels::SweptSphereQuery& one) {
+  return found({other}, {one}, {kernels::SlotRange{.begin = 0, .end = 1}})[0].empty();
 }
 
 std::string kernels_file() {
@@ -136,7 +136,7 @@ std::string kernels_file() {
   add("src/bound/certificates.cpp", "earliest_meeting (a b : bound) (from until distance : double) : double",
       earliest_meeting);
   kernels::name_of_step.clear();
-  add("src/window/capsule_search_plain.cpp: one capsule of a table",
+  add("src/broadphase/swept_sphere_search_plain.cpp: one capsule of a table",
       "left_out (other one : capsule) (from to : single) : bool",
       [] { return left_out(capsule("other"), query("one")); });
   return text;
@@ -153,15 +153,16 @@ TEST(KernelTerms, AreThoseThatHaveBeenProved) {
 
 /// In how many ways the comparisons of a search may turn out. In each it has to find those whom it does not
 /// leave out one by one.
-int ways_to_search(const std::vector<kernels::Capsule>& capsules,
-                   const std::vector<kernels::CapsuleQuery>& queries, const std::vector<kernels::Run>& runs) {
+int ways_to_search(const std::vector<kernels::SweptSphere>& spheres,
+                   const std::vector<kernels::SweptSphereQuery>& queries,
+                   const std::vector<kernels::SlotRange>& runs) {
   int ways = 0;
   traced::term_of([&] {
-    const auto places = found(capsules, queries, runs);
+    const auto places = found(spheres, queries, runs);
     for (std::size_t r = 0; r < runs.size(); ++r) {
       std::vector<std::uint32_t> expected;
       for (std::uint32_t k = runs[r].begin; k < runs[r].end; ++k)
-        if (!left_out(capsules[k], queries[runs[r].query])) expected.push_back(k);
+        if (!left_out(spheres[k], queries[runs[r].query])) expected.push_back(k);
       EXPECT_EQ(places[r], expected);
     }
     ++ways;
@@ -175,7 +176,7 @@ TEST(KernelTerms, ASearchLooksAtEachCapsuleByItself) {
                            {{.begin = 0, .end = 2, .query = 1}, {.begin = 1, .end = 2, .query = 0}}),
             1);
   // More than are looked at at a time: equal ones, so that all but one have the same answer.
-  std::vector<kernels::Capsule> many(70, capsule("a"));
+  std::vector<kernels::SweptSphere> many(70, capsule("a"));
   many[66] = capsule("b");
   EXPECT_GT(ways_to_search(many, {query("c")}, {{.begin = 1, .end = 70}, {.begin = 66, .end = 68}}), 1);
 }

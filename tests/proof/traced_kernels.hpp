@@ -71,9 +71,9 @@ double advance_by_a_step(double from, double until, SafeStep step) {
 
 #include "bound/bound.cpp"
 #include "bound/certificates.cpp"
-#include "bound/encounter.hpp"
-#include "window/capsule.hpp"
-#include "window/capsule_search_plain.cpp"
+#include "bound/quick_reject.hpp"
+#include "broadphase/swept_sphere.hpp"
+#include "broadphase/swept_sphere_search_plain.cpp"
 
 #undef advance_by_safe_steps
 #undef first_crossing

@@ -56,7 +56,7 @@ World world_of(const Bodies& bodies, const RandomForces& motion) {
     definition.radius = bodies.radii[body];
     world.add(definition).value();
   }
-  world.add_fixed({.shape = Triangle{{100, 10, 100}, {190, 100, 100}, {100, 100, 101}}}).value();
+  world.add_static({.shape = Triangle{{100, 10, 100}, {190, 100, 100}, {100, 100, 101}}}).value();
   world.add_zone(Box{{20, 20, 20}, {60, 60, 60}}).value();
   return world;
 }

@@ -33,7 +33,7 @@ class Bouncing : public ::testing::TestWithParam<Case> {};
 TEST_P(Bouncing, nobody_overlaps) {
   const auto& [detector, family, seed] = GetParam();
   Scene scene = differential_scene(family, seed);
-  scene.response = Response::bounce;
+  scene.response = SceneResponse::bounce;
   scene.world.contacts = ContactMode::impacts;
   const Flight flight = record_flight(scene, detector_maker(detector).value()).value();
   ASSERT_EQ(flight.result.counters.count(EventKind::zeno_guard), 0u);

@@ -25,7 +25,7 @@ double either(Random& random, double a, double b) { return random.bits() % 2 == 
 SceneParameters pass_through(Random& random, MotionKind motion) {
   SceneParameters p;
   p.motion = motion;
-  p.response = Response::pass_through;
+  p.response = SceneResponse::pass_through;
   p.bodies = whole(random, 2, 60);
   p.seed = random.bits();
   p.seconds = random.uniform(1.0, 6.0);

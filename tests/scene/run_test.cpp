@@ -41,7 +41,7 @@ Scene coming_and_going() {
   Scene scene;
   scene.name = "coming_and_going";
   scene.end_time = 5.0;
-  scene.response = Response::bounce;
+  scene.response = SceneResponse::bounce;
   for (std::uint32_t k = 0; k < 150; ++k) {
     forces.start.push_back({4.0 * random.point_in_ball(), 2.0 * random.point_in_ball()});
     forces.acceleration_limits.push_back(random.uniform(0.0, 8.0));
@@ -59,7 +59,7 @@ std::vector<Scene> scenes() {
   for (const SceneParameters& parameters : built_in_scenes()) {
     all.push_back(small(parameters));
     all.push_back(small(parameters));
-    all.back().response = Response::pass_through;
+    all.back().response = SceneResponse::pass_through;
     all.back().name += "_pass_through";
   }
   all.push_back(coming_and_going());

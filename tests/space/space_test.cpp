@@ -92,21 +92,21 @@ TEST(Space, ASearchFindsEachBoxOnceInWhicheverImage) {
       }
       return Box{middle - half, middle + half};
     };
-    std::vector<Box> boxes, homes;
+    std::vector<Box> boxes, images;
     double largest_extent = 0.0;
     for (std::uint32_t k = 0; k < 200; ++k) {
       boxes.push_back(box_of(k % 10 == 0 ? 1.0 : 0.1));
       const Vec3 shift = space.shift_of(space.wrapped(0.5 * (boxes[k].lower + boxes[k].upper)).images);
-      const Box home{boxes[k].lower - shift, boxes[k].upper - shift};
+      const Box image{boxes[k].lower - shift, boxes[k].upper - shift};
       for (int axis = 0; axis < 3; ++axis) {
         if (!periodic[axis]) continue;
-        EXPECT_GE(0.5 * (home.lower[axis] + home.upper[axis]), box.lower[axis] - 1e-9);
-        EXPECT_LE(0.5 * (home.lower[axis] + home.upper[axis]), box.upper[axis] + 1e-9);
+        EXPECT_GE(0.5 * (image.lower[axis] + image.upper[axis]), box.lower[axis] - 1e-9);
+        EXPECT_LE(0.5 * (image.lower[axis] + image.upper[axis]), box.upper[axis] + 1e-9);
       }
-      EXPECT_TRUE(space.is_narrow(home));
-      homes.push_back(home);
+      EXPECT_TRUE(space.is_narrow(image));
+      images.push_back(image);
       for (int axis = 0; axis < 3; ++axis)
-        largest_extent = std::max(largest_extent, home.upper[axis] - home.lower[axis]);
+        largest_extent = std::max(largest_extent, image.upper[axis] - image.lower[axis]);
     }
     std::size_t hits = 0;
     for (int query = 0; query < 400; ++query) {
@@ -115,8 +115,8 @@ TEST(Space, ASearchFindsEachBoxOnceInWhicheverImage) {
       const Box asked = box_of(wide ? 8.0 : 1.0);
       std::vector<std::uint32_t> found;
       space.for_each_image(asked, largest_extent, [&](const Box& image, const Vec3&) {
-        for (std::uint32_t k = 0; k < homes.size(); ++k)
-          if (overlap(image, homes[k])) found.push_back(k);
+        for (std::uint32_t k = 0; k < images.size(); ++k)
+          if (overlap(image, images[k])) found.push_back(k);
       });
       std::sort(found.begin(), found.end());
       const auto repeated = std::adjacent_find(found.begin(), found.end());
@@ -129,8 +129,9 @@ TEST(Space, ASearchFindsEachBoxOnceInWhicheverImage) {
           EXPECT_TRUE(seen);
           ++hits;
         } else {
-          const Vec3 room = Vec3{1, 1, 1} * 1e-9;
-          EXPECT_TRUE(!seen || overlap_somewhere(space, {asked.lower - room, asked.upper + room}, boxes[k]));
+          const Vec3 margin = Vec3{1, 1, 1} * 1e-9;
+          EXPECT_TRUE(!seen ||
+                      overlap_somewhere(space, {asked.lower - margin, asked.upper + margin}, boxes[k]));
         }
       }
     }
@@ -140,10 +141,10 @@ TEST(Space, ASearchFindsEachBoxOnceInWhicheverImage) {
 
 TEST(Space, ASearchFarAwayOrWithoutEndComesToAnEnd) {
   const Space space = space_of({true, true, true});
-  const Box home{{-1, 12, 1}, {-0.5, 12.5, 1.5}};
+  const Box image{{-1, 12, 1}, {-0.5, 12.5, 1.5}};
   for (const double far : {1e6, 1e17, 1e100}) {
     std::size_t found = 0;
-    const auto look = [&](const Box& image, const Vec3&) { found += overlap(image, home) ? 1 : 0; };
+    const auto look = [&](const Box& repeated, const Vec3&) { found += overlap(repeated, image) ? 1 : 0; };
     space.for_each_image({{-far, -far, -far}, {far, far, far}}, 0.5, look);
     EXPECT_EQ(found, 1u);
     space.for_each_image({{far, far, far}, {far, far, far}}, 0.5, look);

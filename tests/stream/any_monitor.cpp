@@ -28,8 +28,8 @@ Snapshot snapshot_of_monitor(std::uint64_t seed) {
                                    {.acceleration_limit = 1.0, .planned_acceleration = {0, 0, -1}}},
                        .separations = {{0, 0, {Separation::sphere(8.0), Separation::cylinder(4.0, 2.0)}},
                                        {0, 1, {Separation::ellipsoid(3.0, 6.0)}}},
-                       .silence_after = 2.0,
-                       .forget_after = 5.0})
+                       .stale_after = 2.0,
+                       .drop_after = 5.0})
           .value();
   const double start = seed % 2 == 0 ? 0.0 : 1e6;
   for (int k = 0; k < 60; ++k) {
@@ -37,7 +37,7 @@ Snapshot snapshot_of_monitor(std::uint64_t seed) {
     for (int left = 20; left > 0 && monitor.advance(time).value(); --left) continue;
     const TrackId id = random.bits() % 7;
     TrackReport report{
-        .stamp = time - random.uniform(-0.2, 0.5), .position_error = 0.2, .velocity_error = 0.3};
+        .timestamp = time - random.uniform(-0.2, 0.5), .position_error = 0.2, .velocity_error = 0.3};
     report.track_class = id % 2;
     report.state = {{3.0 * static_cast<double>(id), time - start, 0}, {0, 1, 0}};
     if (k % 9 == 8) report.state.position.x += 300.0;
@@ -64,7 +64,7 @@ void use(Monitor monitor, Random& random) {
     static_cast<void>(monitor.track(id).value());
     if (const auto answer = monitor.answer(id, other))
       require(!(answer->until < monitor.time()), "an old answer");
-    static_cast<void>(monitor.report(id, {.stamp = monitor.time(),
+    static_cast<void>(monitor.report(id, {.timestamp = monitor.time(),
                                           .state = {5.0 * random.point_in_ball(), random.point_in_ball()},
                                           .track_class = monitor.track(id)->track_class}));
     if (k % 11 == 10) monitor.remove(other).value();

@@ -98,7 +98,7 @@ class Sky {
     define();
     for (std::uint32_t k = 2 + choices_.below(5); k > 0; --k) add_track();
     definition_.classes[0].largest_speed =
-        has_speed_ ? Spread(static_cast<double>(fastest_) * 1.0001 + 1e-9) : Spread(infinity());
+        has_speed_ ? ErrorBound(static_cast<double>(fastest_) * 1.0001 + 1e-9) : ErrorBound(infinity());
     auto made = Monitor::create(definition_);
     if (!made) throw BadResult(made.error());
     monitor_.emplace(std::move(*made));
@@ -193,7 +193,7 @@ class Sky {
   /// One that keeps what it says, as of a time.
   TrackReport report_of(std::size_t track, double time) {
     const Truth& truth = truths_[track];
-    TrackReport report{.stamp = time};
+    TrackReport report{.timestamp = time};
     const double error = choices_.of({1e-6, 0.1, 1.0}) * (1.0 + 1e-6 * size_),
                  velocity_error = choices_.of({1e-6, 0.1, 1.0}) / unit_;
     report.position_error = error;
@@ -203,8 +203,8 @@ class Sky {
     report.state.velocity =
         rounded(truth.velocity(time) + place_of(flat(choices_.direction() * (0.99 * velocity_error))));
     if (choices_.one_in(4)) {
-      report.stamp_error = 0.1 * unit_ * choices_.part();
-      report.stamp += 0.99 * report.stamp_error * choices_.signed_part();
+      report.timestamp_error = 0.1 * unit_ * choices_.part();
+      report.timestamp += 0.99 * report.timestamp_error * choices_.signed_part();
     }
     if (has_speed_ && choices_.one_in(5)) {
       report.velocity_error = infinity();
@@ -216,7 +216,8 @@ class Sky {
   /// What is in force at the time a report is of, if the report is to say so.
   void add_plan(std::size_t track, double time, TrackReport& report) {
     for (const FiledPlan& filed : truths_[track].plans)
-      if (filed.from <= time && time < filed.until && filed.until > report.stamp) report.plan = filed.plan;
+      if (filed.from <= time && time < filed.until && filed.until > report.timestamp)
+        report.plan = filed.plan;
   }
 
   /// A plan beyond the class has to be known before it begins: so all are told.
@@ -228,7 +229,7 @@ class Sky {
         // Only what knows no accelerations can do without.
         TrackReport report = report_of(track, filed.from);
         report.plan = filed.plan;
-        if (filed.until <= report.stamp) report.stamp = filed.from;
+        if (filed.until <= report.timestamp) report.timestamp = filed.from;
         take(track, report, filed.is_beyond);
       }
   }
@@ -284,7 +285,7 @@ class Sky {
       for (std::size_t k = 0; k < ids.size(); ++k)
         if (!choices_.one_in(3)) {
           TrackReport report = report_of(ids[k], std::min(at, start_ + unit_ * segments));
-          report.stamp = std::min(report.stamp, at);
+          report.timestamp = std::min(report.timestamp, at);
           reports[k] = report;
         }
     };
@@ -302,7 +303,7 @@ class Sky {
       verdict = (*event)->verdict;
     }
     const MonitorCounters& counters = monitor_->counters();
-    if (counters.windows > 200'000 || counters.looks > 20'000'000) fail("too many steps");
+    if (counters.windows > 200'000 || counters.rechecks > 20'000'000) fail("too many steps");
   }
 
   /// How far the pair is beyond the separation: negative inside, in units of its limits.

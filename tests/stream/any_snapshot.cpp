@@ -31,8 +31,8 @@ Snapshot snapshot_of_stream(std::uint64_t seed) {
 }
 
 void edit(Snapshot& snapshot, std::span<const std::uint8_t> edit) {
-  const std::size_t room = snapshot.size() - snapshot_frame_size;
-  const std::size_t at = snapshot_header_size + (256u * edit[0] + edit[1]) % room;
+  const std::size_t margin = snapshot.size() - snapshot_frame_size;
+  const std::size_t at = snapshot_header_size + (256u * edit[0] + edit[1]) % margin;
   const auto place = snapshot.begin() + static_cast<std::ptrdiff_t>(at);
   const std::byte value{edit[3]};
   switch (edit[2] % 4) {
@@ -46,7 +46,7 @@ void edit(Snapshot& snapshot, std::span<const std::uint8_t> edit) {
       snapshot.insert(place, value);
       break;
     default:
-      if (room > 1) snapshot.erase(place);
+      if (margin > 1) snapshot.erase(place);
   }
 }
 

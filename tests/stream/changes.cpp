@@ -53,7 +53,7 @@ Vec3 Player::inside(Vec3 position, double radius) const {
 }
 
 /// Whether nothing keeps a body, with this extent, from being there where overlaps are refused.
-bool Player::has_room(BodyId id, const Extent& extent, const BodyDefinition& body) const {
+bool Player::has_room(BodyId id, const CollisionShape& extent, const BodyDefinition& body) const {
   if (truth_.definition().allow_overlap) return true;
   for (const TrueBody& other : truth_.bodies()) {
     if (!other.present() || other.id == id || (extent.fixed && other.fixed)) continue;
@@ -75,9 +75,9 @@ void Player::add(const Operation& operation) {
   if (truth_.ids().size() >= kind_.most_bodies) return;
   const BodyDefinition body = new_body(operation);
   const Bound bound = bound_of(body, {body.position, body.velocity}, truth_.time());
-  const bool room = has_room(no_body, {bound}, body);
+  const bool margin = has_room(no_body, {bound}, body);
   const auto id = on_world([&](World& world) { return world.add(body); });
-  require(static_cast<bool>(id) == room, "add: overlaps are refused wrongly");
+  require(static_cast<bool>(id) == margin, "add: overlaps are refused wrongly");
   if (!id) return require(id.error().code == ErrorCode::overlapping, "add: refused for a wrong reason");
   join(*id, body, operation);
 }
@@ -100,14 +100,14 @@ void Player::add_all(const Operation& operation) {
 void Player::add_fixed(const Operation& operation) {
   if (!kind_.fixed || truth_.ids().size() >= kind_.most_bodies) return;
   const bool flat = truth_.definition().dimensions == 2;
-  FixedDefinition fixed{.shape = operation.shape(flat),
-                        .filter = operation.filter(),
-                        .solid = !kind_.sensors || operation.solid(),
-                        .sensor_class = operation.sensor_class(),
-                        .user_data = operation.code()};
+  StaticDefinition fixed{.shape = operation.shape(flat),
+                         .filter = operation.filter(),
+                         .solid = !kind_.sensors || operation.solid(),
+                         .sensor_class = operation.sensor_class(),
+                         .user_data = operation.code()};
   if (truth_.definition().periodic.any()) fixed.shape = Ball{operation.position(), radius(operation)};
   if (auto* ball = std::get_if<Ball>(&fixed.shape)) ball->centre = truth_.in_space(ball->centre);
-  const auto id = on_world([&](World& world) { return world.add_fixed(fixed); });
+  const auto id = on_world([&](World& world) { return world.add_static(fixed); });
   if (!id) {
     require(!truth_.definition().allow_overlap && id.error().code == ErrorCode::overlapping,
             "add_fixed: refused for a wrong reason");
@@ -149,7 +149,7 @@ void Player::remove_all(const Operation& operation) {
   ids = {ids.begin() + static_cast<std::ptrdiff_t>(from),
          ids.begin() + static_cast<std::ptrdiff_t>(from + count)};
   std::vector<std::vector<Before>> before;
-  Island island;
+  EventProcessor island;
   for (const BodyId id : ids) {
     before.push_back(told_.before(world_, id));
     island.join(island_of(id));
@@ -191,9 +191,9 @@ void Player::steer(const Operation& operation) {
 void Player::teleport(BodyId id, const State& state) {
   const auto before = told_.before(world_, id);
   const BodyDefinition& body = truth_.at(id).definition;
-  const bool room = has_room(id, {bound_of(body, state, truth_.time())}, body);
+  const bool margin = has_room(id, {bound_of(body, state, truth_.time())}, body);
   const auto done = waking(island_of(id), [&](World& world) { return world.teleport(id, state); });
-  require(static_cast<bool>(done) == room, "teleport: overlaps are refused wrongly");
+  require(static_cast<bool>(done) == margin, "teleport: overlaps are refused wrongly");
   if (!done) return require(done.error().code == ErrorCode::overlapping, "teleport: a wrong reason");
   truth_.move(id, state);
   told_.replaced(world_, id, before);
@@ -229,7 +229,7 @@ void Player::set_radius(const Operation& operation) {
   const double radius = this->radius(operation);
   const auto before = truth_.is_present(*id) ? told_.before(world_, *id) : std::vector<Before>();
   const bool strict = !truth_.definition().allow_overlap;
-  const Island island = truth_.is_present(*id) ? island_of(*id) : Island{};
+  const EventProcessor island = truth_.is_present(*id) ? island_of(*id) : EventProcessor{};
   const auto done = waking(island, [&](World& world) { return world.set_radius(*id, radius); });
   if (!done) {
     require(strict && radius > truth_.at(*id).definition.radius, "set_radius: refused without a reason");
@@ -278,11 +278,11 @@ void Player::turn_on(const Operation& operation) {
   if (off == truth_.bodies().end()) return;
   const BodyId id = off->id;
   const State state = place(operation, off->definition.radius);
-  const bool room = off->fixed
-                        ? room_of_fixed(id)
-                        : has_room(id, {bound_of(off->definition, state, truth_.time())}, off->definition);
+  const bool margin = off->fixed
+                          ? room_of_fixed(id)
+                          : has_room(id, {bound_of(off->definition, state, truth_.time())}, off->definition);
   const auto done = on_world([&](World& world) { return world.enable(id, state); });
-  require(static_cast<bool>(done) == room, "enable: overlaps are refused wrongly");
+  require(static_cast<bool>(done) == margin, "enable: overlaps are refused wrongly");
   if (!done) return require(done.error().code == ErrorCode::overlapping, "enable: a wrong reason");
   if (!off->fixed) truth_.move(id, state);
   truth_.at(id).enabled = true;
@@ -364,7 +364,7 @@ void Player::haunt(const Operation& operation) {
   if (!id) return;
   refilter({*id}, [&] {
     truth_.haunt(*id);
-    accepted(on_world([&](World& world) { return world.refilter(*id); }));
+    accepted(on_world([&](World& world) { return world.refresh_filter(*id); }));
   });
 }
 

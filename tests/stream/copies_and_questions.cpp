@@ -56,7 +56,7 @@ void Player::ask(const Operation& operation) {
       if (!truth_.is_present(body)) continue;
       const double gap = truth_.distance(body, centre);
       const auto entry = std::find_if(found->begin(), found->end(),
-                                      [=](const Found& candidate) { return candidate.body == body; });
+                                      [=](const OverlapHit& candidate) { return candidate.body == body; });
       if (entry == found->end())
         require(gap >= radius - slack, "overlapping() leaves out a body that overlaps");
       else if (entry->certainty == Certainty::certainly || probes)
@@ -102,7 +102,7 @@ void Player::call_wrongly(const Operation& operation) {
       break;
     case 4:
       refused(world_.set_filter(wrong, {}), code);
-      refused(world_.refilter(wrong), code);
+      refused(world_.refresh_filter(wrong), code);
       refused(world_.set_solid(wrong, true), code);
       refused(world_.set_sensor_class(wrong, 1), code);
       refused(world_.set_sensor(1, {.distances = {0.5, -1.0}}), ErrorCode::out_of_range);
@@ -112,7 +112,7 @@ void Player::call_wrongly(const Operation& operation) {
       refused(world_.user_data(wrong), code);
       refused(world_.body(wrong), code);
       refused(world_.touching(wrong), code);
-      refused(world_.sensed(wrong), code);
+      refused(world_.sensor_overlaps(wrong), code);
       refused(world_.shape_of(wrong), code);
       break;
     case 6:
@@ -131,11 +131,11 @@ void Player::call_wrongly(const Operation& operation) {
     case 8:
       if (!id) break;
       if (truth_.at(*id).fixed) {
-        refused(world_.set_radius(*id, 0.5), ErrorCode::fixed_body);
-        refused(world_.set_motion_limits(*id, {}), ErrorCode::fixed_body);
-        refused(world_.set_velocity(*id, {}), ErrorCode::fixed_body);
-        refused(world_.teleport(*id, state), ErrorCode::fixed_body);
-        refused(world_.add_fixed({.shape = HalfSpace{{1, 1, 0}, 0}}), ErrorCode::out_of_range);
+        refused(world_.set_radius(*id, 0.5), ErrorCode::static_body);
+        refused(world_.set_motion_limits(*id, {}), ErrorCode::static_body);
+        refused(world_.set_velocity(*id, {}), ErrorCode::static_body);
+        refused(world_.teleport(*id, state), ErrorCode::static_body);
+        refused(world_.add_static({.shape = HalfSpace{{1, 1, 0}, 0}}), ErrorCode::out_of_range);
       } else {
         refused(world_.set_radius(*id, -0.5), ErrorCode::out_of_range);
         refused(world_.set_motion_limits(*id, {.acceleration_limit = nan}), ErrorCode::not_finite);

@@ -65,8 +65,8 @@ void overwrite(std::vector<std::byte>& bytes, std::size_t at, const void* with, 
 void damage(std::vector<std::byte>& bytes, std::size_t first, std::size_t behind,
             std::span<const std::uint8_t> how) {
   if (bytes.size() <= first + behind) return;
-  const std::size_t room = bytes.size() - first - behind;
-  std::size_t at = first + (65536u * how[0] + 256u * how[1] + how[2]) % room;
+  const std::size_t margin = bytes.size() - first - behind;
+  std::size_t at = first + (65536u * how[0] + 256u * how[1] + how[2]) % margin;
   const auto place = bytes.begin() + static_cast<std::ptrdiff_t>(at);
   const auto value = how.subspan(4, 8);
   static const std::uint32_t whole[] = {

@@ -90,7 +90,7 @@ class Crowd {
       Shape shape = Ball{place, 0.3};
       if (!repeats && k == 1) shape = Box{place, place + Vec3{1, 1, flat ? 0.0 : 1.0}};
       if (!repeats && k == 2) shape = HalfSpace{{0, 1, 0}, 0.1};
-      if (const auto id = world_.add_fixed({.shape = shape})) keep(*id, {place, {}});
+      if (const auto id = world_.add_static({.shape = shape})) keep(*id, {place, {}});
     }
   }
 
@@ -112,7 +112,7 @@ class Crowd {
     for (const BodyId id : world_.bodies()) {
       const auto what = id.index % 8;
       if (what == 1) kick(id, {1, 1, 0});
-      if (what == 2 && world_.rest(id)) keep(id, {place_of(id, world_.time()), {}});
+      if (what == 2 && world_.sleep(id)) keep(id, {place_of(id, world_.time()), {}});
       if (what == 3) (void)world_.disable(id);
       if (what == 4) (void)world_.set_motion_limits(id, {.acceleration_limit = 2.0});
       if (what == 5) (void)world_.remove(id);
@@ -130,7 +130,7 @@ class Crowd {
     starts_[id.index] = {world_.time(), state};
   }
   Vec3 place_of(BodyId id, double time) const {
-    const Departure& from = starts_[id.index];
+    const MotionOrigin& from = starts_[id.index];
     return from.state.position + from.state.velocity * (time - from.time);
   }
   Probe probe() {
@@ -142,7 +142,7 @@ class Crowd {
 
   Random random_;
   World world_;
-  std::vector<Departure> starts_;
+  std::vector<MotionOrigin> starts_;
 };
 
 std::vector<Original> make_originals() {
@@ -200,7 +200,7 @@ void ask(World& world, Random& random, const Probe& probe) {
     (void)world.body(id);
     (void)world.shape_of(id);
     (void)world.touching(id);
-    (void)world.sensed(id);
+    (void)world.sensor_overlaps(id);
     (void)world.safe_until(id);
     (void)world.earliest_contact(id);
     (void)world.earliest_approach(id, 0.5);
@@ -221,7 +221,7 @@ void change(World& world, Random& random) {
     case 1:
       return (void)world.teleport(id, state);
     case 2:
-      return (void)world.rest(id);
+      return (void)world.sleep(id);
     case 3:
       return (void)world.wake(id);
     case 4:
@@ -233,7 +233,7 @@ void change(World& world, Random& random) {
     case 7:
       return (void)world.add({.radius = 0.1, .position = state.position, .velocity = state.velocity});
     case 8:
-      return (void)world.add_fixed({.shape = Ball{state.position, 0.2}});
+      return (void)world.add_static({.shape = Ball{state.position, 0.2}});
     case 9:
       return (void)world.set_motion_limits(id, {.acceleration_limit = 1.0});
     case 10:

@@ -37,7 +37,7 @@ auto Player::on_world(Call call) {
 
 /// The same, where the call wakes this island if it is not refused.
 template <class Call>
-auto Player::waking(const Island& island, Call call) {
+auto Player::waking(const EventProcessor& island, Call call) {
   auto result = on_world(call);
   if (result) check_woken(island);
   return result;

@@ -95,20 +95,20 @@ void Player::check_body(BodyId id) const {
   const BodyDefinition& found = view.definition;
   const BodyDefinition& expected = body.definition;
   require(view.enabled == body.enabled, "enabled and disabled are mixed up");
-  require(view.fixed == body.fixed, "fixed bodies and others are mixed up");
+  require(view.is_static == body.fixed, "fixed bodies and others are mixed up");
   require(found.radius == expected.radius && found.filter == expected.filter &&
               found.solid == expected.solid && found.sensor_class == expected.sensor_class &&
               found.user_data == expected.user_data &&
               found.acceleration_limit == expected.acceleration_limit &&
               found.planned_acceleration == expected.planned_acceleration,
           "a body's definition is not what was set");
-  require(view.resting == body.resting, "a body has come to rest or is awake without a reason");
+  require(view.sleeping == body.resting, "a body has come to rest or is awake without a reason");
   if (!body.enabled) return;
   const Vec3 centre = view.bound.centre_at(truth_.time());
   const Vec3 position = truth_.state(id).position;
   const Vec3 off = position + truth_.shift_to_nearest(position, centre) - centre;
-  const double room = view.bound.radius_at(truth_.time()) - expected.radius;
-  require(norm(off) <= room + 1e-3 * truth_.definition().contact_tolerance + 1e-12,
+  const double margin = view.bound.radius_at(truth_.time()) - expected.radius;
+  require(norm(off) <= margin + 1e-3 * truth_.definition().contact_tolerance + 1e-12,
           "a body is outside its bound");
 }
 
@@ -169,7 +169,7 @@ void Player::move_on() {
 void Player::hear(const Event& event) {
   ++events_;
   require(event.time == world_.time(), "an event of another time");
-  if (event.kind == EventKind::woken) return hear_woken(event);
+  if (event.kind == EventKind::woke) return hear_woken(event);
   check_order(event);
   told_.hear(event);
   wake_by(event);

@@ -88,24 +88,24 @@ class Player {
   Operation about(BodyId id, Operation operation) const;
 
   // rest.cpp
-  struct Island {
+  struct EventProcessor {
     std::vector<BodyId> has_to_wake, may_wake;
-    void join(const Island& other);
+    void join(const EventProcessor& other);
   };
   bool in_touch(BodyId id, BodyId resting, bool certainly) const;
   std::vector<BodyId> resting_with(BodyId id, bool certainly) const;
-  Island island_of(BodyId id) const;
-  Island island_if_resting(BodyId id) const;
-  void check_woken(const Island& island);
+  EventProcessor island_of(BodyId id) const;
+  EventProcessor island_if_resting(BodyId id) const;
+  void check_woken(const EventProcessor& island);
   void hear_woken(const Event& event);
   void wake_by(const Event& event);
   void rest(BodyId id);
   template <class Call>
-  auto waking(const Island& island, Call call);
+  auto waking(const EventProcessor& island, Call call);
 
   // run.cpp
   Workers& workers(int threads);
-  std::vector<Event> loop(double until, const Respond& respond);
+  std::vector<Event> loop(double until, const ResponseFn& respond);
 
   // sprint.cpp
   void sprint(BodyId id, const Operation& operation) const;
@@ -118,7 +118,7 @@ class Player {
     return truth_.in_space(operation.acceleration(promise));
   }
   MotionLimits limits(const Operation& operation) const;
-  bool has_room(BodyId id, const Extent& extent, const BodyDefinition& body) const;
+  bool has_room(BodyId id, const CollisionShape& extent, const BodyDefinition& body) const;
   template <class Change>
   void refilter(const std::vector<BodyId>& ids, Change change);
   void join(BodyId id, const BodyDefinition& body, const Operation& operation);

@@ -29,7 +29,7 @@ bool Player::in_touch(BodyId id, BodyId resting, bool certainly) const {
   }
   const Bound bound = world_.body(id).value().bound;
   const Bound bound_of_other = world_.body(resting).value().bound;
-  const Extent extent{bound, body.fixed, body.shape ? &*body.shape : nullptr};
+  const CollisionShape extent{bound, body.fixed, body.shape ? &*body.shape : nullptr};
   return truth_.limits(extent, {bound_of_other}).lower <= rule.release_gap() + slack;
 }
 
@@ -45,29 +45,29 @@ std::vector<BodyId> Player::resting_with(BodyId id, bool certainly) const {
   return reached;
 }
 
-void Player::Island::join(const Island& other) {
+void Player::EventProcessor::join(const EventProcessor& other) {
   has_to_wake.insert(has_to_wake.end(), other.has_to_wake.begin(), other.has_to_wake.end());
   may_wake.insert(may_wake.end(), other.may_wake.begin(), other.may_wake.end());
 }
 
 /// What has to wake when something happens to this body.
-Player::Island Player::island_of(BodyId id) const {
+Player::EventProcessor Player::island_of(BodyId id) const {
   const bool any = std::any_of(truth_.bodies().begin(), truth_.bodies().end(),
                                [](const TrueBody& body) { return body.alive && body.resting; });
-  return any ? Island{resting_with(id, true), resting_with(id, false)} : Island{};
+  return any ? EventProcessor{resting_with(id, true), resting_with(id, false)} : EventProcessor{};
 }
 
 /// Something that only matters to a body that rests.
-Player::Island Player::island_if_resting(BodyId id) const {
-  return truth_.at(id).resting ? island_of(id) : Island{};
+Player::EventProcessor Player::island_if_resting(BodyId id) const {
+  return truth_.at(id).resting ? island_of(id) : EventProcessor{};
 }
 
 /// The island has been woken, and nobody else.
-void Player::check_woken(const Island& island) {
+void Player::check_woken(const EventProcessor& island) {
   for (const BodyId id : truth_.ids()) {
     if (!truth_.at(id).resting) continue;
     const auto view = world_.body(id);
-    if (view && view->resting) {
+    if (view && view->sleeping) {
       require(!contains(island.has_to_wake, id), "a body in touch with one that wakes rests on");
       continue;
     }
@@ -88,7 +88,7 @@ void Player::hear_woken(const Event& event) {
 
 /// What the events of one contact wake.
 void Player::wake_by(const Event& event) {
-  Island island;
+  EventProcessor island;
   if (event.kind == EventKind::contact_begin || event.kind == EventKind::contact_end)
     for (const BodyId id : {event.first, event.second})
       if (truth_.is_present(id)) island.join(island_if_resting(id));
@@ -97,9 +97,9 @@ void Player::wake_by(const Event& event) {
 
 void Player::rest(BodyId id) {
   const bool rested = truth_.at(id).resting;
-  const auto done = on_world([&](World& world) { return world.rest(id); });
+  const auto done = on_world([&](World& world) { return world.sleep(id); });
   if (!done) throw Disagreement("rest: " + done.error().message);
-  require(world_.body(id).value().resting, "a body does not rest");
+  require(world_.body(id).value().sleeping, "a body does not rest");
   if (rested) return;
   truth_.rest(id);
   told_.kicked(id);

@@ -44,15 +44,15 @@ class Answering {
   Answering(const Truth& truth, std::uint64_t seed, bool passes)
       : truth_(truth), seed_(seed), passes_(passes) {}
 
-  Answer operator()(const Event& event) const {
+  Response operator()(const Event& event) const {
     if (passes_) return {};
     // It sets out from there, with the acceleration that it has when it is awake.
-    if (event.kind == EventKind::woken && moves(event.first))
+    if (event.kind == EventKind::woke && moves(event.first))
       return {.first_velocity = event.first_state.velocity};
     if (!is_begin(event) || event.approach_speed <= 0.0) return {};
     const std::optional<Bounce> after = bounce(event);
     if (!after) return {};
-    Answer answer;
+    Response answer;
     if (moves(event.first)) answer.first_velocity = after->first_velocity;
     if (event.second != no_body && moves(event.second)) answer.second_velocity = after->second_velocity;
     return answer;
@@ -84,10 +84,10 @@ class Answering {
 };
 
 /// Moves bodies from where they are in truth when the run begins.
-class Moving final : public Mover {
+class Moving final : public MotionSource {
  public:
   explicit Moving(const Truth& truth) : bodies_(truth.bodies()) {}
-  void fail_at(const Event& event, const Answer& answer, Fault fault) {
+  void fail_at(const Event& event, const Response& answer, Fault fault) {
     event_ = event;
     answer_ = answer;
     fault_ = fault;
@@ -110,21 +110,21 @@ class Moving final : public Mover {
       if (fault_ == Fault::refused_states) states[k].position.y = nan;
     }
   }
-  Departure departure(BodyId id) const override {
+  MotionOrigin origin(BodyId id) const override {
     const Segment& path = bodies_[id.index].path.front();
     return {path.begin, {path.position, path.velocity}};
   }
   /// A body that rested is awake then.
-  void depart(BodyId id, const Departure& departure) override {
+  void set_origin(BodyId id, const MotionOrigin& origin) override {
     const auto& velocity = id == event_.first ? answer_.first_velocity : answer_.second_velocity;
-    if (fault_ == Fault::departure && departure.time == event_.time &&
-        (id == event_.first || id == event_.second) && departure.state.velocity == velocity)
+    if (fault_ == Fault::departure && origin.time == event_.time &&
+        (id == event_.first || id == event_.second) && origin.state.velocity == velocity)
       throw Failed();
     TrueBody& body = bodies_[id.index];
     Segment& path = body.path.front();
-    path.begin = departure.time;
-    path.position = departure.state.position;
-    path.velocity = departure.state.velocity;
+    path.begin = origin.time;
+    path.position = origin.state.position;
+    path.velocity = origin.state.velocity;
     if (std::exchange(body.resting, false)) path.acceleration = body.on_waking;
   }
 
@@ -133,14 +133,14 @@ class Moving final : public Mover {
   std::atomic<const char*> misuse_ = nullptr;
   Fault fault_ = Fault::nowhere;
   Event event_;
-  Answer answer_;
+  Response answer_;
 };
 
 /// A world that runs, and what it has to tell.
 class Run {
  public:
-  Run(World& world, Moving& mover, const Answering& answer, const std::vector<Event>& expected)
-      : world_(world), mover_(mover), answer_(answer), expected_(expected) {}
+  Run(World& world, Moving& source, const Answering& answer, const std::vector<Event>& expected)
+      : world_(world), mover_(source), answer_(answer), expected_(expected) {}
 
   /// At the first event that is as this one of those that are expected.
   void fail_at(std::size_t place, Fault fault) {
@@ -193,7 +193,7 @@ class Run {
       if (!event) throw Disagreement("advance after a run: " + event.error().message);
       if (!*event) break;
       tell(**event);
-      const Answer answer = answers ? answer_(**event) : Answer{};
+      const Response answer = answers ? answer_(**event) : Response{};
       turn((*event)->first, answer.first_velocity);
       turn((*event)->second, answer.second_velocity);
     }
@@ -201,8 +201,8 @@ class Run {
   }
 
  private:
-  Answer respond_to(const Event& event) const {
-    Answer answer = answer_(event);
+  Response respond_to(const Event& event) const {
+    Response answer = answer_(event);
     if (place_ >= expected_.size() || !same_in_all(event, expected_[place_])) return answer;
     if (fault_ == Fault::respond) throw Failed();
     if (fault_ == Fault::refused_answer) answer.first_velocity = Vec3{nan, 0, 0};
@@ -219,7 +219,7 @@ class Run {
     if (!velocity) return;
     State state;
     mover_.states(std::span(&id, 1), world_.time(), std::span(&state, 1));
-    mover_.depart(id, {world_.time(), {state.position, *velocity}});
+    mover_.set_origin(id, {world_.time(), {state.position, *velocity}});
     if (const auto done = world_.set_velocity(id, *velocity); !done)
       throw Disagreement("set_velocity after a run: " + done.error().message);
   }
@@ -252,11 +252,11 @@ Workers& Player::workers(int threads) {
 }
 
 /// To `until`, or where much happens to some event before.
-std::vector<Event> Player::loop(double until, const Respond& respond) {
+std::vector<Event> Player::loop(double until, const ResponseFn& respond) {
   std::vector<Event> events;
   while (const auto event = next_event(until)) {
     events.push_back(*event);
-    const Answer answer = respond(*event);
+    const Response answer = respond(*event);
     if (answer.first_velocity) set_velocity(event->first, *answer.first_velocity);
     if (answer.second_velocity) set_velocity(event->second, *answer.second_velocity);
     if (events.size() >= most_events) until = world_.time();
@@ -277,12 +277,12 @@ void Player::run(const Operation& operation) {
     give_pair_filters();
     give_pair_filter(world);
   }
-  Moving mover(truth_);
+  Moving source(truth_);
   const double start = world_.time();
   const std::uint64_t probes = world_.counters().probes - world.counters().probes;
   const std::vector<Event> events = loop(start + (kind_.crowd ? 0.3 : 0.1) * length * length, answer);
 
-  Run run(world, mover, answer, events);
+  Run run(world, source, answer, events);
   Fault fault = Fault::nowhere;
   if (!events.empty() && operation.byte(3) % 2 == 0) {
     static constexpr std::array faults{Fault::sink,    Fault::states,    Fault::refused_states,
@@ -304,15 +304,15 @@ void Player::run(const Operation& operation) {
     else
       require(run.go(world_.time(), answers, workers(1 + operation.byte(5) / 2 % 3)), "a run fails again");
   }
-  mover.check_use();
+  source.check_use();
   require(world.time() == world_.time(), "a run ends at another time than a loop");
   if (fault == Fault::nowhere)
     require(world.counters().probes + probes == world_.counters().probes,
             "a run probes otherwise than a loop");
   for (const BodyId id : truth_.ids()) {
     const Segment& path = truth_.at(id).path.front();
-    const Departure departure = mover.departure(id);
-    require(departure.time == path.begin && departure.state == State{path.position, path.velocity},
+    const MotionOrigin origin = source.origin(id);
+    require(origin.time == path.begin && origin.state == State{path.position, path.velocity},
             "a run leaves a body on another way than a loop");
   }
   std::swap(world_, world);

@@ -100,7 +100,7 @@ GapLimits ToldContacts::limits(const World& world, const Contact& contact) const
   const Bound other = world.body(contact.second).value().bound;
   const auto extent = [this](BodyId id, const Bound& its_bound) {
     const TrueBody& body = truth_.at(id);
-    return Extent{its_bound, body.fixed, body.shape ? &*body.shape : nullptr};
+    return CollisionShape{its_bound, body.fixed, body.shape ? &*body.shape : nullptr};
   };
   return truth_.limits(extent(contact.first, bound), extent(contact.second, other));
 }
@@ -273,12 +273,12 @@ void ToldContacts::begin(const Event& event, const Contact& contact) {
       (pair && !same_state(event.second_state, contact.second)))
     fail("a begin with wrong states", contact, gap);
   // A world keeps the Zeno interval of a body in so many digits: near its end either mark is right.
-  constexpr double kept = 1.0 - 0x1p-20;
+  constexpr double checkpoint = 1.0 - 0x1p-20;
   const auto comes_within_part = [&](double part) {
     return !contact.sensed &&
            (comes_within(contact.first, part) || (pair && comes_within(contact.second, part)));
   };
-  if (event.repeated ? !comes_within_part(1.0) : comes_within_part(kept))
+  if (event.repeated ? !comes_within_part(1.0) : comes_within_part(checkpoint))
     fail("a begin wrongly marked as repeated", contact, gap);
   if (!contact.sensed) {
     truth_.at(contact.first).last_contact = truth_.time();
@@ -306,23 +306,23 @@ void ToldContacts::end(const Event& event, const Contact& contact) {
 
 void ToldContacts::check_account(const World& world, BodyId id) const {
   const std::vector<BodyId> touching = world.touching(id).value();
-  const std::vector<Sensed> sensed = world.sensed(id).value();
+  const std::vector<SensorOverlap> sensed = world.sensor_overlaps(id).value();
   std::size_t contacts = 0;
-  std::size_t crossings = 0;
+  std::size_t overlaps = 0;
   for_each(id, [&](const Contact& contact) {
     if (contact.wall != Wall::none || impacts(contact)) return;
     const BodyId other = contact.first == id ? contact.second : contact.first;
     const bool listed = contact.sensed ? std::find(sensed.begin(), sensed.end(),
-                                                   Sensed{other, *contact.sensed}) != sensed.end()
+                                                   SensorOverlap{other, *contact.sensed}) != sensed.end()
                                        : std::find(touching.begin(), touching.end(), other) != touching.end();
-    (contact.sensed ? crossings : contacts) += listed ? 1u : 0u;
+    (contact.sensed ? overlaps : contacts) += listed ? 1u : 0u;
     const auto end =
         std::find_if(ends_.begin(), ends_.end(), [&](const End& e) { return e.contact == contact; });
     if (end != ends_.end() && !end->certain) return;
     if (listed != (told(contact).touching && end == ends_.end()))
       fail("the account differs from what was told", contact, 0.0);
   });
-  if (sensed.size() != crossings || (!rule_.impacts_only() && touching.size() != contacts))
+  if (sensed.size() != overlaps || (!rule_.impacts_only() && touching.size() != contacts))
     throw Disagreement("touching() or sensed() names a body twice, or one that is gone");
 }
 
@@ -388,11 +388,11 @@ void ToldContacts::check_pair(Contact contact, double until) {
 }
 
 /// The first time from `from` on at which the gap certainly passes a level.
-std::optional<double> ToldContacts::reaches(const Contact& contact, LevelCrossing crossing, double level,
+std::optional<double> ToldContacts::reaches(const Contact& contact, LevelCrossing overlap, double level,
                                             double from, double until) const {
-  const double beyond = crossing == LevelCrossing::falls_to ? level - slack_ : level + slack_;
-  if (!truth_.may_reach(contact, crossing, beyond, until)) return std::nullopt;
-  return truth_.first_time(contact, crossing, beyond, from, until);
+  const double beyond = overlap == LevelCrossing::falls_to ? level - slack_ : level + slack_;
+  if (!truth_.may_reach(contact, overlap, beyond, until)) return std::nullopt;
+  return truth_.first_time(contact, overlap, beyond, from, until);
 }
 
 void ToldContacts::check_contact(const Contact& contact, double until) {

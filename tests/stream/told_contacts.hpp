@@ -94,7 +94,7 @@ class ToldContacts {
   void check_contact(const Contact& contact, double until);
   void check_impacts(const Contact& contact, Told& state, double until);
   void check_free(const Contact& contact, Told& state, double from, double until) const;
-  std::optional<double> reaches(const Contact& contact, LevelCrossing crossing, double level, double from,
+  std::optional<double> reaches(const Contact& contact, LevelCrossing overlap, double level, double from,
                                 double until) const;
   void look_again(const Contact& contact);
 

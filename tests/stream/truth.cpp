@@ -222,12 +222,12 @@ double Truth::distance(BodyId id, const Vec3& point) const {
   return norm(centre + shift_to_nearest(centre, point) - point) - body.definition.radius;
 }
 
-GapLimits Truth::limits(const Extent& a, const Extent& b) const {
+GapLimits Truth::limits(const CollisionShape& a, const CollisionShape& b) const {
   Bound nearest = b.bound;
   nearest.position += shift_to_nearest(b.bound.centre_at(time_), a.bound.centre_at(time_));
-  return visit_extents(a, Extent{nearest, b.fixed, b.shape}, [this](const Bound& bound, const auto& partner) {
-    return gap_limits(bound, partner, time_);
-  });
+  return visit_shapes(
+      a, CollisionShape{nearest, b.fixed, b.shape},
+      [this](const Bound& bound, const auto& partner) { return gap_limits(bound, partner, time_); });
 }
 
 /// Of the first body to the second in its nearest image; of a body before a wall, along the normal. Of a body
@@ -263,30 +263,30 @@ double Truth::approach_speed(const Contact& contact) const {
   return distance > 0.0 ? -dot(x, v) / distance : -norm(v);
 }
 
-bool Truth::may_reach(const Contact& contact, LevelCrossing crossing, double level, double until) const {
+bool Truth::may_reach(const Contact& contact, LevelCrossing overlap, double level, double until) const {
   const auto [x, v, g] = relative(contact);
   const double s = until - time_;
   const double way = 1.001 * (norm(v) + 0.5 * norm(g) * s) * s + 1e-9;
   const double gap = this->gap(contact);
-  return crossing == LevelCrossing::falls_to ? gap - way <= level : gap + way >= level;
+  return overlap == LevelCrossing::falls_to ? gap - way <= level : gap + way >= level;
 }
 
-std::optional<double> Truth::first_time(const Contact& contact, LevelCrossing crossing, double level,
+std::optional<double> Truth::first_time(const Contact& contact, LevelCrossing overlap, double level,
                                         double from, double until) const {
   if (const auto half = inside(contact))
-    return GapCourse(mover(contact).path, *half, extent(contact)).first_time(crossing, level, from, until);
-  if (shape(contact) != nullptr) return march(contact, crossing, level, from, until);
-  return first_in_images(contact, crossing, level, from, until);
+    return GapCourse(mover(contact).path, *half, extent(contact)).first_time(overlap, level, from, until);
+  if (shape(contact) != nullptr) return march(contact, overlap, level, from, until);
+  return first_in_images(contact, overlap, level, from, until);
 }
 
 /// By steps that the body takes to come to the level at its largest speed, though not too short ones.
-std::optional<double> Truth::march(const Contact& contact, LevelCrossing crossing, double level, double from,
+std::optional<double> Truth::march(const Contact& contact, LevelCrossing overlap, double level, double from,
                                    double until) const {
   const auto [x, v, g] = relative(contact);
   const double speed = norm(v) + norm(g) * (until - time_);
   for (double time = from;;) {
     const double gap = gap_at(contact, time);
-    const double way = crossing == LevelCrossing::falls_to ? gap - level : level - gap;
+    const double way = overlap == LevelCrossing::falls_to ? gap - level : level - gap;
     if (way <= 0.0) return time;
     if (time >= until) return std::nullopt;
     time = std::min(until, time + std::max(1e-3 * (until - from), way / speed));
@@ -295,25 +295,25 @@ std::optional<double> Truth::march(const Contact& contact, LevelCrossing crossin
 
 /// Where space repeats, one image after the other comes near; but bodies that have to part are near each
 /// other in one only.
-std::optional<double> Truth::first_in_images(const Contact& contact, LevelCrossing crossing, double level,
+std::optional<double> Truth::first_in_images(const Contact& contact, LevelCrossing overlap, double level,
                                              double from, double until) const {
   const Trajectory& path = at(contact.first).path;
   const double extent = this->extent(contact);
   const Axes periodic = definition_.periodic;
   if (!periodic.any())
-    return GapCourse(path, at(contact.second).path, extent).first_time(crossing, level, from, until);
+    return GapCourse(path, at(contact.second).path, extent).first_time(overlap, level, from, until);
   const auto centre = [from](const Trajectory& along) { return along.front().state_at(from).position; };
   Trajectory other = at(contact.second).path;
   const Vec3 nearest = other.front().position + shift_to_nearest(centre(other), centre(path));
   std::optional<double> first;
-  const int beyond = crossing == LevelCrossing::falls_to ? 1 : 0;
+  const int beyond = overlap == LevelCrossing::falls_to ? 1 : 0;
   const auto range = [&](int axis) { return periodic[axis] ? beyond : 0; };
   for (int x = -range(0); x <= range(0); ++x)
     for (int y = -range(1); y <= range(1); ++y)
       for (int z = -range(2); z <= range(2); ++z) {
         other.front().position = nearest + world_size * Vec3{double(x), double(y), double(z)};
         const auto time =
-            GapCourse(path, other, extent).first_time(crossing, level, from, first.value_or(until));
+            GapCourse(path, other, extent).first_time(overlap, level, from, first.value_or(until));
         if (time) first = time;
       }
   return first;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "contact/contact_event.hpp"
-#include "engine/extent.hpp"
+#include "engine/collision_shape.hpp"
 #include "kinesphere/event.hpp"
 #include "kinesphere/motion/trajectory.hpp"
 #include "kinesphere/shape.hpp"
@@ -108,14 +108,14 @@ class Truth {
   /// Of a point from the surface of the body.
   double distance(BodyId id, const Vec3& point) const;
   /// The first time in [from, until] at which the gap is at most, or at least, `level`.
-  std::optional<double> first_time(const Contact& contact, LevelCrossing crossing, double level, double from,
+  std::optional<double> first_time(const Contact& contact, LevelCrossing overlap, double level, double from,
                                    double until) const;
   /// What bounds say of the gap of two bodies now.
-  GapLimits limits(const Extent& a, const Extent& b) const;
+  GapLimits limits(const CollisionShape& a, const CollisionShape& b) const;
   /// How fast the gap closes now.
   double approach_speed(const Contact& contact) const;
   /// False only if the gap certainly stays above (falls_to) or below (rises_to) the level until then.
-  bool may_reach(const Contact& contact, LevelCrossing crossing, double level, double until) const;
+  bool may_reach(const Contact& contact, LevelCrossing overlap, double level, double until) const;
   /// Whether the gap opens at some time between now and `until`.
   bool opens_before(const Contact& contact, double until) const;
 
@@ -132,9 +132,9 @@ class Truth {
   bool meets(const Contact& contact) const;
   bool senses(BodyId a, BodyId b, double distance) const;
   double gap_at(const Contact& contact, double time) const;
-  std::optional<double> march(const Contact& contact, LevelCrossing crossing, double level, double from,
+  std::optional<double> march(const Contact& contact, LevelCrossing overlap, double level, double from,
                               double until) const;
-  std::optional<double> first_in_images(const Contact& contact, LevelCrossing crossing, double level,
+  std::optional<double> first_in_images(const Contact& contact, LevelCrossing overlap, double level,
                                         double from, double until) const;
   void restart(BodyId id);
 

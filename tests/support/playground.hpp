@@ -29,7 +29,7 @@ inline std::ostream& operator<<(std::ostream& out, const std::vector<Event>& eve
 }
 
 /// The true motion since the last change.
-struct Course {
+struct SeparationForecast {
   double since = 0.0;
   State state{};
   Vec3 acceleration{};
@@ -126,12 +126,12 @@ class Playground {
 
  private:
   void restart(BodyId id) {
-    Course& course = courses_[id.index];
+    SeparationForecast& course = courses_[id.index];
     course.state = course.at(world.time());
     course.since = world.time();
   }
 
-  std::vector<Course> courses_;  ///< by index
+  std::vector<SeparationForecast> courses_;  ///< by index
 };
 
 inline std::vector<Event> of_kind(const std::vector<Event>& events, EventKind kind) {

@@ -101,9 +101,9 @@ class Answers : public testing::TestWithParam<CrowdKind> {
   void check(const Event& event) {
     ASSERT_NE(event.kind, EventKind::bound_violation) << event;
     if (!begins(event)) return;
-    for (const Claim& claim : claims) {
-      if (claim.concerns(event)) {
-        ASSERT_GE(event.time, claim.time) << claim.first << " " << claim.second << " " << event;
+    for (const Claim& set : claims) {
+      if (set.concerns(event)) {
+        ASSERT_GE(event.time, set.time) << set.first << " " << set.second << " " << event;
       }
     }
   }

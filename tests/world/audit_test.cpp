@@ -15,8 +15,8 @@ namespace {
 TEST(Audit, TakesACertificateForWhatItIsThoughALaterOneIsShorter) {
   Playground p;
   p.world
-      .add_fixed({.shape = Box{{-0.54111865268976456, -0.44610567298297532, -0.39046900397027673},
-                               {-0.043652641637204836, -0.39482634089842472, -0.14837892360241645}}})
+      .add_static({.shape = Box{{-0.54111865268976456, -0.44610567298297532, -0.39046900397027673},
+                                {-0.043652641637204836, -0.39482634089842472, -0.14837892360241645}}})
       .value();
   p.add({.radius = 0.65720095724683136,
          .planned_acceleration = {-0.032051213459653068, -0.053203662742914076, 0.025021271082702402},
@@ -34,7 +34,7 @@ TEST(Audit, IsCleanAmongBoxesAndTriangles) {
     const Vec3 size{random.uniform(), random.uniform(), random.uniform()};
     Shape shape = Box{at, at + size};
     if (seed % 2 == 0) shape = Triangle{at, at + random.point_in_ball(), at + random.point_in_ball()};
-    if (!p.world.add_fixed({.shape = shape})) continue;
+    if (!p.world.add_static({.shape = shape})) continue;
     const double limit = seed % 5 == 0 ? 0.3 * random.uniform() : 0.0;
     p.add({.radius = random.uniform(),
            .acceleration_limit = limit,

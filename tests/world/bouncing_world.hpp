@@ -37,11 +37,11 @@ struct BouncingWorld {
   }
   BodyDefinition next() const { return motion.definition(static_cast<std::uint32_t>(masses.size()), 0.0); }
 
-  Answer answer(const Event& event) const {
+  Response answer(const Event& event) const {
     const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
     if (passes || !begins || event.approach_speed <= 0.0) return {};
     const Bounce after = bounce(event, mass(event.first), mass(event.second), restitution);
-    Answer given;
+    Response given;
     if (std::isfinite(mass(event.first))) given.first_velocity = after.first_velocity;
     if (event.second != no_body && std::isfinite(mass(event.second)))
       given.second_velocity = after.second_velocity;
@@ -63,23 +63,23 @@ struct BouncingWorld {
 
   void loop(double until) {
     while (const auto event = world.advance(until, motion.probe()).value()) {
-      const Answer given = answer(*event);
-      const auto kick = [&](BodyId body, const std::optional<Vec3>& velocity) {
+      const Response given = answer(*event);
+      const auto update = [&](BodyId body, const std::optional<Vec3>& velocity) {
         if (!velocity) return;
         motion.set_velocity(body.index, event->time, *velocity).value();
         world.set_velocity(body, *velocity).value();
       };
-      kick(event->first, given.first_velocity);
-      kick(event->second, given.second_velocity);
+      update(event->first, given.first_velocity);
+      update(event->second, given.second_velocity);
       tell(*event);
     }
   }
   Result<void> run(double until, Workers* workers = nullptr) {
     const auto sink = [this](const Event& event) { tell(event); };
     if (passes) return world.run(until, motion.probe(), sink, workers);
-    MotionMover mover(motion);
+    SingleMotionSource source(motion);
     return world.run(
-        until, mover, [this](const Event& event) { return answer(event); }, sink, workers);
+        until, source, [this](const Event& event) { return answer(event); }, sink, workers);
   }
 };
 

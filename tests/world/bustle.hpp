@@ -98,7 +98,7 @@ class Bustle : public Crowd {
         if (random.uniform() < 0.3)
           return world.set_pair_filter(random.uniform() < 0.5 ? filter_of(world) : PairFilter()).value();
         world.set_user_data(id, random.bits() % 2).value();
-        return world.refilter(id).value();
+        return world.refresh_filter(id).value();
       case 6:
         return ask();
       case 7: {

@@ -87,11 +87,11 @@ class Chaos {
   }
 
   /// In the box, on its border or, where space repeats, some periods away.
-  Vec3 place(double room) {
+  Vec3 place(double margin) {
     Vec3 position;
     const bool axes[3] = {periodic_.x, periodic_.y, periodic_.z};
     for (int axis = 0; axis < 3; ++axis) {
-      position[axis] = random_.uniform(box_.lower[axis] + room, box_.upper[axis] - room);
+      position[axis] = random_.uniform(box_.lower[axis] + margin, box_.upper[axis] - margin);
       if (!axes[axis]) continue;
       const auto choice = random_.bits() % 8;
       if (choice == 0) position[axis] = box_.lower[axis];
@@ -140,8 +140,8 @@ class Chaos {
   }
   void add_fixed() {
     if (world_.size() > 12) return;
-    FixedDefinition fixed{.shape = Ball{place(0.1 * length_), length_ * random_.uniform(0.0, 0.1)}};
-    if (const auto added = world_.add_fixed(fixed))
+    StaticDefinition fixed{.shape = Ball{place(0.1 * length_), length_ * random_.uniform(0.0, 0.1)}};
+    if (const auto added = world_.add_static(fixed))
       depart(*added, {std::get<Ball>(fixed.shape).centre, {}}, 0.0);
   }
 
@@ -164,7 +164,7 @@ class Chaos {
         limits.acceleration_limit = random_.uniform(0.0, 3.0) * length_ / time_ / time_;
       (void)world_.set_motion_limits(*id, limits);
     } else if (what == 10) {
-      if (world_.rest(*id)) {
+      if (world_.sleep(*id)) {
         const State now = state_at(courses_.at(id->index), world_.time());
         depart(*id, {now.position, {}}, 0.0);
       }
@@ -260,7 +260,7 @@ TEST(FixedBall, OnTheBorderOfAPeriodicBoxStaysInItsImage) {
   for (const double y : {0.0, -1e-300, -1e-20, -1e-17, -6e-17, -1e-16}) {
     World world =
         World::create({.box = Box{{-1, -1, -1}, {0, 0, 0}}, .periodic = {true, true, true}}).value();
-    const BodyId ball = world.add_fixed({.shape = Ball{{-0.5, y, -0.5}, 0.1}}).value();
+    const BodyId ball = world.add_static({.shape = Ball{{-0.5, y, -0.5}, 0.1}}).value();
     (void)world.add({.radius = 0.05, .position = {-0.5, -0.8, -0.5}, .velocity = {0, -0.1, 0}}).value();
     const auto probe = [](std::span<const BodyId>, double time, std::span<State> states) {
       for (State& state : states) state = {{-0.5, -0.8 - 0.1 * time, -0.5}, {0, -0.1, 0}};

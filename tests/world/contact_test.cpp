@@ -46,9 +46,9 @@ TEST_P(BeginsAndEnds, ComeWithinTheTolerance) {
       EXPECT_EQ(event.wall, Wall::none);
       const double gap = p.gap(a, b, event.time);
       EXPECT_NEAR(event.gap, gap, 1e-12);
-      const double room = 1e-12;
-      EXPECT_GE(gap, touching ? separation - room : -eps) << event;
-      EXPECT_LE(gap, touching ? separation + eps + room : eps + room) << event;
+      const double margin = 1e-12;
+      EXPECT_GE(gap, touching ? separation - margin : -eps) << event;
+      EXPECT_LE(gap, touching ? separation + eps + margin : eps + margin) << event;
       EXPECT_NEAR(norm(event.first_state.position - p.state(a, event.time).position), 0.0, 1e-12);
       EXPECT_NEAR(norm(event.second_state.velocity - p.state(b, event.time).velocity), 0.0, 1e-12);
       EXPECT_NEAR(norm(event.normal), 1.0, 1e-12);

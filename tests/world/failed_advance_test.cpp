@@ -24,7 +24,7 @@ TEST(FailedAdvance, BetweenANewFixedBodyAndANewBodyCanBeSaved) {
   Playground p;
   const BodyId old = p.add({.radius = 1, .acceleration_limit = 1});
   p.run(1.0);
-  p.world.add_fixed({.shape = Box{{3, -1, -1}, {4, 1, 1}}}).value();
+  p.world.add_static({.shape = Box{{3, -1, -1}, {4, 1, 1}}}).value();
   p.add({.radius = 1, .acceleration_limit = 1, .position = {2.5, 0, 0}});
   bool good = false;
   p.distort = [&](BodyId id, double, State& state) {
@@ -87,13 +87,13 @@ class RandomCrowd {
     if (!repeats() && random_.bits() % 2 == 0) shape = Box{at, at + size};
     if (!repeats() && random_.bits() % 3 == 0)
       shape = Triangle{at, at + Vec3{size.x, 0, 0.1}, at + Vec3{0, size.y + 0.1, size.z}};
-    fixed_.push_back(playground_.world.add_fixed({.shape = shape}).value());
+    fixed_.push_back(playground_.world.add_static({.shape = shape}).value());
   }
 
   void change() {
     const auto bodies = playground_.world.bodies();
     const BodyId id = bodies[random_.bits() % bodies.size()];
-    const bool fixed = playground_.world.body(id).value().fixed;
+    const bool fixed = playground_.world.body(id).value().is_static;
     const bool enabled = playground_.world.body(id).value().enabled;
     const State state{place(), random_.point_in_ball()};
     switch (random_.bits() % 6) {

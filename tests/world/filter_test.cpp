@@ -66,10 +66,10 @@ TEST(Filter, PredicateAndItsChange) {
       .value();
   EXPECT_TRUE(p.run(1.0).empty());
   ghosts.clear();
-  p.world.refilter(p.a).value();
+  p.world.refresh_filter(p.a).value();
   EXPECT_EQ(p.run(2.0).size(), 1u);
   ghosts.insert(p.b);
-  p.world.refilter(p.b).value();
+  p.world.refresh_filter(p.b).value();
   EXPECT_EQ(of_kind(p.run(3.0), EventKind::contact_end).size(), 1u);
   p.world.set_pair_filter({}).value();
   EXPECT_EQ(of_kind(p.run(4.0), EventKind::contact_begin).size(), 1u);
@@ -112,7 +112,7 @@ TEST(Filter, EndsImpactsSilently) {
 /// Whatever asks the filter: a body that is added where overlaps are not allowed, advance(), a question, a
 /// change of filters, an audit.
 void ask_the_filter(Playground& p, BodyId a) {
-  p.world.refilter(a).value();
+  p.world.refresh_filter(a).value();
   p.run(p.world.time() + 1.0);
   (void)p.world.add({.radius = 1, .position = {0.5, 0, 0}});
   (void)p.world.safe_until(a);
@@ -132,7 +132,7 @@ TEST(PairFilter, MayReadBodiesOfTheWorldThatAsksIt) {
           EXPECT_TRUE(p.world.body(id));
           EXPECT_TRUE(p.world.shape_of(id));
           EXPECT_TRUE(p.world.touching(id));
-          EXPECT_TRUE(p.world.sensed(id));
+          EXPECT_TRUE(p.world.sensor_overlaps(id));
           EXPECT_EQ(p.world.user_data(id).value(), 7u);
         }
         EXPECT_EQ(p.world.bodies().size(), p.world.size());
@@ -171,14 +171,14 @@ TEST(PairFilter, CannotMakeOtherCallsToTheWorldThatAsksIt) {
         EXPECT_TRUE(refuses(w.advance(w.time() + 1, p.probe())));
         EXPECT_TRUE(refuses(w.add({})));
         EXPECT_TRUE(refuses(w.add_all({})));
-        EXPECT_TRUE(refuses(w.add_fixed({.shape = Ball{{}, 1}})));
+        EXPECT_TRUE(refuses(w.add_static({.shape = Ball{{}, 1}})));
         EXPECT_TRUE(refuses(w.remove(first)));
         EXPECT_TRUE(refuses(w.set_velocity(first, {})));
         EXPECT_TRUE(refuses(w.teleport(first, {})));
         EXPECT_TRUE(refuses(w.set_radius(first, 1)));
         EXPECT_TRUE(refuses(w.disable(first)));
         EXPECT_TRUE(refuses(w.set_filter(first, {})));
-        EXPECT_TRUE(refuses(w.refilter(first)));
+        EXPECT_TRUE(refuses(w.refresh_filter(first)));
         EXPECT_TRUE(refuses(w.set_pair_filter({})));
         EXPECT_TRUE(refuses(w.set_user_data(first, 1)));
         EXPECT_TRUE(refuses(w.save()));

@@ -27,10 +27,10 @@ TEST(ForeignId, IsRefusedByEveryCallThatTakesOne) {
   refused(world.set_motion_limits(id, {}), "set_motion_limits");
   refused(world.disable(id), "disable");
   refused(world.enable(id, {}), "enable");
-  refused(world.rest(id), "rest");
+  refused(world.sleep(id), "rest");
   refused(world.wake(id), "wake");
   refused(world.set_filter(id, {}), "set_filter");
-  refused(world.refilter(id), "refilter");
+  refused(world.refresh_filter(id), "refilter");
   refused(world.set_solid(id, true), "set_solid");
   refused(world.set_sensor_class(id, 0), "set_sensor_class");
   refused(world.set_user_data(id, 0), "set_user_data");
@@ -38,7 +38,7 @@ TEST(ForeignId, IsRefusedByEveryCallThatTakesOne) {
   refused(world.body(id), "body");
   refused(world.shape_of(id), "shape_of");
   refused(world.touching(id), "touching");
-  refused(world.sensed(id), "sensed");
+  refused(world.sensor_overlaps(id), "sensed");
   refused(world.safe_until(id), "safe_until");
   refused(world.safe_until(own, id), "safe_until");
   refused(world.earliest_contact(id), "earliest_contact");
@@ -55,9 +55,9 @@ std::vector<BodyId> given_out(Playground& p) {
     if (event.second != no_body) ids.push_back(event.second);
     for (const BodyId id : p.world.touching(event.first).value()) ids.push_back(id);
   }
-  for (const Found& found : p.world.overlapping({0, 0, 0}, 100.0).value()) ids.push_back(found.body);
-  for (const Near& near : p.world.nearest({0, 0, 0}, 5).value()) ids.push_back(near.body);
-  for (const Hit& hit : p.world.ray_cast({-50, 0, 0}, {1, 0, 0}, 100.0).value()) ids.push_back(hit.body);
+  for (const OverlapHit& found : p.world.overlapping({0, 0, 0}, 100.0).value()) ids.push_back(found.body);
+  for (const NearestHit& near : p.world.nearest({0, 0, 0}, 5).value()) ids.push_back(near.body);
+  for (const CastHit& hit : p.world.ray_cast({-50, 0, 0}, {1, 0, 0}, 100.0).value()) ids.push_back(hit.body);
   for (const Certificate& each : p.world.certificates()) {
     ids.push_back(each.first);
     if (each.second != no_body) ids.push_back(each.second);

@@ -23,7 +23,7 @@ TEST_P(VisitInABox, WakesHardlyMoreOftenThanItAsks) {
   const Visit& visit = GetParam();
   Playground p({.dimensions = visit.dimensions, .contact_tolerance = visit.tolerance});
   const double thick = visit.dimensions == 3 ? 0.01 : 0.0;
-  p.world.add_fixed({.shape = Box{{1.97, 1.93, -thick}, {2.03, 2.0, thick}}}).value();
+  p.world.add_static({.shape = Box{{1.97, 1.93, -thick}, {2.03, 2.0, thick}}}).value();
   const BodyId id = p.add({.radius = visit.radius,
                            .acceleration_limit = visit.acceleration_limit,
                            .position = {2.001, 2.0 + visit.radius + 1e-4, 0},

@@ -142,7 +142,7 @@ TEST(Timings, AreOffAtFirstAndThenTellProbesFromTheRest) {
   p.run(1.0);
   EXPECT_EQ(p.world.timings().advances, 0u);
   EXPECT_EQ(p.world.timings().advance, 0.0);
-  p.world.set_timing(true).value();
+  p.world.set_profiling(true).value();
   p.distort = [](BodyId, double, State&) { std::this_thread::sleep_for(std::chrono::milliseconds(2)); };
   const std::uint64_t probes = p.world.counters().probes;
   p.run(6.0);
@@ -150,17 +150,17 @@ TEST(Timings, AreOffAtFirstAndThenTellProbesFromTheRest) {
   EXPECT_GT(timings.advances, 1u);
   EXPECT_GE(timings.probes, 0.002 * static_cast<double>(p.world.counters().probes - probes));
   EXPECT_GE(timings.advance, timings.probes);
-  p.world.set_timing(false).value();
+  p.world.set_profiling(false).value();
   p.run(7.0);
   EXPECT_EQ(p.world.timings().advances, timings.advances) << "kept, but not gone on with";
-  p.world.set_timing(true).value();
+  p.world.set_profiling(true).value();
   EXPECT_EQ(p.world.timings().advances, 0u);
 }
 
 TEST(Timings, CountAProbeThatThrows) {
   Playground p;
   p.add({});
-  p.world.set_timing(true).value();
+  p.world.set_profiling(true).value();
   p.set_velocity({0, 0}, {1, 0, 0});
   p.run(1.0);
   p.set_velocity({0, 0}, {2, 0, 0});
@@ -175,7 +175,7 @@ TEST(Timings, CountAProbeThatThrows) {
 
 TEST(Timings, AndRecordingsDoNotDisturbEachOther) {
   BusyCrowd timed;
-  timed.world.set_timing(true).value();
+  timed.world.set_profiling(true).value();
   timed.world.start_recording().value();
   timed.run(1.0);
   BusyCrowd plain;
@@ -192,7 +192,7 @@ TEST(WrongCalls, AProbeMayLookInsideButNotSwitchTimingOn) {
   int calls = 0;
   p.distort = [&](BodyId, double, State&) {
     ++calls;
-    expect_error(p.world.set_timing(true), ErrorCode::probe_in_progress, "probe", "set_timing");
+    expect_error(p.world.set_profiling(true), ErrorCode::probe_in_progress, "probe", "set_timing");
     EXPECT_GT(p.world.memory().total(), 0u);
     EXPECT_LE(p.world.cells().size(), 8u);
     EXPECT_TRUE(p.world.certificates().empty());

@@ -59,8 +59,8 @@ TEST(LargeWorld, can_be_emptied_and_filled_again) {
     for (const BodyId id : ids) ASSERT_TRUE(world.teleport(id, {place_of(id), {}}));
     while (world.size() > 1) {
       ASSERT_FALSE(world.advance(world.time() + 1.0, standing).value());
-      const std::size_t kept = world.size() / 2;
-      while (world.size() > kept) {
+      const std::size_t checkpoint = world.size() / 2;
+      while (world.size() > checkpoint) {
         ASSERT_TRUE(world.remove(ids.back()));
         ids.pop_back();
       }
@@ -121,7 +121,7 @@ TEST(FirstBoxes, hold_few_others_wherever_bodies_are) {
 
 /// In all directions by about a quarter of the distance between bodies, which is 4, however small they are.
 TEST(FirstBoxes, leave_room_for_a_part_of_the_distance_between_bodies) {
-  const auto room = [](int dimensions, const std::array<std::uint32_t, 3>& numbers) {
+  const auto margin = [](int dimensions, const std::array<std::uint32_t, 3>& numbers) {
     const World world = lattice(dimensions, numbers, 0.01);
     const BodyView body = world.body({7, 0}).value();
     return body.box.upper.x - body.definition.position.x;
@@ -129,8 +129,8 @@ TEST(FirstBoxes, leave_room_for_a_part_of_the_distance_between_bodies) {
   const std::vector<std::pair<int, std::array<std::uint32_t, 3>>> lattices{
       {3, {5000, 1, 1}}, {3, {70, 70, 1}}, {3, {17, 17, 17}}, {2, {5000, 1, 1}}, {2, {70, 70, 1}}};
   for (const auto& [dimensions, numbers] : lattices) {
-    EXPECT_GT(room(dimensions, numbers), 0.5);
-    EXPECT_LT(room(dimensions, numbers), 2.0);
+    EXPECT_GT(margin(dimensions, numbers), 0.5);
+    EXPECT_LT(margin(dimensions, numbers), 2.0);
   }
 }
 

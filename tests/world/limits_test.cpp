@@ -132,7 +132,7 @@ std::vector<Limit> limits_of_a_world() {
        [](World& world, BodyId, double value) { return world.set_sensor(1, {.distances = {value}}); }, false},
       {"shape", largest_length, "add_fixed",
        [](World& world, BodyId, double value) {
-         return without_value(world.add_fixed({.shape = Ball{{0, value, 0}, 1.0}}));
+         return without_value(world.add_static({.shape = Ball{{0, value, 0}, 1.0}}));
        },
        false},
       {"centre", largest_length, "overlapping",

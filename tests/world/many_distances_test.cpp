@@ -66,7 +66,7 @@ TEST(ManyDistances, AreCrossedInTheirOrder) {
     if (event->kind == EventKind::sensor_enter) entered.push_back(event->distance);
     if (event->kind == EventKind::sensor_leave) left.push_back(event->distance);
     ASSERT_TRUE((entered.size() + left.size()) % 50 != 0 || is_clean(p.world));
-    ASSERT_EQ(p.world.sensed(passage.comes).value().size(), entered.size() - left.size());
+    ASSERT_EQ(p.world.sensor_overlaps(passage.comes).value().size(), entered.size() - left.size());
   }
   ASSERT_EQ(entered.size(), std::size_t{count});
   EXPECT_TRUE(std::is_sorted(entered.rbegin(), entered.rend()));
@@ -81,7 +81,7 @@ TEST(ManyDistances, MayChangeAtAnyTime) {
   Passage passage(count);
   Playground& p = passage.p;
   p.run(1.2);  // half of them
-  const auto before = p.world.sensed(passage.rests).value();
+  const auto before = p.world.sensor_overlaps(passage.rests).value();
   ASSERT_GT(before.size(), 10u);
   ASSERT_LT(before.size(), std::size_t{count});
   p.world.set_sensor(1, sensor_of(2 * count, 0.001, 0.005)).value();
@@ -106,14 +106,14 @@ TEST(ManyDistances, MayChangeAtAnyTime) {
     ++left;
   }
   EXPECT_GT(left, before.size());
-  for (const Sensed& one : p.world.sensed(passage.rests).value()) {
+  for (const SensorOverlap& one : p.world.sensor_overlaps(passage.rests).value()) {
     const auto sensor = p.world.sensor(2);
     EXPECT_GE(one.distance, innermost - 0.03);
     EXPECT_TRUE(std::find(sensor.distances.begin(), sensor.distances.end(), one.distance) !=
                 sensor.distances.end());
   }
   p.run(passage.end());
-  EXPECT_TRUE(p.world.sensed(passage.rests).value().empty());
+  EXPECT_TRUE(p.world.sensor_overlaps(passage.rests).value().empty());
   EXPECT_TRUE(is_clean(p.world));
 }
 

@@ -23,8 +23,8 @@ TEST(MovedFromWorld, AnswersEveryCallWithAnError) {
   refused(world.add({}), "add");
   refused(world.reserve(1), "reserve");
   refused(world.add_all({}), "add_all");
-  refused(world.add_fixed({}), "add_fixed");
-  refused(world.add_fixed_all({}), "add_fixed_all");
+  refused(world.add_static({}), "add_fixed");
+  refused(world.add_static_all({}), "add_fixed_all");
   refused(world.shape_of(id), "shape_of");
   refused(world.remove(id), "remove");
   refused(world.remove_all({}), "remove_all");
@@ -34,12 +34,12 @@ TEST(MovedFromWorld, AnswersEveryCallWithAnError) {
   refused(world.set_motion_limits(id, {}), "set_motion_limits");
   refused(world.disable(id), "disable");
   refused(world.enable(id, {}), "enable");
-  refused(world.rest(id), "rest");
+  refused(world.sleep(id), "rest");
   refused(world.wake(id), "wake");
   refused(world.add_zone({}), "add_zone");
   refused(world.set_filter(id, {}), "set_filter");
   refused(world.set_pair_filter({}), "set_pair_filter");
-  refused(world.refilter(id), "refilter");
+  refused(world.refresh_filter(id), "refilter");
   refused(world.set_solid(id, true), "set_solid");
   refused(world.set_sensor(0, {}), "set_sensor");
   refused(world.set_sensor_class(id, 0), "set_sensor_class");
@@ -48,8 +48,8 @@ TEST(MovedFromWorld, AnswersEveryCallWithAnError) {
   refused(world.advance(1.0, idle_probe), "advance");
   refused(world.body(id), "body");
   refused(world.touching(id), "touching");
-  refused(world.sensed(id), "sensed");
-  refused(world.set_timing(true), "set_timing");
+  refused(world.sensor_overlaps(id), "sensed");
+  refused(world.set_profiling(true), "set_timing");
   refused(world.safe_until(), "safe_until");
   refused(world.safe_until(id), "safe_until");
   refused(world.safe_until(id, id), "safe_until");

@@ -150,12 +150,13 @@ double distance_to(const Box& box, const Vec3& point) {
   return norm(away);
 }
 
-void expect_found(const PeriodicWorld& p, const std::vector<Found>& found,
+void expect_found(const PeriodicWorld& p, const std::vector<OverlapHit>& found,
                   const std::function<double(const Vec3&)>& distance) {
   for (const BodyId id : p.ids) {
     double least = infinity;
     for (const Vec3& image : images_of(p, id, 4)) least = std::min(least, distance(image));
-    const auto it = std::find_if(found.begin(), found.end(), [=](const Found& f) { return f.body == id; });
+    const auto it =
+        std::find_if(found.begin(), found.end(), [=](const OverlapHit& f) { return f.body == id; });
     if (least < p.radius(id) - 1e-9) {
       EXPECT_NE(it, found.end()) << id << " at " << least;
     }
@@ -163,7 +164,7 @@ void expect_found(const PeriodicWorld& p, const std::vector<Found>& found,
       EXPECT_LT(least, p.radius(id) + 1e-9) << id;
     }
   }
-  const auto same = [](const Found& a, const Found& b) { return a.body == b.body; };
+  const auto same = [](const OverlapHit& a, const OverlapHit& b) { return a.body == b.body; };
   EXPECT_EQ(std::adjacent_find(found.begin(), found.end(), same), found.end()) << "found twice";
 }
 

@@ -31,15 +31,15 @@ exact::Wide distance_of_centres(const Bound& a, const Bound& b, double time) {
 }
 
 void expect_held(const PlainGap& gap, double time, exact::Wide distance, exact::Wide radii,
-                 exact::Wide growth, double room) {
+                 exact::Wide growth, double margin) {
   const auto nearest = gap.of_bounds(time);
   const auto farthest = gap.at_farthest(time);
   EXPECT_LE(nearest.lower, distance - radii - growth);
   EXPECT_GE(nearest.upper, distance - radii - growth);
   EXPECT_LE(farthest.lower, distance - radii + growth);
   EXPECT_GE(farthest.upper, distance - radii + growth);
-  EXPECT_LE(nearest.upper - nearest.lower, room);
-  EXPECT_LE(farthest.upper - farthest.lower, room);
+  EXPECT_LE(nearest.upper - nearest.lower, margin);
+  EXPECT_LE(farthest.upper - farthest.lower, margin);
 }
 
 TEST(PlainGap, OfTwoBoundsHoldsTheExactOne) {
@@ -83,8 +83,8 @@ TEST(PlainGap, OfAShapeHoldsTheExactOne) {
     const Vec3 corner = any_vector(random, 2.0);
     const Vec3 side = any_vector(random, 3.0);
     const double height = std::exp2(random.uniform(-20.0, 1.0));
-    const Vec3 room = any_vector(random, 2.0);
-    const Box box{corner, corner + Vec3{std::abs(room.x), std::abs(room.y), std::abs(room.z)}};
+    const Vec3 margin = any_vector(random, 2.0);
+    const Box box{corner, corner + Vec3{std::abs(margin.x), std::abs(margin.y), std::abs(margin.z)}};
     const Triangle triangle{corner, corner + side, corner + 0.3 * side + height * any_vector(random, 1.0)};
     const auto expect_held_by = [&](const auto& solid) {
       SCOPED_TRACE("case " + std::to_string(k));
@@ -95,7 +95,7 @@ TEST(PlainGap, OfAShapeHoldsTheExactOne) {
     };
     expect_held_by(box);
     expect_held_by(triangle);
-    expect_held_by(HalfSpace{{0.6, 0.0, -0.8}, room.x});
+    expect_held_by(HalfSpace{{0.6, 0.0, -0.8}, margin.x});
   }
 }
 

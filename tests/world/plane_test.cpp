@@ -55,8 +55,8 @@ void expect_same_events(std::vector<Event> flat_events, std::vector<Event> deep_
     EXPECT_EQ(without_time(flat_events[k]), without_time(deep_events[k]));
     // Each is exact to within the tolerance, which a grazing pair takes long to cross.
     const double closing = std::abs(flat_events[k].approach_speed);
-    const double room = 2.0 * eps / std::max(closing, 1e-3) + 1e-9;
-    EXPECT_NEAR(flat_events[k].time, deep_events[k].time, room) << flat_events[k] << deep_events[k];
+    const double margin = 2.0 * eps / std::max(closing, 1e-3) + 1e-9;
+    EXPECT_NEAR(flat_events[k].time, deep_events[k].time, margin) << flat_events[k] << deep_events[k];
     EXPECT_EQ(flat_events[k].first_state.position.z, 0.0);
     EXPECT_EQ(flat_events[k].normal.z, 0.0);
   }

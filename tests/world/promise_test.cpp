@@ -90,7 +90,7 @@ struct Breach {
   std::vector<Event> run_on() { return p.run(p.world.time() + 50.0); }
 };
 
-TEST(BrokenPromise, TeleportIsReportedWithItsLength) {
+TEST(BoundViolation, TeleportIsReportedWithItsLength) {
   Breach breach;
   Playground& p = breach.p;
   const BodyView before = p.world.body(breach.culprit).value();
@@ -113,7 +113,7 @@ TEST(BrokenPromise, TeleportIsReportedWithItsLength) {
   EXPECT_TRUE(is_clean(p.world));
 }
 
-TEST(BrokenPromise, JumpOfVelocityIsReportedWithItsSize) {
+TEST(BoundViolation, JumpOfVelocityIsReportedWithItsSize) {
   Breach breach;
   Playground& p = breach.p;
   const BodyView before = p.world.body(breach.culprit).value();
@@ -129,7 +129,7 @@ TEST(BrokenPromise, JumpOfVelocityIsReportedWithItsSize) {
   EXPECT_TRUE(p.run(100.0).empty());
 }
 
-TEST(BrokenPromise, AccelerationBeyondTheLimitIsReportedAndTheContactFound) {
+TEST(BoundViolation, AccelerationBeyondTheLimitIsReportedAndTheContactFound) {
   Playground p;
   p.add({.radius = 1, .acceleration_limit = 0.1, .velocity = {1, 0, 0}}, Vec3{0, 0.4, 0});
   const BodyId target = p.add({.radius = 1, .position = {20, 80, 0}});
@@ -149,7 +149,7 @@ TEST(BrokenPromise, AccelerationBeyondTheLimitIsReportedAndTheContactFound) {
   EXPECT_TRUE(is_clean(p.world));
 }
 
-TEST(BrokenPromise, TeleportIntoAndOutOfContactBeginsAndEndsIt) {
+TEST(BoundViolation, TeleportIntoAndOutOfContactBeginsAndEndsIt) {
   Breach breach;
   Playground& p = breach.p;
   p.set_velocity_unseen(breach.culprit, {1, 0, 0});
@@ -171,7 +171,7 @@ TEST(BrokenPromise, TeleportIntoAndOutOfContactBeginsAndEndsIt) {
 }
 
 /// So many bodies are added that all others get new windows with them, for which some are asked.
-TEST(BrokenPromise, FoundOutWhileManyAreAddedLosesNobody) {
+TEST(BoundViolation, FoundOutWhileManyAreAddedLosesNobody) {
   for (int steps = 1; steps <= 40; ++steps) {
     Playground p;
     std::vector<BodyId> ids;
@@ -190,7 +190,7 @@ TEST(BrokenPromise, FoundOutWhileManyAreAddedLosesNobody) {
   }
 }
 
-TEST(BrokenPromise, SeveralAtOneInstantAreAllTold) {
+TEST(BoundViolation, SeveralAtOneInstantAreAllTold) {
   Playground p;
   std::vector<BodyId> ids;
   for (int k = 0; k < 6; ++k) ids.push_back(p.add({.radius = 1, .position = {10.0 * k, 0, 0}}));
@@ -211,7 +211,7 @@ TEST(BrokenPromise, SeveralAtOneInstantAreAllTold) {
 
 /// A body is to meet one that has to look at the floor soon. Asked then, it turns out to have gone to the
 /// other side, and to come back fast through another image than that in which the two have been seen.
-TEST(BrokenPromise, FoundOutAtAMeetingSettlesThePairInItsNewImage) {
+TEST(BoundViolation, FoundOutAtAMeetingSettlesThePairInItsNewImage) {
   const double speed = 100.0;
   for (const double gap : {0.05, 0.2, 1.0}) {
     for (const bool culprit_first : {false, true}) {
@@ -246,7 +246,7 @@ TEST(BrokenPromise, FoundOutAtAMeetingSettlesThePairInItsNewImage) {
   }
 }
 
-TEST(BrokenPromise, FaithfulReportsWithRoundingAreNone) {
+TEST(BoundViolation, FaithfulReportsWithRoundingAreNone) {
   for (const double place : {0.0, 1e3, 1e6, 2.19e6}) {
     Playground p;
     for (int k = 0; k < 10; ++k)

@@ -39,9 +39,9 @@ class Queries : public testing::TestWithParam<CrowdKind> {
   }
 
   /// `true_distance(body)` is that of its surface from the region.
-  void compare(const std::vector<Found>& found, const std::function<double(BodyId)>& true_distance) {
+  void compare(const std::vector<OverlapHit>& found, const std::function<double(BodyId)>& true_distance) {
     std::set<BodyId> possible;
-    for (const Found& each : found) {
+    for (const OverlapHit& each : found) {
       ASSERT_TRUE(possible.insert(each.body).second);
       const double distance = true_distance(each.body);
       if (each.certainty == Certainty::certainly) {
@@ -102,7 +102,7 @@ class Queries : public testing::TestWithParam<CrowdKind> {
       return std::find(order.begin(), order.end(), id) != order.end();
     };
     std::size_t met = 0;
-    for (const Near& each : *found) {
+    for (const NearestHit& each : *found) {
       ASSERT_LE(each.lower, distance(each.body) + rounding);
       ASSERT_GE(each.upper, distance(each.body) - rounding);
       if (probing) {
@@ -141,7 +141,7 @@ class Queries : public testing::TestWithParam<CrowdKind> {
     }
     if (first > length) hit = no_body;
     bool met = false;
-    for (const Hit& each : *found) {
+    for (const CastHit& each : *found) {
       ASSERT_LE(each.lower, way(each.body) + 1e-7);
       ASSERT_GE(each.upper, way(each.body) - 1e-7);
       if (each.certainty == Certainty::certainly) {

@@ -97,9 +97,9 @@ TEST_P(Recording, IsReadWithoutAReplay) {
   EXPECT_EQ(run.end_time, bustle.world.time());
   EXPECT_EQ(hash_of(run.events), hash_of(bustle.events()));
   // The rest are those of probes that failed.
-  EXPECT_LE(run.reports.size(), bustle.world.counters().probes - probes);
-  EXPECT_GE(run.reports.size(), (bustle.world.counters().probes - probes) / 2);
-  for (const Report& report : run.reports) ASSERT_TRUE(is_finite(report.state.velocity));
+  EXPECT_LE(run.probed_states.size(), bustle.world.counters().probes - probes);
+  EXPECT_GE(run.probed_states.size(), (bustle.world.counters().probes - probes) / 2);
+  for (const ProbedState& report : run.probed_states) ASSERT_TRUE(is_finite(report.state.velocity));
 }
 
 TEST(RecordingOfAWorld, GoesWithAWorldThatIsMovedAndNotWithAClone) {
@@ -211,7 +211,7 @@ TEST(Divergence, IsNamedWithStepAndTime) {
 TEST(Divergence, ShowsInAChangeThatCannotBeMade) {
   const Bytes bytes = altered(meeting(true), [](auto& steps) {
     for (Step& step : steps)
-      if (auto* kick = std::get_if<step::SetVelocity>(&step)) kick->subject.index = 9;
+      if (auto* update = std::get_if<step::SetVelocity>(&step)) update->subject.index = 9;
   });
   const std::string message = divergence(bytes);
   EXPECT_NE(

@@ -30,7 +30,7 @@ struct Bouncing : BouncingWorld<RandomForces> {
       add(body, 1.0);
     }
     world.set_sensor(1, {.distances = {0.5}}).value();
-    world.add_fixed({.shape = Ball{{6, 6, 6}, 1.5}}).value();
+    world.add_static({.shape = Ball{{6, 6, 6}, 1.5}}).value();
   }
 
   void loop(double until = end) { BouncingWorld::loop(until); }
@@ -95,7 +95,7 @@ TEST(Run, NeedsNoMoverWhereNobodyAnswers) {
 
 TEST(Run, TimesWhatItDoes) {
   Bouncing run;
-  run.world.set_timing(true).value();
+  run.world.set_profiling(true).value();
   run.run().value();
   EXPECT_EQ(run.world.timings().advances, run.told + 1);
   EXPECT_GT(run.world.timings().probes, 0.0);
@@ -103,17 +103,18 @@ TEST(Run, TimesWhatItDoes) {
 
 TEST(Run, MovesBodiesOfAMap) {
   Ballistic balls = Ballistic::create({.start = {{{9, 9, 9}, {}}, {{0, 0, 0}, {2, 0, 0}}}}).value();
-  Steered targets = Steered::create({.start = {{{10, 0, 0}, {}}}, .acceleration_limits = {1.0}}).value();
+  SteeredMotion targets =
+      SteeredMotion::create({.start = {{{10, 0, 0}, {}}}, .acceleration_limits = {1.0}}).value();
   World world = World::create({}).value();
   BodyMap bodies;
   const BodyId target = bodies.add(world, targets, 0, {.radius = 1}).value();
   const BodyId ball = bodies.add(world, balls, 1, {.radius = 1}).value();
-  auto mover = bodies.mover();
+  auto source = bodies.source();
   std::vector<EventKind> kinds;
   world
       .run(
-          6.0, mover,
-          [&](const Event& event) -> Answer {
+          6.0, source,
+          [&](const Event& event) -> Response {
             if (event.kind != EventKind::contact_begin) return {};
             EXPECT_EQ(event.first, target);
             return {.first_velocity = Vec3{2, 0, 0}, .second_velocity = Vec3{-1, 0, 0}};
@@ -124,7 +125,7 @@ TEST(Run, MovesBodiesOfAMap) {
   EXPECT_NEAR(bodies.state(ball, 6.0).position.x, 8.0 - 2.0, 1e-5);
   EXPECT_NEAR(bodies.state(target, 6.0).position.x, 10.0 + 4.0, 1e-5);
   try {
-    (void)mover.departure({7, 0});
+    (void)source.origin({7, 0});
     ADD_FAILURE() << "nothing was thrown";
   } catch (const BadResult& thrown) {
     EXPECT_EQ(thrown.error().code, ErrorCode::unknown_body) << thrown.what();
@@ -150,7 +151,7 @@ class Fuse {
 };
 
 /// A mover that another stands behind.
-class Guarded final : public Mover {
+class Guarded final : public MotionSource {
  public:
   explicit Guarded(Motion& motion) : mover_(motion) {}
 
@@ -158,19 +159,19 @@ class Guarded final : public Mover {
     if (at_states) at_states();
     mover_.states(ids, time, states);
   }
-  Departure departure(BodyId body) const override {
+  MotionOrigin origin(BodyId body) const override {
     if (at_departure) at_departure();
-    return mover_.departure(body);
+    return mover_.origin(body);
   }
-  void depart(BodyId body, const Departure& departure) override {
+  void set_origin(BodyId body, const MotionOrigin& origin) override {
     if (at_depart) at_depart();
-    mover_.depart(body, departure);
+    mover_.set_origin(body, origin);
   }
 
   std::function<void()> at_states, at_departure, at_depart;
 
  private:
-  MotionMover mover_;
+  SingleMotionSource mover_;
 };
 
 /// Runs with something that blows the fuse, going on as often as that happens: the world does not mind.
@@ -182,16 +183,16 @@ void expect_no_trace(const std::function<void(Bouncing&, Guarded&, Fuse&, std::f
   for (const std::size_t calls : {1u, 2u, 3u, 4u, 5u, 6u, 50u, 51u, 52u, 200u}) {
     SCOPED_TRACE(calls);
     Bouncing run;
-    Guarded mover(run.motion);
+    Guarded source(run.motion);
     Fuse fuse(calls);
     std::function<void()> at_respond, at_tell;
-    plant(run, mover, fuse, at_respond, at_tell);
+    plant(run, source, fuse, at_respond, at_tell);
     std::size_t interruptions = 0;
     for (bool done = false; !done;) {
       try {
         run.world
             .run(
-                end, mover,
+                end, source,
                 [&](const Event& event) {
                   if (at_respond) at_respond();
                   return run.answer(event);
@@ -219,18 +220,19 @@ void expect_no_trace(const std::function<void(Bouncing&, Guarded&, Fuse&, std::f
 
 TEST(InterruptedRun, GoesOnAfterStatesThrew) {
   expect_no_trace(
-      [](Bouncing&, Guarded& mover, Fuse& fuse, auto&, auto&) { mover.at_states = [&] { fuse.burn(); }; },
+      [](Bouncing&, Guarded& source, Fuse& fuse, auto&, auto&) { source.at_states = [&] { fuse.burn(); }; },
       true);
 }
 
 TEST(InterruptedRun, GoesOnAfterDepartureThrew) {
-  expect_no_trace(
-      [](Bouncing&, Guarded& mover, Fuse& fuse, auto&, auto&) { mover.at_departure = [&] { fuse.burn(); }; });
+  expect_no_trace([](Bouncing&, Guarded& source, Fuse& fuse, auto&, auto&) {
+    source.at_departure = [&] { fuse.burn(); };
+  });
 }
 
 TEST(InterruptedRun, GoesOnAfterDepartThrew) {
   expect_no_trace(
-      [](Bouncing&, Guarded& mover, Fuse& fuse, auto&, auto&) { mover.at_depart = [&] { fuse.burn(); }; });
+      [](Bouncing&, Guarded& source, Fuse& fuse, auto&, auto&) { source.at_depart = [&] { fuse.burn(); }; });
 }
 
 TEST(InterruptedRun, GoesOnAfterRespondThrew) {
@@ -245,41 +247,41 @@ TEST(InterruptedRun, GoesOnAfterTheSinkThrew) {
 
 TEST(InterruptedRun, ChangesNeitherBodyWhenTheSecondDepartureThrows) {
   Bouncing run;
-  Guarded mover(run.motion);
+  Guarded source(run.motion);
   std::optional<Event> last;
-  std::vector<Departure> before;
+  std::vector<MotionOrigin> before;
   int departures = 0;
-  mover.at_depart = [&] {
+  source.at_depart = [&] {
     if (++departures == 2) throw Interruption();
   };
   const auto respond = [&](const Event& event) {
-    const Answer answer = run.answer(event);
-    if (!answer.second_velocity) return Answer{};
+    const Response answer = run.answer(event);
+    if (!answer.second_velocity) return Response{};
     last = event;
-    before = {run.motion.departure(event.first.index), run.motion.departure(event.second.index)};
+    before = {run.motion.origin(event.first.index), run.motion.origin(event.second.index)};
     return answer;
   };
-  EXPECT_THROW((void)run.world.run(end, mover, respond, [](const Event&) {}), Interruption);
+  EXPECT_THROW((void)run.world.run(end, source, respond, [](const Event&) {}), Interruption);
   ASSERT_TRUE(last);
   EXPECT_EQ(departures, 3) << "the first one was taken back";
-  const auto same = [](const Departure& a, const Departure& b) {
+  const auto same = [](const MotionOrigin& a, const MotionOrigin& b) {
     return a.time == b.time && a.state == b.state;
   };
-  EXPECT_TRUE(same(run.motion.departure(last->first.index), before[0]));
-  EXPECT_TRUE(same(run.motion.departure(last->second.index), before[1]));
+  EXPECT_TRUE(same(run.motion.origin(last->first.index), before[0]));
+  EXPECT_TRUE(same(run.motion.origin(last->second.index), before[1]));
   EXPECT_TRUE(is_clean(run.world));
 }
 
 /// A run that stops at its first contact, which has not been answered.
 std::optional<Event> interrupt(Bouncing& run) {
   std::optional<Event> at;
-  MotionMover mover(run.motion);
-  const auto respond = [&](const Event& event) -> Answer {
+  SingleMotionSource source(run.motion);
+  const auto respond = [&](const Event& event) -> Response {
     if (event.kind != EventKind::contact_begin) return run.answer(event);
     at = event;
     throw Interruption();
   };
-  EXPECT_THROW((void)run.world.run(end, mover, respond, [&](const Event& event) { run.tell(event); }),
+  EXPECT_THROW((void)run.world.run(end, source, respond, [&](const Event& event) { run.tell(event); }),
                Interruption);
   return at;
 }
@@ -322,27 +324,27 @@ TEST(InterruptedRun, CannotBeSavedOrRecordedYet) {
 // Wrong calls.
 
 const auto silent = [](const Event&) {};
-const auto no_answer = [](const Event&) { return Answer{}; };
+const auto no_answer = [](const Event&) { return Response{}; };
 
 TEST(WrongRun, IsRefusedByArgument) {
   Bouncing b;
-  MotionMover mover(b.motion);
+  SingleMotionSource source(b.motion);
   const std::vector<std::byte> before = b.world.save().value();
-  const std::function<Answer(const Event&)> no_respond;
+  const std::function<Response(const Event&)> no_respond;
   const std::function<void(const Event&)> no_sink;
-  expect_error(b.world.run(1.0, mover, no_respond, silent), ErrorCode::null_callback, "respond", "run:");
-  expect_error(b.world.run(1.0, mover, no_answer, no_sink), ErrorCode::null_callback, "sink", "run:");
-  expect_error(b.world.run(1.0, mover, Respond::Function{nullptr}, silent), ErrorCode::null_callback,
+  expect_error(b.world.run(1.0, source, no_respond, silent), ErrorCode::null_callback, "respond", "run:");
+  expect_error(b.world.run(1.0, source, no_answer, no_sink), ErrorCode::null_callback, "sink", "run:");
+  expect_error(b.world.run(1.0, source, ResponseFn::Function{nullptr}, silent), ErrorCode::null_callback,
                "respond", "run:");
   expect_error(b.world.run(1.0, b.motion.probe(), no_sink), ErrorCode::null_callback, "sink", "run:");
   expect_error(b.world.run(1.0, Probe::Function{nullptr}, silent), ErrorCode::null_probe, "probe", "run:");
-  expect_error(b.world.run(nan, mover, no_answer, silent), ErrorCode::not_finite, "until", "run:");
-  expect_error(b.world.run(-1.0, mover, no_answer, silent), ErrorCode::time_backwards, "until", "run:");
+  expect_error(b.world.run(nan, source, no_answer, silent), ErrorCode::not_finite, "until", "run:");
+  expect_error(b.world.run(-1.0, source, no_answer, silent), ErrorCode::time_backwards, "until", "run:");
   expect_error(b.world.run(-1.0, b.motion.probe(), silent), ErrorCode::time_backwards, "until", "run:");
   EXPECT_EQ(b.world.save().value(), before);
   const World taken = std::move(b.world);
   // NOLINTBEGIN(bugprone-use-after-move): that is what is tested.
-  expect_error(b.world.run(1.0, mover, no_answer, silent), ErrorCode::moved_from, "world", "run:");
+  expect_error(b.world.run(1.0, source, no_answer, silent), ErrorCode::moved_from, "world", "run:");
   expect_error(b.world.run(1.0, b.motion.probe(), silent), ErrorCode::moved_from, "world", "run:");
   // NOLINTEND(bugprone-use-after-move)
 }
@@ -363,21 +365,21 @@ TEST(WrongRun, NamesTheBodyOfABadState) {
 
 /// Answers the first event of a kind with something wrong, which is refused by name; then goes on as if
 /// nothing had happened.
-void expect_refused(EventKind kind, const std::function<Answer(const Event&)>& wrong, ErrorCode code,
+void expect_refused(EventKind kind, const std::function<Response(const Event&)>& wrong, ErrorCode code,
                     const std::string& argument, bool of_second) {
   Bouncing b, expected;
   expected.loop();
-  MotionMover mover(b.motion);
+  SingleMotionSource source(b.motion);
   std::optional<Event> at;
   const auto respond = [&](const Event& event) {
     if (event.kind != kind) return b.answer(event);
-    const Answer answer = wrong(event);
+    const Response answer = wrong(event);
     if (!answer.first_velocity && !answer.second_velocity) return b.answer(event);
     at = event;
     return answer;
   };
   const auto sink = [&](const Event& event) { b.tell(event); };
-  const auto run = b.world.run(end, mover, respond, sink);
+  const auto run = b.world.run(end, source, respond, sink);
   ASSERT_TRUE(at);
   expect_error(run, code, argument, "run: respond: " + argument + " at " + std::string(name_of(kind)),
                of_second ? at->second : at->first);
@@ -388,20 +390,20 @@ void expect_refused(EventKind kind, const std::function<Answer(const Event&)>& w
 }
 
 TEST(WrongRun, NamesTheBodyOfAnAnswerThatIsNone) {
-  const auto nothing = [](const Event&) { return Answer{.first_velocity = Vec3{0, nan, 0}}; };
+  const auto nothing = [](const Event&) { return Response{.first_velocity = Vec3{0, nan, 0}}; };
   expect_refused(EventKind::contact_begin, nothing, ErrorCode::not_finite, "first_velocity", false);
   const auto second = [](const Event& event) {
-    return event.second == BodyId{64, 0} ? Answer{} : Answer{Vec3{1, 0, 0}, Vec3{0, 0, 1e200}};
+    return event.second == BodyId{64, 0} ? Response{} : Response{Vec3{1, 0, 0}, Vec3{0, 0, 1e200}};
   };
   expect_refused(EventKind::contact_begin, second, ErrorCode::out_of_range, "second_velocity", true);
 }
 
 TEST(WrongRun, NamesWhatCannotBeGivenAVelocity) {
   const auto post = [](const Event& event) {
-    return event.second == BodyId{64, 0} ? Answer{.second_velocity = Vec3{}} : Answer{};
+    return event.second == BodyId{64, 0} ? Response{.second_velocity = Vec3{}} : Response{};
   };
-  expect_refused(EventKind::contact_begin, post, ErrorCode::fixed_body, "second_velocity", true);
-  const auto wall = [](const Event&) { return Answer{.second_velocity = Vec3{}}; };
+  expect_refused(EventKind::contact_begin, post, ErrorCode::static_body, "second_velocity", true);
+  const auto wall = [](const Event&) { return Response{.second_velocity = Vec3{}}; };
   expect_refused(EventKind::wall_begin, wall, ErrorCode::unknown_body, "second_velocity", true);
 }
 
@@ -411,19 +413,19 @@ TEST(WrongRun, CannotKickABodyThatHasGone) {
   for (std::uint32_t k = 0; k < 2; ++k) world.add(motion.definition(k, 0.0)).value();
   ASSERT_TRUE(world.advance(1.0, motion.probe()).value());
   world.remove({1, 0}).value();
-  MotionMover mover(motion);
-  const auto respond = [](const Event&) { return Answer{.second_velocity = Vec3{}}; };
-  expect_error(world.run(1.0, mover, respond, silent), ErrorCode::stale_body, "second_velocity",
+  SingleMotionSource source(motion);
+  const auto respond = [](const Event&) { return Response{.second_velocity = Vec3{}}; };
+  expect_error(world.run(1.0, source, respond, silent), ErrorCode::stale_body, "second_velocity",
                "run:", BodyId{1, 0});
   EXPECT_EQ(world.advance(1.0, motion.probe()).value()->kind, EventKind::contact_end) << "passes over it";
-  EXPECT_TRUE(world.run(1.0, mover, respond, silent));
+  EXPECT_TRUE(world.run(1.0, source, respond, silent));
 }
 
 /// What may not be called inside a run, by name.
 void expect_refused_inside(Bouncing& b) {
   const auto busy = ErrorCode::run_in_progress;
-  MotionMover mover(b.motion);
-  expect_error(b.world.run(end, mover, no_answer, silent), busy, "world", "run:");
+  SingleMotionSource source(b.motion);
+  expect_error(b.world.run(end, source, no_answer, silent), busy, "world", "run:");
   expect_error(b.world.run(end, b.motion.probe(), silent), busy, "world", "run:");
   expect_error(b.world.advance(end, b.motion.probe()), busy, "world", "advance:");
   expect_error(b.world.set_velocity({3, 0}, {}), busy, "world", "set_velocity:");
@@ -439,12 +441,12 @@ void expect_refused_inside(Bouncing& b) {
 TEST(WrongRun, RefusesCallsFromInside) {
   Bouncing expected, b;
   expected.loop();
-  Guarded mover(b.motion);
+  Guarded source(b.motion);
   int inside = 0;
   const auto ask = [&] {
     if (++inside % 50 == 1) expect_refused_inside(b);
   };
-  mover.at_states = mover.at_departure = mover.at_depart = ask;
+  source.at_states = source.at_departure = source.at_depart = ask;
   const auto respond = [&](const Event& event) {
     ask();
     return b.answer(event);
@@ -455,9 +457,9 @@ TEST(WrongRun, RefusesCallsFromInside) {
     EXPECT_GE(b.world.time(), event.time);
     EXPECT_TRUE(b.world.body(event.first));
     EXPECT_TRUE(b.world.touching(event.first));
-    EXPECT_TRUE(b.world.sensed(event.first));
+    EXPECT_TRUE(b.world.sensor_overlaps(event.first));
   };
-  b.world.run(end, mover, respond, sink).value();
+  b.world.run(end, source, respond, sink).value();
   EXPECT_GT(inside, 1000);
   expect_same_end(b, expected);
 }

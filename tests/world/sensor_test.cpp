@@ -50,7 +50,7 @@ TEST(Sensor, WarnsThenAlarmsThenTouchesAndBackAgain) {
   }
   EXPECT_EQ(events[0].first_state.position, Vec3());
   EXPECT_NEAR(events[0].approach_speed, 10.0, 1e-9);
-  EXPECT_TRUE(p.world.sensed(p.rests).value().empty());
+  EXPECT_TRUE(p.world.sensor_overlaps(p.rests).value().empty());
 }
 
 TEST(Sensor, WithoutEndsOfContactsStillHasEndsOfItsOwn) {
@@ -133,7 +133,8 @@ TEST(Sensor, EveryWayOutOfAWorldLeavesTheInnerDistanceFirst) {
   for (const auto& [name, leave] : ways) {
     Approach p(10.0);
     p.run(9.5);
-    ASSERT_EQ(p.world.sensed(p.comes).value(), (std::vector<Sensed>{{p.rests, 50}, {p.rests, 10}}));
+    ASSERT_EQ(p.world.sensor_overlaps(p.comes).value(),
+              (std::vector<SensorOverlap>{{p.rests, 50}, {p.rests, 10}}));
     leave(p.world, p.rests);
     if (name == "teleport") p.set_position(p.rests, {0, 999, 0});
     const auto events = p.run(9.5);
@@ -141,7 +142,7 @@ TEST(Sensor, EveryWayOutOfAWorldLeavesTheInnerDistanceFirst) {
     const std::vector<std::tuple<EventKind, double>> expected{{sensor_leave, 10}, {sensor_leave, 50}};
     EXPECT_EQ(crossings(events), expected) << name << events;
     for (const Event& event : events) EXPECT_NEAR(event.gap, 5.0, 1e-9) << name << event;
-    EXPECT_TRUE(p.world.sensed(p.comes).value().empty()) << name;
+    EXPECT_TRUE(p.world.sensor_overlaps(p.comes).value().empty()) << name;
     EXPECT_TRUE(is_clean(p.world)) << name;
   }
 }
@@ -222,7 +223,7 @@ TEST(Sensor, RefusesDistancesThatAreNone) {
   expect_error(world.set_sensor_class(never, 1), ErrorCode::unknown_body, "body", "set_sensor_class", never);
   expect_error(world.set_solid(never, true), ErrorCode::unknown_body, "body", "set_solid", never);
   expect_error(world.touching(never), ErrorCode::unknown_body, "body", "touching", never);
-  expect_error(world.sensed(never), ErrorCode::unknown_body, "body", "sensed", never);
+  expect_error(world.sensor_overlaps(never), ErrorCode::unknown_body, "body", "sensed", never);
   world.add({}).value();
   auto calls_back = [&](std::span<const BodyId> ids, double, std::span<State> states) {
     for (State& state : states) state = {};
@@ -306,12 +307,12 @@ class SensingCrowd : public testing::TestWithParam<std::uint64_t> {
   }
 
   void note(const Event& event) {
-    const auto crossing = std::tuple(event.first, event.second, event.distance);
+    const auto overlap = std::tuple(event.first, event.second, event.distance);
     if (event.kind == EventKind::sensor_enter) {
-      ASSERT_TRUE(within.insert(crossing).second) << "twice: " << event;
+      ASSERT_TRUE(within.insert(overlap).second) << "twice: " << event;
       ASSERT_LE(event.gap, event.distance + eps) << event;
     } else if (event.kind == EventKind::sensor_leave) {
-      ASSERT_EQ(within.erase(crossing), 1u) << "without having entered: " << event;
+      ASSERT_EQ(within.erase(overlap), 1u) << "without having entered: " << event;
     }
   }
 
@@ -347,7 +348,7 @@ class SensingCrowd : public testing::TestWithParam<std::uint64_t> {
     }
     ASSERT_EQ(within.size(), expected_at_most) << "within a distance that nobody senses";
     std::size_t told = 0;
-    for (const BodyId id : alive) told += p.world.sensed(id).value().size();
+    for (const BodyId id : alive) told += p.world.sensor_overlaps(id).value().size();
     ASSERT_EQ(told, 2 * within.size());
   }
 

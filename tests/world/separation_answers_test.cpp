@@ -124,7 +124,7 @@ TEST(SafeSeparation, FiltersDoNotCountForAPairButForABody) {
   const BodyId a =
       p.add({.radius = 1, .position = {0, 0, 0}, .velocity = {1, 0, 0}, .filter = {.group = -1}});
   const BodyId b = p.add({.radius = 1, .position = {12, 0, 0}, .filter = {.group = -1}});
-  const BodyId zone = p.world.add_fixed({.shape = Box{{20, -1, -1}, {21, 1, 1}}, .solid = false}).value();
+  const BodyId zone = p.world.add_static({.shape = Box{{20, -1, -1}, {21, 1, 1}}, .solid = false}).value();
   EXPECT_NEAR(p.world.safe_until(a, b, 2.0)->time, 8.0, 1e-9);
   const auto approach = p.world.earliest_approach(a, 2.0);
   EXPECT_EQ(approach->partner, zone);
@@ -139,11 +139,11 @@ TEST(SafeSeparation, CountsWallsAndShapes) {
   EXPECT_EQ(approach->partner, no_body);
   EXPECT_NEAR(approach->time, 39.0, 1e-9);
   EXPECT_TRUE(p.world.earliest_approach(a, 49.5)->within);
-  const BodyId floor = p.world.add_fixed({.shape = HalfSpace{{0, 1, 0}, 5.0}}).value();
+  const BodyId floor = p.world.add_static({.shape = HalfSpace{{0, 1, 0}, 5.0}}).value();
   EXPECT_EQ(p.world.earliest_approach(a, 10.0)->partner, floor);
   EXPECT_NEAR(p.world.safe_until(a, floor, 10.0)->time, 34.0, 1e-9);
   EXPECT_NEAR(p.world.safe_until(floor, a, 10.0)->time, 34.0, 1e-9);
-  const BodyId box = p.world.add_fixed({.shape = Box{{0, 0, 0}, {1, 1, 1}}}).value();
+  const BodyId box = p.world.add_static({.shape = Box{{0, 0, 0}, {1, 1, 1}}}).value();
   EXPECT_EQ(p.world.safe_until(floor, box, 1.0)->time, p.world.time()) << "nothing is known of two shapes";
   EXPECT_FALSE(p.world.safe_until(floor, box, 1.0)->within);
 }

@@ -102,9 +102,9 @@ TEST(Kick, InContactKeepsTheContactUntilTheyAreApart) {
   Playground p;
   const BodyId a = p.add({.radius = 1, .position = {-2, 0, 0}, .velocity = {1, 0, 0}});
   const BodyId b = p.add({.radius = 1, .position = {1, 0, 0}});
-  int kicks = 0;
+  int updates = 0;
   const auto events = p.run(10.0, [&](const Event& event) {
-    if (event.kind == EventKind::contact_begin && kicks++ == 0) p.set_velocity(a, {-1, 0, 0});
+    if (event.kind == EventKind::contact_begin && updates++ == 0) p.set_velocity(a, {-1, 0, 0});
   });
   ASSERT_EQ(events.size(), 2u) << events;
   EXPECT_EQ(events[1].kind, EventKind::contact_end);

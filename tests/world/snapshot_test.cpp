@@ -247,11 +247,11 @@ Bytes rich_snapshot(ContactMode mode, const Axes& periodic = {}) {
   p.add({.position = {8.5, 5, 8}, .velocity = {1, 0, 0}});
   const BodyId gone = p.add({.position = {2, 2, 1}});
   // The bodies at height 5 touch the floor.
-  const BodyId ball = p.world.add_fixed({.shape = Ball{{1, 1, 9}, 0.5}}).value();
+  const BodyId ball = p.world.add_static({.shape = Ball{{1, 1, 9}, 0.5}}).value();
   if (!periodic.any()) {
-    p.world.add_fixed({.shape = HalfSpace{{0, 0, 1}, 4.0}}).value();
-    const BodyId box = p.world.add_fixed({.shape = Box{{1, 1, 8}, {2, 2, 9}}}).value();
-    p.world.add_fixed({.shape = Triangle{{4, 0, 6}, {6, 0, 6}, {5, 9, 6}}}).value();
+    p.world.add_static({.shape = HalfSpace{{0, 0, 1}, 4.0}}).value();
+    const BodyId box = p.world.add_static({.shape = Box{{1, 1, 8}, {2, 2, 9}}}).value();
+    p.world.add_static({.shape = Triangle{{4, 0, 6}, {6, 0, 6}, {5, 9, 6}}}).value();
     p.world.disable(box).value();
   }
   p.world.remove(ball).value();

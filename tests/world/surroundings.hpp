@@ -31,14 +31,14 @@ class Surroundings : public Playground {
   }
 
   BodyId place(const Shape& shape, const Filter& filter = {}) {
-    const BodyId id = world.add_fixed({.shape = shape, .filter = filter}).value();
+    const BodyId id = world.add_static({.shape = shape, .filter = filter}).value();
     // A place for its index, as Playground::state wants one.
     if (!fixed.contains(id)) fixed.emplace(id, shape);
     return id;
   }
 
-  std::vector<BodyId> place_all(const std::vector<FixedDefinition>& bodies) {
-    const auto ids = world.add_fixed_all(bodies).value();
+  std::vector<BodyId> place_all(const std::vector<StaticDefinition>& bodies) {
+    const auto ids = world.add_static_all(bodies).value();
     for (std::size_t k = 0; k < ids.size(); ++k) fixed.emplace(ids[k], bodies[k].shape);
     return ids;
   }

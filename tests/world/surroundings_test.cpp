@@ -170,9 +170,9 @@ class RoomOf : public testing::TestWithParam<const char*> {
  protected:
   static constexpr double size = 10.0;
 
-  static std::vector<FixedDefinition> walls_of(const std::string& kind) {
+  static std::vector<StaticDefinition> walls_of(const std::string& kind) {
     if (kind == "half_spaces") {
-      std::vector<FixedDefinition> all;
+      std::vector<StaticDefinition> all;
       for (int axis = 0; axis < 3; ++axis) {
         HalfSpace lower{{}, 0.0}, upper{{}, -size};
         lower.normal[axis] = 1.0;
@@ -183,7 +183,7 @@ class RoomOf : public testing::TestWithParam<const char*> {
       return all;
     }
     if (kind == "boxes") {
-      std::vector<FixedDefinition> all;
+      std::vector<StaticDefinition> all;
       for (int axis = 0; axis < 3; ++axis)
         for (const bool up : {false, true}) {
           Box box{{-5, -5, -5}, {size + 5, size + 5, size + 5}};
@@ -192,21 +192,21 @@ class RoomOf : public testing::TestWithParam<const char*> {
         }
       return all;
     }
-    std::vector<Vec3> corners;
-    for (int k = 0; k < 8; ++k) corners.push_back({size * (k & 1), size * (k >> 1 & 1), size * (k >> 2 & 1)});
+    std::vector<Vec3> aabb;
+    for (int k = 0; k < 8; ++k) aabb.push_back({size * (k & 1), size * (k >> 1 & 1), size * (k >> 2 & 1)});
     using Corners = std::vector<std::array<std::uint32_t, 3>>;
-    return mesh(corners, Corners{{0, 1, 3},
-                                 {0, 3, 2},
-                                 {4, 5, 7},
-                                 {4, 7, 6},
-                                 {0, 1, 5},
-                                 {0, 5, 4},
-                                 {2, 3, 7},
-                                 {2, 7, 6},
-                                 {0, 2, 6},
-                                 {0, 6, 4},
-                                 {1, 3, 7},
-                                 {1, 7, 5}})
+    return mesh(aabb, Corners{{0, 1, 3},
+                              {0, 3, 2},
+                              {4, 5, 7},
+                              {4, 7, 6},
+                              {0, 1, 5},
+                              {0, 5, 4},
+                              {2, 3, 7},
+                              {2, 7, 6},
+                              {0, 2, 6},
+                              {0, 6, 4},
+                              {1, 3, 7},
+                              {1, 7, 5}})
         .value();
   }
 };
@@ -255,8 +255,8 @@ INSTANTIATE_TEST_SUITE_P(, RoomOf, testing::Values("half_spaces", "boxes", "tria
 TEST(Surroundings, OneBounceOnASharedEdge) {
   Surroundings p({.contact_tolerance = eps, .contacts = ContactMode::impacts});
   const std::vector<Vec3> vertices{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
-  const std::vector<std::array<std::uint32_t, 3>> corners{{0, 1, 2}, {0, 2, 3}};
-  p.place_all(mesh(vertices, corners).value());
+  const std::vector<std::array<std::uint32_t, 3>> aabb{{0, 1, 2}, {0, 2, 3}};
+  p.place_all(mesh(vertices, aabb).value());
   const BodyId ball = p.add({.radius = 1, .position = {2, 2, 3}, .velocity = {0, 0, -1}});
   const auto events = p.run(10.0, [&](const Event& event) {
     EXPECT_EQ(event.kind, EventKind::contact_begin);
@@ -271,8 +271,8 @@ TEST(Surroundings, ABallRestsAndRollsOnAMesh) {
   // Stopped dead again and again: the Zeno guard and the mesh's edges together.
   Surroundings p({.contact_tolerance = eps, .contacts = ContactMode::impacts});
   const std::vector<Vec3> vertices{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
-  const std::vector<std::array<std::uint32_t, 3>> corners{{0, 1, 2}, {0, 2, 3}};
-  p.place_all(mesh(vertices, corners).value());
+  const std::vector<std::array<std::uint32_t, 3>> aabb{{0, 1, 2}, {0, 2, 3}};
+  p.place_all(mesh(vertices, aabb).value());
   const BodyId ball = p.add(
       {.radius = 0.5, .planned_acceleration = {0, 0, -10}, .position = {1, 3, 0.6}, .velocity = {1, -1, 0}});
   double lowest = infinity;
@@ -289,7 +289,7 @@ TEST(Surroundings, ABallRestsAndRollsOnAMesh) {
 }
 
 /// Hills of (2 n^2) triangles.
-std::vector<FixedDefinition> terrain(int n, double width) {
+std::vector<StaticDefinition> terrain(int n, double width) {
   std::vector<Vec3> vertices;
   for (int i = 0; i <= n; ++i)
     for (int j = 0; j <= n; ++j) {
@@ -297,14 +297,14 @@ std::vector<FixedDefinition> terrain(int n, double width) {
       vertices.push_back(
           {width * x, width * y, 12.0 * x * (1 - x) * (3 * y - 1) * (y - 0.8) + 0.1 * ((i * 7 + j * 5) % 3)});
     }
-  std::vector<std::array<std::uint32_t, 3>> corners;
+  std::vector<std::array<std::uint32_t, 3>> aabb;
   const auto at = [n](int i, int j) { return static_cast<std::uint32_t>(i * (n + 1) + j); };
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
-      corners.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      corners.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+      aabb.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      aabb.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
     }
-  return mesh(vertices, corners).value();
+  return mesh(vertices, aabb).value();
 }
 
 TEST(Terrain, BallsThatFallThroughTouchWhatBruteForceSays) {
@@ -414,7 +414,7 @@ TEST(Surroundings, SavedWhenOneHasTakenTheIndexOfABallThatTouched) {
     const BodyId ball = p.add({.radius = 1, .position = {0, height == 3.0 ? 8.5 : 0.0, height}}, Vec3{});
     ASSERT_TRUE(p.advance(1.0)) << "it touches the ground or a wall";
     p.world.remove(ball).value();
-    EXPECT_EQ(p.world.add_fixed({.shape = unit_box})->index, ball.index);
+    EXPECT_EQ(p.world.add_static({.shape = unit_box})->index, ball.index);
     EXPECT_TRUE(World::restore(p.world.save().value()));
     EXPECT_TRUE(is_clean(p.world));
   }
@@ -423,7 +423,7 @@ TEST(Surroundings, SavedWhenOneHasTakenTheIndexOfABallThatTouched) {
 TEST(Surroundings, OneThatSensesIsRegisteredWithItsReach) {
   Surroundings p;
   p.world.set_sensor(1, {.distances = {2}}).value();
-  const BodyId box = p.world.add_fixed({.shape = unit_box, .sensor_class = 1}).value();
+  const BodyId box = p.world.add_static({.shape = unit_box, .sensor_class = 1}).value();
   EXPECT_TRUE(is_clean(p.world));
   p.world.set_sensor(1, {.distances = {3}}).value();
   EXPECT_TRUE(is_clean(p.world));
@@ -462,9 +462,9 @@ TEST(Surroundings, QueriesKnowTheirShapes) {
   const BodyId floor = p.place(HalfSpace{{0, 0, 1}, -20.0});
   const BodyId ball = p.place(Ball{{0, 0, 10}, 2});
   EXPECT_FALSE(p.advance(0.0));
-  const auto ids = [](const std::vector<Found>& found) {
+  const auto ids = [](const std::vector<OverlapHit>& found) {
     std::vector<BodyId> all;
-    for (const Found& f : found) {
+    for (const OverlapHit& f : found) {
       EXPECT_EQ(f.certainty, Certainty::certainly);
       all.push_back(f.body);
     }
@@ -515,43 +515,43 @@ TEST(Surroundings, WrongCalls) {
   World& w = p.world;
   const BodyId box = p.place(unit_box);
   constexpr auto range = ErrorCode::out_of_range;
-  expect_error(w.add_fixed({.shape = Ball{{0, 0, 0}, -1}}), range, "radius", "add_fixed: ");
-  expect_error(w.add_fixed({.shape = Ball{{infinity, 0, 0}, 1}}), ErrorCode::not_finite, "shape",
+  expect_error(w.add_static({.shape = Ball{{0, 0, 0}, -1}}), range, "radius", "add_fixed: ");
+  expect_error(w.add_static({.shape = Ball{{infinity, 0, 0}, 1}}), ErrorCode::not_finite, "shape",
                "add_fixed: ");
-  expect_error(w.add_fixed({.shape = HalfSpace{{0, 0, 2}, 0}}), range, "shape", "add_fixed: ");
-  expect_error(w.add_fixed({.shape = HalfSpace{{0, 0, 1}, 1e9}}), range, "shape", "add_fixed: ");
-  expect_error(w.add_fixed({.shape = HalfSpace{{0, 0, 1}, infinity}}), ErrorCode::not_finite, "shape",
+  expect_error(w.add_static({.shape = HalfSpace{{0, 0, 2}, 0}}), range, "shape", "add_fixed: ");
+  expect_error(w.add_static({.shape = HalfSpace{{0, 0, 1}, 1e9}}), range, "shape", "add_fixed: ");
+  expect_error(w.add_static({.shape = HalfSpace{{0, 0, 1}, infinity}}), ErrorCode::not_finite, "shape",
                "add_fixed: ");
-  expect_error(w.add_fixed({.shape = Box{{0, 0, 0}, {1, -1, 1}}}), range, "shape", "add_fixed: ");
-  expect_error(w.add_fixed({.shape = Box{{0, 0, 0}, {1, 1e9, 1}}}), range, "shape", "add_fixed: ");
-  expect_error(w.add_fixed({.shape = Triangle{}}), range, "shape", "add_fixed: ");
-  expect_error(w.add_fixed({.shape = Triangle{{0, 0, 0}, {1, 0, 0}, {2, 1e-7, 0}}}), range, "shape",
+  expect_error(w.add_static({.shape = Box{{0, 0, 0}, {1, -1, 1}}}), range, "shape", "add_fixed: ");
+  expect_error(w.add_static({.shape = Box{{0, 0, 0}, {1, 1e9, 1}}}), range, "shape", "add_fixed: ");
+  expect_error(w.add_static({.shape = Triangle{}}), range, "shape", "add_fixed: ");
+  expect_error(w.add_static({.shape = Triangle{{0, 0, 0}, {1, 0, 0}, {2, 1e-7, 0}}}), range, "shape",
                "add_fixed: ");
-  const std::vector<FixedDefinition> two{{.shape = ground}, {.shape = Triangle{}}};
-  expect_error(w.add_fixed_all(two), range, "shape", "add_fixed_all: bodies[1]: ");
+  const std::vector<StaticDefinition> two{{.shape = ground}, {.shape = Triangle{}}};
+  expect_error(w.add_static_all(two), range, "shape", "add_fixed_all: bodies[1]: ");
   EXPECT_EQ(w.size(), 1u);
-  expect_error(w.set_velocity(box, {}), ErrorCode::fixed_body, "body", "set_velocity: ", box);
-  expect_error(w.teleport(box, {}), ErrorCode::fixed_body, "body", "teleport: ", box);
-  expect_error(w.set_radius(box, 1), ErrorCode::fixed_body, "body", "set_radius: ", box);
-  expect_error(w.set_motion_limits(box, {}), ErrorCode::fixed_body, "body", "set_motion_limits: ", box);
+  expect_error(w.set_velocity(box, {}), ErrorCode::static_body, "body", "set_velocity: ", box);
+  expect_error(w.teleport(box, {}), ErrorCode::static_body, "body", "teleport: ", box);
+  expect_error(w.set_radius(box, 1), ErrorCode::static_body, "body", "set_radius: ", box);
+  expect_error(w.set_motion_limits(box, {}), ErrorCode::static_body, "body", "set_motion_limits: ", box);
   expect_error(w.shape_of({7, 0}), ErrorCode::unknown_body, "body", "shape_of: ", {7, 0});
   expect_error(w.add({.radius = 1, .position = {1.5, 0, 0}}), ErrorCode::overlapping, "position",
                "add: ", box);
   const BodyId ball = p.add({.radius = 1, .position = {0, 0, 2}});
-  expect_error(w.add_fixed({.shape = Triangle{{-5, -5, 2}, {5, -5, 2}, {0, 5, 2}}}), ErrorCode::overlapping,
+  expect_error(w.add_static({.shape = Triangle{{-5, -5, 2}, {5, -5, 2}, {0, 5, 2}}}), ErrorCode::overlapping,
                "shape", "add_fixed: ", ball);
   w.disable(box).value();
   p.world.teleport(ball, {{0, 0, 0}, {}}).value();
   p.set_position(ball, {});
   expect_error(w.enable(box, {}), ErrorCode::overlapping, "shape", "enable: ", ball);
-  EXPECT_EQ(w.body(box)->fixed, true);
-  EXPECT_EQ(w.body(ball)->fixed, false);
+  EXPECT_EQ(w.body(box)->is_static, true);
+  EXPECT_EQ(w.body(ball)->is_static, false);
   EXPECT_EQ(std::get<Box>(w.shape_of(box).value()), unit_box);
   EXPECT_EQ(std::get<Ball>(w.shape_of(ball).value()).radius, 1.0);
   p.place(HalfSpace{{0, 0, 1 + 1e-9}, -5});
   const auto inside = [&](std::span<const BodyId>, double, std::span<State> states) {
-    expect_error(w.add_fixed({.shape = ground}), ErrorCode::probe_in_progress, "probe", "add_fixed: ");
-    expect_error(w.add_fixed_all(two), ErrorCode::probe_in_progress, "probe", "add_fixed_all: ");
+    expect_error(w.add_static({.shape = ground}), ErrorCode::probe_in_progress, "probe", "add_fixed: ");
+    expect_error(w.add_static_all(two), ErrorCode::probe_in_progress, "probe", "add_fixed_all: ");
     std::fill(states.begin(), states.end(), State{});
   };
   (void)w.advance(1.0, inside).value();

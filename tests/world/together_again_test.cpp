@@ -14,7 +14,7 @@ TEST(RecordingOfSurroundings, KeepsTheNormalsOfHalfSpacesToTheBit) {
   for (int k = 0; k < 200; ++k) {
     Playground p;
     p.world.start_recording().value();
-    p.world.add_fixed({.shape = HalfSpace{random.unit_vector(), 0.5}}).value();
+    p.world.add_static({.shape = HalfSpace{random.unit_vector(), 0.5}}).value();
     p.run(1.0);
     Replay replay = Replay::open(p.world.stop_recording().value()).value();
     while (!replay.finished()) {
@@ -28,7 +28,7 @@ TEST(RecordingOfSurroundings, KeepsTheNormalsOfHalfSpacesToTheBit) {
 TEST(AnswersAfterALooserPromise, AreNotLaterThanTheContact) {
   Playground p({.box = Box{{0, 0, 0}, {100, 100, 100}}});
   const BodyId runner = p.add({.radius = 1, .position = {50, 50, 50}, .velocity = {1, 0, 0}});
-  const BodyId post = p.world.add_fixed({.shape = Ball{{95, 50, 50}, 1}}).value();
+  const BodyId post = p.world.add_static({.shape = Ball{{95, 50, 50}, 1}}).value();
   p.run(10.0);
   p.steer(runner, {5, 0, 0});
   p.world.set_motion_limits(runner, {.acceleration_limit = 5}).value();
@@ -48,16 +48,16 @@ TEST(AnswersAfterALooserPromise, AreNotLaterThanTheContact) {
 TEST(AuditOfAFixedBody, KnowsItsSensor) {
   Playground p;
   p.world.set_sensor(1, {.distances = {2.0}}).value();
-  p.world.add_fixed({.shape = Ball{}, .sensor_class = 1}).value();
+  p.world.add_static({.shape = Ball{}, .sensor_class = 1}).value();
   p.run(1.0);
   EXPECT_TRUE(is_clean(p.world));
 }
 
 TEST(AuditOfAFixedBody, KnowsThePlane) {
   Playground p({.dimensions = 2});
-  p.world.add_fixed({.shape = Ball{}}).value();
-  p.world.add_fixed({.shape = Box{{3, 0, 0}, {4, 1, 1}}}).value();
-  p.world.add_fixed({.shape = HalfSpace{{0, 1, 0}, -3}}).value();
+  p.world.add_static({.shape = Ball{}}).value();
+  p.world.add_static({.shape = Box{{3, 0, 0}, {4, 1, 1}}}).value();
+  p.world.add_static({.shape = HalfSpace{{0, 1, 0}, -3}}).value();
   p.run(1.0);
   EXPECT_TRUE(is_clean(p.world));
 }

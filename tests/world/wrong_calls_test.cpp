@@ -106,11 +106,11 @@ TEST(WrongBody, OverlapNamesTheOtherBody) {
 
 TEST(WrongBody, OverlapIsFoundWithBodiesThatHaveMoved) {
   Playground p({.allow_overlap = false});
-  const BodyId mover = p.add({.radius = 1, .velocity = {100, 0, 0}});
+  const BodyId source = p.add({.radius = 1, .velocity = {100, 0, 0}});
   p.run(1.0);
   EXPECT_FALSE(p.world.add({.radius = 1, .position = {100.5, 0, 0}}));
   EXPECT_TRUE(p.world.add({.radius = 1, .position = {0, 0, 0}}));
-  EXPECT_NEAR(p.state(mover).position.x, 100.0, 1e-9);
+  EXPECT_NEAR(p.state(source).position.x, 100.0, 1e-9);
 }
 
 /// What happens in a little scene, with `disturb` called on its world at several stops.

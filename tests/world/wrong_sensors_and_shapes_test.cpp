@@ -13,14 +13,14 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(WrongIdOfAFixedBody, IsStaleEverywhere) {
   World world = World::create({}).value();
-  const BodyId gone = world.add_fixed({.shape = Ball{}}).value();
+  const BodyId gone = world.add_static({.shape = Ball{}}).value();
   world.remove(gone).value();
   const auto stale = [&](const auto& result, const std::string& call) {
     expect_error(result, ErrorCode::stale_body, "body", call, gone);
   };
   stale(world.shape_of(gone), "shape_of");
   stale(world.touching(gone), "touching");
-  stale(world.sensed(gone), "sensed");
+  stale(world.sensor_overlaps(gone), "sensed");
   stale(world.set_solid(gone, false), "set_solid");
   stale(world.set_sensor_class(gone, 1), "set_sensor_class");
   stale(world.set_velocity(gone, {}), "set_velocity");
@@ -35,8 +35,8 @@ TEST(WrongFixedBody, HasToFitWhereSpaceRepeats) {
   World world = World::create({.box = Box{{0, 0, 0}, {10, 10, 10}}, .periodic = {true, true, true}}).value();
   for (const Shape& shape : {Shape(HalfSpace{{0, 0, 1}, 0}), Shape(Box{{1, 1, 1}, {2, 2, 2}}),
                              Shape(Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})})
-    expect_error(world.add_fixed({.shape = shape}), ErrorCode::unsupported, "shape", "add_fixed");
-  expect_error(world.add_fixed({.shape = Ball{{1, 1, 1}, 1.9}}), ErrorCode::out_of_range, "shape",
+    expect_error(world.add_static({.shape = shape}), ErrorCode::unsupported, "shape", "add_fixed");
+  expect_error(world.add_static({.shape = Ball{{1, 1, 1}, 1.9}}), ErrorCode::out_of_range, "shape",
                "add_fixed");
   EXPECT_EQ(world.size(), 0u);
 }
@@ -44,7 +44,7 @@ TEST(WrongFixedBody, HasToFitWhereSpaceRepeats) {
 TEST(WrongSensor, HasToFitWhereSpaceRepeats) {
   World world = World::create({.box = Box{{0, 0, 0}, {10, 10, 10}}, .periodic = {true, true, true}}).value();
   const BodyId ball = world.add({.radius = 1, .position = {5, 5, 5}, .sensor_class = 1}).value();
-  const BodyId fixed = world.add_fixed({.shape = Ball{{1, 1, 1}, 1}, .sensor_class = 2}).value();
+  const BodyId fixed = world.add_static({.shape = Ball{{1, 1, 1}, 1}, .sensor_class = 2}).value();
   expect_error(world.set_sensor(1, {.distances = {0.5, 1.0}}), ErrorCode::out_of_range, "sensor",
                "set_sensor", ball);
   expect_error(world.set_sensor(2, {.distances = {1.0}}), ErrorCode::out_of_range, "sensor", "set_sensor",
@@ -65,10 +65,11 @@ TEST(WrongSensor, HasToFitWhereSpaceRepeats) {
 
 TEST(WrongFixedBody, HasToLieInThePlane) {
   World world = World::create({.dimensions = 2}).value();
-  expect_error(world.add_fixed({.shape = Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}), ErrorCode::unsupported,
+  expect_error(world.add_static({.shape = Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}), ErrorCode::unsupported,
                "shape", "add_fixed");
-  expect_error(world.add_fixed({.shape = Ball{{0, 0, 1}, 1}}), ErrorCode::out_of_range, "shape", "add_fixed");
-  expect_error(world.add_fixed({.shape = HalfSpace{{0, 0, 1}, 0}}), ErrorCode::out_of_range, "shape",
+  expect_error(world.add_static({.shape = Ball{{0, 0, 1}, 1}}), ErrorCode::out_of_range, "shape",
+               "add_fixed");
+  expect_error(world.add_static({.shape = HalfSpace{{0, 0, 1}, 0}}), ErrorCode::out_of_range, "shape",
                "add_fixed");
   EXPECT_EQ(world.size(), 0u);
 }

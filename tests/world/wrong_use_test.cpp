@@ -24,7 +24,7 @@ class WrongUse : public testing::Test {
   BodyId ball = world.add(motion.definition(0, 0.0)).value();
   BodyId other = world.add(motion.definition(1, 0.0)).value();
   BodyId gone = world.add(motion.definition(2, 0.0)).value();
-  BodyId post = world.add_fixed({.shape = Ball{{50, 0, 0}, 1.0}}).value();
+  BodyId post = world.add_static({.shape = Ball{{50, 0, 0}, 1.0}}).value();
 
   WrongUse() { world.remove(gone).value(); }
 
@@ -54,7 +54,7 @@ TEST_F(WrongUse, 02_TheErrorOfASuccess) { EXPECT_THROW((void)world.reserve(5).er
 
 TEST_F(WrongUse, 03_ALoopOverATemporaryAnswer) {
   std::size_t count = 0;
-  for (const Found& found : *world.overlapping({0, 0, 0}, 200.0))
+  for (const OverlapHit& found : *world.overlapping({0, 0, 0}, 200.0))
     count += world.contains(found.body) ? 1u : 0u;
   EXPECT_EQ(count, 3u);
 }
@@ -231,7 +231,7 @@ TEST_F(WrongUse, 33_AMotionAskedAboutABodyThatItDoesNotHave) {
 // Bodies that cannot do what is asked.
 
 TEST_F(WrongUse, 34_AVelocityForAFixedBody) {
-  expect_error(world.set_velocity(post, {}), ErrorCode::fixed_body, "body", "set_velocity:", post);
+  expect_error(world.set_velocity(post, {}), ErrorCode::static_body, "body", "set_velocity:", post);
 }
 
 TEST_F(WrongUse, 35_AVelocityForADisabledBody) {
@@ -249,7 +249,7 @@ TEST_F(WrongUse, 37_ASensorWithANegativeDistance) {
 }
 
 TEST_F(WrongUse, 38_ABoxTurnedInsideOut) {
-  expect_error(world.add_fixed({.shape = Box{{1, 1, 1}, {0, 2, 2}}}), ErrorCode::out_of_range, "shape",
+  expect_error(world.add_static({.shape = Box{{1, 1, 1}, {0, 2, 2}}}), ErrorCode::out_of_range, "shape",
                "add_fixed:");
 }
 

@@ -41,16 +41,16 @@ struct OrderedEvent {
 };
 
 /// Any callable `void(const OrderedEvent&)`.
-using OrderedSink = Callback<void(const OrderedEvent& event)>;
+using OrderedEventFn = Callback<void(const OrderedEvent& event)>;
 
 /// Where work and memory of this rank went.
 struct RankFigures {
   std::uint64_t bodies = 0;       ///< that are this rank's
-  std::uint64_t copies = 0;       ///< of bodies of others
+  std::uint64_t ghosts = 0;       ///< of bodies of others
   std::uint64_t bytes = 0;        ///< sent to other ranks so far
   std::uint64_t messages = 0;     ///< from rank to rank
   std::uint64_t collectives = 0;  ///< calls in which all ranks took part
-  std::uint64_t parts = 0;        ///< stretches of time after which ranks have agreed
+  std::uint64_t batches = 0;      ///< stretches of time after which ranks have agreed
   std::uint64_t rounds = 0;       ///< times that they have told each other what has to be done again
   std::uint64_t partitions = 0;   ///< times that space was divided
   double seconds_in_mpi = 0.0;    ///< processor time, with that spent waiting for others
@@ -88,8 +88,9 @@ class DistributedWorld {
   /// is told, in order, the events whose first body is this rank's. `workers` may differ from rank to rank.
   /// Errors: those of World::run; callback_threw where World::run would have let an exception pass;
   /// out_of_range (index) where two ranks have added bodies with the same index.
-  Result<void> run(double until, const Respond& respond, const OrderedSink& sink, Workers* workers = nullptr);
-  Result<void> run(double until, const OrderedSink& sink, Workers* workers = nullptr);
+  Result<void> run(double until, const ResponseFn& respond, const OrderedEventFn& sink,
+                   Workers* workers = nullptr);
+  Result<void> run(double until, const OrderedEventFn& sink, Workers* workers = nullptr);
 
   /// Collective. This rank's part of all that the world is, as bytes for a file; with all parts restore()
   /// goes on, on any number of ranks, as this world would have: what comes is the same, to the last bit.
@@ -117,10 +118,10 @@ class DistributedWorld {
   RankFigures figures() const;
 
  private:
-  class Domain;
-  explicit DistributedWorld(std::unique_ptr<Domain> domain);
+  class RankEngine;
+  explicit DistributedWorld(std::unique_ptr<RankEngine> domain);
 
-  std::unique_ptr<Domain> domain_;
+  std::unique_ptr<RankEngine> engine_;
 };
 
 }  // namespace kinesphere

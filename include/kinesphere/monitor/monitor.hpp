@@ -38,14 +38,14 @@ namespace kinesphere {
 /// Several monitors that are told the same may divide the pairs among themselves: a pair belongs to the share
 /// that is the lower of its two ids modulo `of`. What each tells of its pairs is what one monitor would tell
 /// that watches all.
-struct PairShare {
+struct Shard {
   std::uint64_t of = 1;     ///< > 0
   std::uint64_t first = 0;  ///< watched are the shares first, ..., first + count - 1
   std::uint64_t count = 1;  ///< > 0; first + count <= of
 
   bool contains(TrackId id) const { return id % of - first < count; }
 
-  friend bool operator==(const PairShare&, const PairShare&) = default;
+  friend bool operator==(const Shard&, const Shard&) = default;
 };
 
 struct MonitorDefinition {
@@ -74,10 +74,10 @@ struct MonitorDefinition {
   /// farther ahead.
   double window = 1.0;
   /// A track of which nothing is heard for so long is told of, and for so long leaves (time, > 0).
-  double silence_after = std::numeric_limits<double>::infinity();
-  double forget_after = std::numeric_limits<double>::infinity();
+  double stale_after = std::numeric_limits<double>::infinity();
+  double drop_after = std::numeric_limits<double>::infinity();
   /// Which pairs are watched, where others watch the rest.
-  PairShare share{};
+  Shard shard{};
 };
 
 /// What a monitor has done so far.
@@ -90,7 +90,7 @@ struct MonitorCounters {
   std::uint64_t windows = 0;         ///< that have started
   std::uint64_t searches = 0;        ///< for tracks near one
   std::uint64_t near_pairs = 0;      ///< that searches have found
-  std::uint64_t looks = 0;           ///< at what is certain of a pair
+  std::uint64_t rechecks = 0;        ///< at what is certain of a pair
 };
 
 /// What is certain of two tracks and a separation now, and what may come.
@@ -127,7 +127,7 @@ struct OpenPair {
 };
 
 /// A report that is needed: without it something about the two turns undecided.
-struct ReportNeed {
+struct ReportRequest {
   TrackId track = 0;
   double by = 0.0;
   TrackId other = 0;
@@ -138,12 +138,12 @@ struct ReportNeed {
 struct TrackView {
   TrackId id = 0;
   std::size_t track_class = 0;
-  double stamp = 0.0;  ///< of its latest report
-  bool silent = false;
+  double timestamp = 0.0;  ///< of its latest report
+  bool stale = false;
   struct Place {
     Vec3 centre{};
     Vec3 velocity{};
-    Spread radius{};
+    ErrorBound radius{};
   };
   std::vector<Place> places;
 };
@@ -216,7 +216,7 @@ class Monitor {
   std::vector<TrackId> crowd(std::size_t pairs) const;
   /// Whose reports are needed by `until` so that nothing turns undecided before, in the order of those times,
   /// each track once. Pairs are known ahead until the window ends, no further. Cost: O(pairs that are near).
-  std::vector<ReportNeed> needed(double until) const;
+  std::vector<ReportRequest> needed(double until) const;
 
   /// The whole monitor as bytes; one that is restored from them goes on as this one does. Cost: O(tracks).
   std::vector<std::byte> save() const;

@@ -19,13 +19,13 @@ enum class MonitorEventKind {
   contradiction,
   /// A contradiction is over: the report that was wrong is not believed any more.
   resolved,
-  /// Nothing has been heard of a track for MonitorDefinition::silence_after.
-  silent,
+  /// Nothing has been heard of a track for MonitorDefinition::stale_after.
+  stale,
   /// A track that was silent has reported.
-  heard,
-  /// A track has left: it was removed, or nothing was heard of it for MonitorDefinition::forget_after. What
+  resumed,
+  /// A track has left: it was removed, or nothing was heard of it for MonitorDefinition::drop_after. What
   /// was open about it stays undecided for ever, and nothing more is told of it.
-  left,
+  dropped,
 };
 
 /// "verdict" and so on.
@@ -54,7 +54,7 @@ struct MonitorEvent {
   friend bool operator==(const MonitorEvent&, const MonitorEvent&) = default;
 
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [time, kind, first, second, level, verdict, before, since, position_excess, velocity_excess] = self;
     archive(time, kind, first, second, level, verdict, before, since, position_excess, velocity_excess);
   }

@@ -15,17 +15,17 @@ namespace kinesphere {
 /// lengths for positions, and so on. A number alone means a ball of that radius:
 ///   report.position_error = 3.0;
 ///   report.position_error = Spread::cylinder(30.0, 8.0);
-class Spread {
+class ErrorBound {
  public:
-  constexpr Spread() = default;
-  constexpr Spread(double radius) : horizontal_(radius), vertical_(radius), total_(radius) {}
+  constexpr ErrorBound() = default;
+  constexpr ErrorBound(double radius) : horizontal_(radius), vertical_(radius), total_(radius) {}
   /// Both limits hold at once.
-  static Spread cylinder(double horizontal, double vertical) {
-    Spread spread;
-    spread.horizontal_ = horizontal;
-    spread.vertical_ = vertical;
-    spread.total_ = around(horizontal, vertical);
-    return spread;
+  static ErrorBound cylinder(double horizontal, double vertical) {
+    ErrorBound error;
+    error.horizontal_ = horizontal;
+    error.vertical_ = vertical;
+    error.total_ = around(horizontal, vertical);
+    return error;
   }
 
   constexpr double horizontal() const { return horizontal_; }
@@ -37,39 +37,39 @@ class Spread {
     return std::min(around(horizontal_, stretch * vertical_), std::max(1.0, stretch) * total_);
   }
   /// In the plane: as if there were no z.
-  constexpr Spread flat() const { return Spread(horizontal_); }
+  constexpr ErrorBound flat() const { return ErrorBound(horizontal_); }
 
-  friend constexpr bool operator==(const Spread&, const Spread&) = default;
-  friend Spread operator+(const Spread& a, const Spread& b) {
+  friend constexpr bool operator==(const ErrorBound&, const ErrorBound&) = default;
+  friend ErrorBound operator+(const ErrorBound& a, const ErrorBound& b) {
     return of(a.horizontal_ + b.horizontal_, a.vertical_ + b.vertical_, a.total_ + b.total_);
   }
-  friend Spread operator*(const Spread& a, double factor) {
+  friend ErrorBound operator*(const ErrorBound& a, double factor) {
     return of(a.horizontal_ * factor, a.vertical_ * factor, a.total_ * factor);
   }
   /// The larger of each.
-  friend Spread largest(const Spread& a, const Spread& b) {
+  friend ErrorBound largest(const ErrorBound& a, const ErrorBound& b) {
     return of(std::max(a.horizontal_, b.horizontal_), std::max(a.vertical_, b.vertical_),
               std::max(a.total_, b.total_));
   }
   /// The lesser of each.
-  friend Spread least(const Spread& a, const Spread& b) {
+  friend ErrorBound least(const ErrorBound& a, const ErrorBound& b) {
     return of(std::min(a.horizontal_, b.horizontal_), std::min(a.vertical_, b.vertical_),
               std::min(a.total_, b.total_));
   }
 
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [horizontal, vertical, total] = self;
     archive(horizontal, vertical, total);
   }
 
  private:
-  static Spread of(double horizontal, double vertical, double total) {
-    Spread spread;
-    spread.horizontal_ = horizontal;
-    spread.vertical_ = vertical;
-    spread.total_ = total;
-    return spread;
+  static ErrorBound of(double horizontal, double vertical, double total) {
+    ErrorBound error;
+    error.horizontal_ = horizontal;
+    error.vertical_ = vertical;
+    error.total_ = total;
+    return error;
   }
   /// The diagonal, rounded up.
   static double around(double horizontal, double vertical) {
@@ -86,25 +86,25 @@ class Spread {
 /// What all tracks of a class promise about their motion. One of the two limits has to be finite.
 struct TrackClass {
   /// The acceleration differs from the planned one by at most this (length / time^2).
-  Spread acceleration_limit = std::numeric_limits<double>::infinity();
+  ErrorBound acceleration_limit = std::numeric_limits<double>::infinity();
   Vec3 planned_acceleration{};
   /// No speed is larger (length / time).
-  Spread largest_speed = std::numeric_limits<double>::infinity();
+  ErrorBound largest_speed = std::numeric_limits<double>::infinity();
 };
 
 /// Where a track was, as somebody reported it. The errors are bounds: where a source tells of an accuracy
 /// that holds with some probability, it is the caller who declares which multiple of it contains all errors.
 struct TrackReport {
   /// When it was so, by the clock of the monitor. Reports may be late, come out of order and be repeated.
-  double stamp = 0.0;
+  double timestamp = 0.0;
   State state{};
   /// The true position is within this of the reported one (length).
-  Spread position_error{};
+  ErrorBound position_error{};
   /// The true velocity is within this of the reported one (length / time); infinite if none was reported,
   /// which needs a class with a largest speed.
-  Spread velocity_error{};
+  ErrorBound velocity_error{};
   /// The stamp is within this of the true time.
-  double stamp_error = 0.0;
+  double timestamp_error = 0.0;
 
   /// A plan is in force from the report's stamp until `valid_until`, whatever reports follow. While it is,
   /// the acceleration differs from the plan's by at most the plan's limit, and that takes the place of the
@@ -115,7 +115,7 @@ struct TrackReport {
   /// in rests upon the class's promise alone.
   struct Plan {
     Vec3 acceleration{};
-    Spread acceleration_limit{};
+    ErrorBound acceleration_limit{};
     double valid_until = std::numeric_limits<double>::infinity();
   };
   std::optional<Plan> plan{};

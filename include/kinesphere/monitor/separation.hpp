@@ -29,7 +29,7 @@ struct Separation {
   friend constexpr bool operator==(const Separation&, const Separation&) = default;
 
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [shape, horizontal, vertical] = self;
     archive(shape, horizontal, vertical);
   }

@@ -61,10 +61,10 @@ class Motion {
   /// The body's last change, or its start: when that was, and the state since then. Its motion from then on
   /// depends on this and on what the motion knows of it (limit, plan, steering). Throws BadResult: as above
   /// without the time; unsupported.
-  virtual Departure departure(std::uint32_t body) const;
+  virtual MotionOrigin origin(std::uint32_t body) const;
   /// The body sets out from there, which may be before its last change: so changes are taken back, to the
   /// bit. Errors: not_finite; Frames: time_backwards and out_of_range.
-  virtual Result<void> depart(std::uint32_t body, const Departure& departure);
+  virtual Result<void> set_origin(std::uint32_t body, const MotionOrigin& origin);
   /// From now on there is no body of this number. The next body that is added takes the number again.
   virtual Result<void> remove(std::uint32_t body);
 
@@ -107,19 +107,19 @@ class Motion {
   }
 
  private:
-  friend class MotionMover;
+  friend class SingleMotionSource;
   static void require_number(BodyId id, std::size_t size);
 };
 
 /// For World::run, in worlds whose id.index is the number in a motion, which must outlive it. It throws
 /// BadResult: as Motion::probe(), and as departure() and depart() of the motion.
-class MotionMover final : public Mover {
+class SingleMotionSource final : public MotionSource {
  public:
-  explicit MotionMover(Motion& motion) : motion_(motion) {}
+  explicit SingleMotionSource(Motion& motion) : motion_(motion) {}
 
   void states(std::span<const BodyId> ids, double time, std::span<State> states) override;
-  Departure departure(BodyId body) const override;
-  void depart(BodyId body, const Departure& departure) override;
+  MotionOrigin origin(BodyId body) const override;
+  void set_origin(BodyId body, const MotionOrigin& origin) override;
 
  private:
   Motion& motion_;

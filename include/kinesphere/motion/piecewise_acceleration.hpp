@@ -33,8 +33,8 @@ class PiecewiseAcceleration : public Motion {
   Trajectory trajectory(std::uint32_t body, double begin, double end) const final;
   Result<void> set_velocity(std::uint32_t body, double t, const Vec3& velocity) final;
   Result<void> teleport(std::uint32_t body, double t, const State& state) final;
-  Departure departure(std::uint32_t body) const final;
-  Result<void> depart(std::uint32_t body, const Departure& departure) final;
+  MotionOrigin origin(std::uint32_t body) const final;
+  Result<void> set_origin(std::uint32_t body, const MotionOrigin& origin) final;
   Result<void> remove(std::uint32_t body) final;
 
  protected:

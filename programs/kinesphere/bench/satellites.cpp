@@ -153,7 +153,7 @@ int bench_satellites(const SatelliteOptions& options) {
   const auto per_object_day = [&](std::uint64_t count) { return static_cast<double>(count) / object_days; };
   ResultTable counts({"window", "polls", "searches", "near_pairs", "looks", "undecided_seconds"});
   counts.row({options.window, per_object_day(watch.counters.polls), per_object_day(watch.counters.searches),
-              per_object_day(watch.counters.near_pairs), per_object_day(watch.counters.looks),
+              per_object_day(watch.counters.near_pairs), per_object_day(watch.counters.rechecks),
               watch.undecided_time});
   report.note("What the monitor did, for a satellite and day (undecided: in all, of all pairs):");
   report.table("monitor", counts);

@@ -63,8 +63,8 @@ int write_reports(const SoakSettings& settings) {
     line = fmt::format(
         R"({{"id":"{}","stamp":{},"arrival":{},"position":[{},{},{}],"velocity":[{},{},{}],"position_error":{},)"
         R"("velocity_error":{},"stamp_error":{}}})",
-        track, report.stamp, time, position.x, position.y, position.z, velocity.x, velocity.y, velocity.z,
-        report.position_error.total(), report.velocity_error.total(), report.stamp_error);
+        track, report.timestamp, time, position.x, position.y, position.z, velocity.x, velocity.y, velocity.z,
+        report.position_error.total(), report.velocity_error.total(), report.timestamp_error);
     // In place of nothing: the report itself comes next.
     if (k % lines_between_malformed == lines_between_malformed / 2) {
       ++malformed;
@@ -193,7 +193,7 @@ int bench_soak(const SoakOptions& options) {
   summary.row("wrongly within", grouped(result.wrongly_within));
   summary.row("open in the end", grouped(result.open));
   summary.space();
-  summary.row("looks", number(double(result.counters.looks) / double(reports)),
+  summary.row("looks", number(double(result.counters.rechecks) / double(reports)),
               fmt::format("for each report, and {} tracks found near one",
                           number(double(result.counters.near_pairs) / double(reports))));
   summary.row("monitor", number(1e6 * result.monitor_seconds / double(reports)), "us for each report");

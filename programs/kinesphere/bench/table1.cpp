@@ -18,7 +18,7 @@ struct Misses {
 
 /// What steps overlook of the truth, where nobody bounces: with bounces there is no common truth for long.
 Misses count_misses(SceneParameters parameters, std::uint64_t seeds) {
-  parameters.response = Response::pass_through;
+  parameters.response = SceneResponse::pass_through;
   Misses misses;
   for (const Scene& scene : seeded_scenes(parameters, seeds)) {
     const ContactCounts truth = count_contacts(scene, make_oracle);

@@ -74,7 +74,7 @@ std::string alert_line(const AlertContext& context, const MonitorEvent& event, b
   if (event.kind == MonitorEventKind::verdict) return line + verdict_fields(context, event) + "}\n";
   line += fmt::format(R"("track": {})", json_text(context.names.text(event.first)));
   const NamedTrack* const track = context.names.find(event.first);
-  if (event.kind == MonitorEventKind::left)
+  if (event.kind == MonitorEventKind::dropped)
     line += is_dropped ? R"(, "reason": "crowd")" : R"(, "reason": "silence")";
   if (event.kind == MonitorEventKind::contradiction) {
     line += fmt::format(R"(, "position_excess": {}, "velocity_excess": {})",

@@ -118,13 +118,13 @@ Vec3 LocalFrame::geographic(const Vec3& position) const {
   return projector_->reverse(latitude_, longitude_, position);
 }
 
-TrackClass LocalFrame::promise(const Spread& acceleration, const Spread& largest_speed) const {
+TrackClass LocalFrame::promise(const ErrorBound& acceleration, const ErrorBound& largest_speed) const {
   TrackClass promise;
   const double fastest = largest_speed.horizontal(), steepest = largest_speed.vertical();
   if (std::isfinite(largest_speed.total()))
-    promise.largest_speed = Spread::cylinder(stretch_ * fastest, steepest);
+    promise.largest_speed = ErrorBound::cylinder(stretch_ * fastest, steepest);
   if (std::isfinite(acceleration.total())) {
-    promise.acceleration_limit = Spread::cylinder(
+    promise.acceleration_limit = ErrorBound::cylinder(
         stretch_ * acceleration.horizontal() +
             (curving() + largest_height / (polar_radius * polar_radius)) * fastest * fastest +
             fastest * steepest / polar_radius,

@@ -81,7 +81,7 @@ class LocalFrame {
   double position_error(double metres) const { return stretch_ * metres + rounding; }
   double velocity_error(double metres_per_second) const { return stretch_ * metres_per_second; }
   /// What holds on the map, of a class that promises this on the earth.
-  TrackClass promise(const Spread& acceleration, const Spread& largest_speed) const;
+  TrackClass promise(const ErrorBound& acceleration, const ErrorBound& largest_speed) const;
   /// What is certainly not within this on the map is not within `separation` on the earth.
   Separation separation(const Separation& separation) const;
 

@@ -69,11 +69,11 @@ double parse_measure(std::string_view text, Measure measure, std::string_view op
   return *number * size;
 }
 
-Spread parse_spread(std::string_view text, Measure measure, std::string_view option) {
+ErrorBound parse_spread(std::string_view text, Measure measure, std::string_view option) {
   const std::size_t colon = text.find(':');
-  if (colon == std::string_view::npos) return Spread(parse_measure(text, measure, option));
-  return Spread::cylinder(parse_measure(text.substr(0, colon), measure, option),
-                          parse_measure(text.substr(colon + 1), measure, option));
+  if (colon == std::string_view::npos) return ErrorBound(parse_measure(text, measure, option));
+  return ErrorBound::cylinder(parse_measure(text.substr(0, colon), measure, option),
+                              parse_measure(text.substr(colon + 1), measure, option));
 }
 
 }  // namespace kinesphere::program

@@ -20,6 +20,6 @@ double parse_measure(std::string_view text, Measure measure, std::string_view op
 /// How many metres and seconds a unit is; 0 for an unknown one.
 double unit_named(std::string_view unit, Measure measure);
 /// "3": in all directions; "3:1": horizontal and upright. Throws as parse_measure().
-Spread parse_spread(std::string_view text, Measure measure, std::string_view option);
+ErrorBound parse_spread(std::string_view text, Measure measure, std::string_view option);
 
 }  // namespace kinesphere::program

@@ -20,8 +20,8 @@ constexpr std::pair<std::string_view, StreamFormat> stream_formats[] = {
 /// of its reports.
 FormatDefaults of_aircraft() {
   constexpr double declared = 2.5;
-  return {.acceleration = Spread::cylinder(6.0, 3.0),
-          .largest_speed = Spread::cylinder(400.0, 60.0),
+  return {.acceleration = ErrorBound::cylinder(6.0, 3.0),
+          .largest_speed = ErrorBound::cylinder(400.0, 60.0),
           .position_error = declared * 92.6,
           .height_error = 75.0 + 12.5 * foot,
           .velocity_error = declared * 10.0,
@@ -36,8 +36,8 @@ FormatDefaults of_aircraft() {
 FormatDefaults of_vessels() {
   constexpr double declared = 2.5;
   return {.dimensions = 2,
-          .acceleration = Spread(0.3),
-          .largest_speed = Spread(30.0),
+          .acceleration = ErrorBound(0.3),
+          .largest_speed = ErrorBound(30.0),
           .position_error = declared * 10.0,
           .height_error = 0.0,
           .velocity_error = declared * 0.5,

@@ -43,8 +43,8 @@ inline constexpr const char* stream_format_names = "readsb|sbs|opensky|ais|csv|j
 struct FormatDefaults {
   int dimensions = 3;
   bool geographic = true;  ///< always; otherwise the stream may have either
-  std::optional<Spread> acceleration{};
-  std::optional<Spread> largest_speed{};
+  std::optional<ErrorBound> acceleration{};
+  std::optional<ErrorBound> largest_speed{};
   std::optional<double> position_error{}, height_error{}, velocity_error{}, climb_error{};
   double stamp_error = 0.0;
   double velocity_age = 0.0;

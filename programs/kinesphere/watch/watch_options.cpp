@@ -15,7 +15,7 @@ namespace {
 
 constexpr double no_promise = std::numeric_limits<double>::infinity();
 
-std::string spread_text(const Spread& spread) {
+std::string spread_text(const ErrorBound& spread) {
   if (!std::isfinite(spread.total())) return "any";
   return spread.horizontal() == spread.vertical()
              ? fmt::format("{:.4g}", spread.horizontal())
@@ -26,7 +26,7 @@ std::string spread_text(const Spread& spread) {
 void set_errors(const std::string& given, Measure measure, std::string_view option, FallbackError& flat,
                 FallbackError& upright) {
   if (given.empty()) return;
-  const Spread spread = parse_spread(given, measure, option);
+  const ErrorBound spread = parse_spread(given, measure, option);
   const bool has_upright = given.find(':') != std::string::npos;
   flat = {spread.horizontal(), fmt::format("{:.4g} ({})", spread.horizontal(), option)};
   if (has_upright)
@@ -53,7 +53,7 @@ WatchSettings::Origin parse_origin(const std::string& text) {
 }
 
 /// "2/4" and "1-8/16"; all of them where nothing is given.
-PairShare parse_share(const std::string& text) {
+Shard parse_share(const std::string& text) {
   if (text.empty()) return {};
   const auto wrong = [&text] {
     return ProgramError(fmt::format(
@@ -92,8 +92,8 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
   settings.dimensions = options.dimensions;
   if (!settings.dimensions && defaults.geographic) settings.dimensions = defaults.dimensions;
   const auto promised = [&](const std::string& given, Measure measure, std::string_view option,
-                            const std::optional<Spread>& otherwise) {
-    return given.empty() ? otherwise.value_or(Spread(no_promise)) : parse_spread(given, measure, option);
+                            const std::optional<ErrorBound>& otherwise) {
+    return given.empty() ? otherwise.value_or(ErrorBound(no_promise)) : parse_spread(given, measure, option);
   };
   settings.acceleration =
       promised(options.acceleration, Measure::acceleration, "--acceleration", defaults.acceleration);

@@ -40,9 +40,9 @@ std::vector<WatchCount> counts_of(const Watcher& watcher) {
       {"verdicts", "", "changes of what is certain", events(MonitorEventKind::verdict)},
       {"contradictions", "", "contradictions", events(MonitorEventKind::contradiction)},
       {"resolved", "", "contradictions resolved", events(MonitorEventKind::resolved)},
-      {"silent", "", "tracks fell silent", events(MonitorEventKind::silent)},
-      {"heard", "", "were heard again", events(MonitorEventKind::heard)},
-      {"left", "", "left", events(MonitorEventKind::left)},
+      {"silent", "", "tracks fell silent", events(MonitorEventKind::stale)},
+      {"heard", "", "were heard again", events(MonitorEventKind::resumed)},
+      {"left", "", "left", events(MonitorEventKind::dropped)},
       {"dropped", "", "of them dropped: more pairs were open than --most-pairs", counts.dropped},
   };
 }
@@ -103,8 +103,9 @@ void add_tracks(std::string& text, const Watcher& watcher) {
   const char* separator = "\n";
   for (const TrackId id : context.monitor.tracks()) {
     const TrackView view = context.monitor.track(id).value();
-    text += fmt::format(R"({}{{"id": {}, "stamp": {}, "silent": {}, "places": [)", separator,
-                        json_text(context.names.text(id)), json_time(context.times, view.stamp), view.silent);
+    text +=
+        fmt::format(R"({}{{"id": {}, "stamp": {}, "silent": {}, "places": [)", separator,
+                    json_text(context.names.text(id)), json_time(context.times, view.timestamp), view.stale);
     const char* between = "";
     for (const TrackView::Place& place : view.places) {
       text += between + place_fields(watcher, place);
@@ -133,7 +134,7 @@ void add_pairs(std::string& text, const Watcher& watcher) {
 void add_needs(std::string& text, const Watcher& watcher) {
   const AlertContext context = watcher.context();
   const char* separator = "\n";
-  for (const ReportNeed& need : context.monitor.needed(context.monitor.time() + context.settings.window)) {
+  for (const ReportRequest& need : context.monitor.needed(context.monitor.time() + context.settings.window)) {
     text += fmt::format(R"({}{{"track": {}, "by": {}, "other": {}}})", separator,
                         json_text(context.names.text(need.track)), json_time(context.times, need.by),
                         json_text(context.names.text(need.other)));
@@ -220,7 +221,7 @@ std::string watch_metrics(const Watcher& watcher) {
         static_cast<double>(count.count));
   std::size_t silent = 0, undecided = 0, within = 0;
   if (const auto& monitor = watcher.monitor()) {
-    for (const TrackId id : monitor->tracks()) silent += monitor->track(id).value().silent ? 1 : 0;
+    for (const TrackId id : monitor->tracks()) silent += monitor->track(id).value().stale ? 1 : 0;
     for (const OpenPair& pair : monitor->open_pairs())
       ++(pair.verdict == Verdict::within ? within : undecided);
   }

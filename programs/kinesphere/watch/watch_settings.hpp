@@ -18,11 +18,11 @@ struct FallbackError {
 
 struct WatchSettings {
   std::vector<NamedSeparation> separations;
-  PairShare share{};              ///< others watch the other pairs
+  Shard share{};                  ///< others watch the other pairs
   std::optional<int> dimensions;  ///< empty: three if the first report has a height
   // Promises. Infinite: none.
-  Spread acceleration = std::numeric_limits<double>::infinity();
-  Spread largest_speed = std::numeric_limits<double>::infinity();
+  ErrorBound acceleration = std::numeric_limits<double>::infinity();
+  ErrorBound largest_speed = std::numeric_limits<double>::infinity();
   std::string promise;  ///< both, as alerts tell them
   FallbackError position_error, height_error, velocity_error, climb_error;
   double stamp_error = 0.0;

@@ -18,8 +18,8 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_held = 65536;
 
 /// Horizontal and upright; where nobody said anything about the latter, in all directions.
-Spread spread_of(double flat, const std::optional<double>& upright) {
-  return upright ? Spread::cylinder(flat, *upright) : Spread(flat);
+ErrorBound spread_of(double flat, const std::optional<double>& upright) {
+  return upright ? ErrorBound::cylinder(flat, *upright) : ErrorBound(flat);
 }
 
 }  // namespace
@@ -222,7 +222,7 @@ void Watcher::tell(const MonitorEvent& event) {
   // Who watches other shares tells of this track.
   const bool is_told = settings_.share.contains(event.first);
   if (is_told) count_and_tell(event);
-  if (event.kind != MonitorEventKind::left) return;
+  if (event.kind != MonitorEventKind::dropped) return;
   names_.remove(event.first);
   dropped_.erase(event.first);
 }
@@ -278,9 +278,9 @@ void Watcher::begin_monitor(const SourceReport& report) {
   MonitorDefinition definition{.dimensions = dimensions_,
                                .start_time = times_.seconds(clock_.now()),
                                .window = settings_.window,
-                               .silence_after = settings_.silence,
-                               .forget_after = settings_.forget,
-                               .share = settings_.share};
+                               .stale_after = settings_.silence,
+                               .drop_after = settings_.forget,
+                               .shard = settings_.share};
   double least = unbounded;
   SeparationRule rule;
   if (is_geographic_) {
@@ -358,7 +358,7 @@ double Watcher::velocity_age_of(const SourceReport& report) const {
 }
 
 std::optional<TrackReport> Watcher::on_map(const SourceReport& report, NamedTrack& track) {
-  TrackReport result{.stamp = times_.seconds(report.stamp)};
+  TrackReport result{.timestamp = times_.seconds(report.stamp)};
   double added_velocity_error = 0.0;
   if (is_geographic_) {
     // Where the velocity was measured the track was a little before or after, and it is drawn where the track
@@ -395,11 +395,12 @@ void Watcher::add_errors(const SourceReport& report, double added_velocity_error
   auto flat = said(report.position_error, settings_.position_error, track.position_by);
   if (!flat) flat = needed_bound(settings_.position_error, "--position-error");
   const auto upright = said(report.height_error, settings_.height_error, track.height_by);
-  result.position_error = frame_ ? Spread::cylinder(frame_->position_error(*flat), upright.value_or(*flat))
-                                 : spread_of(*flat, upright);
-  result.stamp_error = report.stamp_error.value_or(settings_.stamp_error);
+  result.position_error = frame_
+                              ? ErrorBound::cylinder(frame_->position_error(*flat), upright.value_or(*flat))
+                              : spread_of(*flat, upright);
+  result.timestamp_error = report.stamp_error.value_or(settings_.stamp_error);
   if (!report.velocity) {
-    result.velocity_error = Spread(unbounded);
+    result.velocity_error = ErrorBound(unbounded);
     return;
   }
   auto turning = said(report.velocity_error, settings_.velocity_error, track.velocity_by);
@@ -410,7 +411,7 @@ void Watcher::add_errors(const SourceReport& report, double added_velocity_error
     track.climb_by = "largest speed";
   }
   if (!std::isfinite(*turning)) {
-    result.velocity_error = Spread(unbounded);
+    result.velocity_error = ErrorBound(unbounded);
     return;
   }
   // It was measured a little before or after the position.
@@ -420,8 +421,8 @@ void Watcher::add_errors(const SourceReport& report, double added_velocity_error
     climbing = climbing.value_or(*turning) + age * settings_.acceleration.vertical();
   }
   if (frame_)
-    result.velocity_error = Spread::cylinder(frame_->velocity_error(*turning) + added_velocity_error,
-                                             climbing.value_or(*turning));
+    result.velocity_error = ErrorBound::cylinder(frame_->velocity_error(*turning) + added_velocity_error,
+                                                 climbing.value_or(*turning));
   else
     result.velocity_error = spread_of(*turning, climbing);
 }

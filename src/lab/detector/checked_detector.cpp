@@ -52,7 +52,7 @@ class CheckedDetector final : public Detector {
     return detector_->advance(until);
   }
 
-  Result<void> run(double until, Motion& motion, const Respond& respond, const Sink& sink,
+  Result<void> run(double until, Motion& motion, const ResponseFn& respond, const EventFn& sink,
                    Workers& workers) override {
     return detector_->run(until, motion, respond, sink, workers);
   }

@@ -14,7 +14,7 @@ Error cannot(std::string_view call, std::string_view be_what, std::string_view n
 
 }  // namespace
 
-Result<void> Detector::run(double, Motion&, const Respond&, const Sink&, Workers&) {
+Result<void> Detector::run(double, Motion&, const ResponseFn&, const EventFn&, Workers&) {
   return cannot("run", "go on by itself", name());
 }
 Result<void> Detector::start_recording() { return cannot("start_recording", "be recorded", name()); }

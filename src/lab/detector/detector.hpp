@@ -38,7 +38,7 @@ class Detector {
   /// Goes on to `until` by itself, as World::run does: `respond` and `sink` are called as there, with events
   /// as advance() returns them. `motion`, which moves the bodies, is told of new velocities too. Errors:
   /// unsupported, those of World::run, and what the motion throws.
-  virtual Result<void> run(double until, Motion& motion, const Respond& respond, const Sink& sink,
+  virtual Result<void> run(double until, Motion& motion, const ResponseFn& respond, const EventFn& sink,
                            Workers& workers);
   virtual double time() const = 0;
   virtual DetectorCounters counters() const = 0;

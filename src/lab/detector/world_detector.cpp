@@ -10,7 +10,7 @@ namespace kinesphere {
 namespace {
 
 /// Moves bodies of a world by their numbers in a motion.
-class NumberedMover final : public Mover {
+class NumberedMover final : public MotionSource {
  public:
   /// `numbers` by the index of an id.
   NumberedMover(Motion& motion, const std::vector<std::uint32_t>& numbers)
@@ -19,9 +19,9 @@ class NumberedMover final : public Mover {
   void states(std::span<const BodyId> ids, double time, std::span<State> states) override {
     for (std::size_t k = 0; k < ids.size(); ++k) states[k] = motion_.state(numbers_[ids[k].index], time);
   }
-  Departure departure(BodyId body) const override { return motion_.departure(numbers_[body.index]); }
-  void depart(BodyId body, const Departure& departure) override {
-    motion_.depart(numbers_[body.index], departure).value();
+  MotionOrigin origin(BodyId body) const override { return motion_.origin(numbers_[body.index]); }
+  void set_origin(BodyId body, const MotionOrigin& origin) override {
+    motion_.set_origin(numbers_[body.index], origin).value();
   }
 
  private:
@@ -67,21 +67,21 @@ class WorldDetector final : public Detector {
     return event;
   }
 
-  Result<void> run(double until, Motion& motion, const Respond& respond, const Sink& sink,
+  Result<void> run(double until, Motion& motion, const ResponseFn& respond, const EventFn& sink,
                    Workers& workers) override {
-    NumberedMover mover(motion, numbers_);
+    NumberedMover source(motion, numbers_);
     const auto told = [this](const Event& event) {
       return numbered(event, [this](BodyId id) { return number_of(id); });
     };
     const auto answer = [&](const Event& event) {
       const Event as_told = told(event);
-      Answer answered = respond(as_told);
+      Response answered = respond(as_told);
       if (as_told.first.index != number_of(event.first))
         std::swap(answered.first_velocity, answered.second_velocity);
       return answered;
     };
     auto gone = world_.run(
-        until, mover, answer, [&](const Event& event) { sink(told(event)); }, &workers);
+        until, source, answer, [&](const Event& event) { sink(told(event)); }, &workers);
     if (gone) departed_.clear();
     return gone;
   }

@@ -128,7 +128,7 @@ class alignas(64) BoxBlock {
   }
 
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [lower, upper, bodies] = self;
     archive(lower, upper, bodies);
   }

@@ -24,7 +24,7 @@ struct FloatBox {
   float extent() const { return std::max({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]}); }
 
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [low, high] = self;
     archive(low, high);
   }

@@ -171,21 +171,21 @@ void HashGrid::Level::erase(const FloatBox& box, std::uint32_t body) {
 
 /// Drops the empty cells and makes room for twice as many as remain.
 void HashGrid::Level::rehash() {
-  std::vector<Slot> kept;
+  std::vector<Slot> checkpoint;
   for (const Slot& slot : slots_) {
     if (slot.is_free()) continue;
     if (links_[slot.first_block].size > 0) {
-      kept.push_back(slot);
+      checkpoint.push_back(slot);
     } else {
       free_blocks_.push_back(slot.first_block);
     }
   }
-  cells_ = kept.size();
+  cells_ = checkpoint.size();
   empty_cells_ = 0;
   std::size_t capacity = 64;
   while (capacity < 4 * (cells_ + 1)) capacity *= 2;
   slots_.assign(capacity, {});
-  for (const Slot& slot : kept) slots_[slot_of(slot.index)] = slot;
+  for (const Slot& slot : checkpoint) slots_[slot_of(slot.index)] = slot;
 }
 
 namespace {
@@ -322,7 +322,7 @@ bool HashGrid::Level::stands_in(const CellIndex& index, const BoxBlock& block, s
 }
 
 /// Each block is free, or stands in the chain of one cell.
-bool HashGrid::Level::chains_are_sound() const {
+bool HashGrid::Level::chains_are_valid() const {
   if (links_.size() != blocks_.size()) return false;
   std::vector<bool> met(blocks_.size(), false);
   const auto meet = [&](std::uint32_t block) {
@@ -343,9 +343,9 @@ bool HashGrid::Level::chains_are_sound() const {
 }
 
 /// The table finds each cell, and the counts are right.
-bool HashGrid::Level::is_sound() const {
+bool HashGrid::Level::is_valid() const {
   if (!std::has_single_bit(slots_.size()) || slots_.size() < 64 || 2 * cells_ > slots_.size()) return false;
-  if (!chains_are_sound()) return false;
+  if (!chains_are_valid()) return false;
   for (const std::int64_t steps : reach_)
     if (steps < 0 || steps > 2 * steps_per_cell) return false;
   std::size_t bodies = 0;
@@ -364,7 +364,7 @@ bool HashGrid::Level::is_sound() const {
   return bodies == bodies_;
 }
 
-bool HashGrid::places_are_sound() const {
+bool HashGrid::places_are_valid() const {
   std::size_t found = 0;
   std::int64_t sizes = 0;
   for (const Place& place : places_) {
@@ -379,16 +379,16 @@ bool HashGrid::places_are_sound() const {
   return found == size_ && sizes == size_sum_;
 }
 
-bool HashGrid::is_sound() const {
+bool HashGrid::is_valid() const {
   // Twice what the exponents of floats can come to, so that nothing overflows below.
   constexpr int exponent_limit = 300;
   if (std::abs(finest_exponent_) > exponent_limit || levels_.size() > exponent_limit) return false;
-  if (!places_are_sound()) return false;
+  if (!places_are_valid()) return false;
   std::vector<bool> found(places_.size(), false);
   std::size_t standing = 0;
   for (std::size_t number = 0; number < levels_.size(); ++number) {
     const Level& level = levels_[number];
-    if (level.edge() != edge_of(number) || !level.is_sound()) return false;
+    if (level.edge() != edge_of(number) || !level.is_valid()) return false;
     bool sound = true;
     level.for_each_entry([&](const CellIndex& index, const BoxBlock& block, std::size_t place) {
       const std::uint32_t body = block.body(place);

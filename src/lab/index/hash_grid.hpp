@@ -63,12 +63,12 @@ class HashGrid {
   /// Everything as it is, for a search visits bodies in the order in which cells and entries stand, and when
   /// cells are dropped depends on how many are empty and on the size of the table.
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [levels, places, size, finest_exponent, size_sum, changes] = self;
     archive(levels, places, size, finest_exponent, size_sum, changes);
   }
   /// For one that was read: true when it could have come about by registrations. Cost: all cells.
-  bool is_sound() const;
+  bool is_valid() const;
 
  private:
   static constexpr int cell_bits = 12;
@@ -80,7 +80,7 @@ class HashGrid {
   struct CellIndex {
     std::int32_t x, y, z;
     template <class Self, class Archive>
-    static void transfer(Self& self, Archive& archive) {
+    static void serialize(Self& self, Archive& archive) {
       auto& [i, j, k] = self;
       archive(i, j, k);
     }
@@ -115,7 +115,7 @@ class HashGrid {
     std::uint32_t next = none;  ///< the block behind it
     std::uint32_t size = 0;     ///< how many places are in use
     template <class Self, class Archive>
-    static void transfer(Self& self, Archive& archive) {
+    static void serialize(Self& self, Archive& archive) {
       auto& [following, used] = self;
       archive(following, used);
     }
@@ -126,7 +126,7 @@ class HashGrid {
     std::uint32_t first_block = none;  ///< of the cell; none: the slot is free
     bool is_free() const { return first_block == none; }
     template <class Self, class Archive>
-    static void transfer(Self& self, Archive& archive) {
+    static void serialize(Self& self, Archive& archive) {
       auto& [at, number] = self;
       archive(at, number);
     }
@@ -157,9 +157,9 @@ class HashGrid {
     bool stands_in(const CellIndex& index, const BoxBlock& block, std::size_t place,
                    const FloatBox& box) const;
 
-    bool is_sound() const;
+    bool is_valid() const;
     template <class Self, class Archive>
-    static void transfer(Self& self, Archive& archive) {
+    static void serialize(Self& self, Archive& archive) {
       auto& [scale, largest, body_count, cell_count, empty_count, held, chained, unused, table] = self;
       archive(scale, largest, body_count, cell_count, empty_count, held, chained, unused, table);
     }
@@ -206,7 +206,7 @@ class HashGrid {
     void widen_reach(const Steps& steps);
     std::uint32_t take_block();
     void rehash();
-    bool chains_are_sound() const;
+    bool chains_are_valid() const;
 
     double steps_per_length_;
     std::array<std::int64_t, 3> reach_{};  ///< no box has been wider since the level was made (steps)
@@ -224,7 +224,7 @@ class HashGrid {
     std::int16_t size = 0;  ///< as size_of()
     FloatBox box{};
     template <class Self, class Archive>
-    static void transfer(Self& self, Archive& archive) {
+    static void serialize(Self& self, Archive& archive) {
       auto& [number, bulk, registered] = self;
       archive(number, bulk, registered);
     }
@@ -234,7 +234,7 @@ class HashGrid {
   static float width_of(const FloatBox& box);
   Place place_for(const FloatBox& box) const;
   double edge_of(std::size_t level) const;
-  bool places_are_sound() const;
+  bool places_are_valid() const;
   void insert(std::uint32_t body, const Place& place);
   void retune_if_worthwhile();
 

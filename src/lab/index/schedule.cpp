@@ -106,7 +106,7 @@ void TreeSchedule::complete() {
   }
 }
 
-bool TreeSchedule::is_sound(std::size_t bodies) const {
+bool TreeSchedule::is_valid(std::size_t bodies) const {
   if (levels_[0].size() > groups_for(bodies)) return false;
   for (std::size_t body = 0; body < room(); ++body) {
     const double time = levels_[0][body / width][body % width];

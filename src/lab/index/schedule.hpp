@@ -61,7 +61,7 @@ class TreeSchedule {
 
   /// Bytes hold the bodies' times alone.
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [levels, height, next_time] = self;
     if constexpr (std::same_as<Archive, HeapCounter>) {
       archive(levels);
@@ -71,7 +71,7 @@ class TreeSchedule {
     if constexpr (!std::is_const_v<Self>) self.build();
   }
   /// For one that was read in a world of this many bodies: true when its times can have been set for them.
-  bool is_sound(std::size_t bodies) const;
+  bool is_valid(std::size_t bodies) const;
 
  private:
   static constexpr std::size_t width = TimeGroup::width;

@@ -53,7 +53,7 @@ class alignas(64) TimeGroup {
   }
 
   template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
+  static void serialize(Self& self, Archive& archive) {
     auto& [times] = self;
     archive(times);
   }

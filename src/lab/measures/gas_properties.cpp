@@ -115,8 +115,9 @@ Result<void> check(const Scene& scene, const GasBlocks& blocks) {
                static_cast<double>(blocks.measured))
       .require(scene.world.periodic == all && scene.world.dimensions == 3, ErrorCode::unsupported,
                {"periodic"}, "must be true on all of three axes", is(false))
-      .require(scene.response == Response::bounce && scene.restitution == 1.0 && scene.resting_speed == 0.0,
-               ErrorCode::unsupported, {"response"}, "must be to bounce without loss", is(false))
+      .require(
+          scene.response == SceneResponse::bounce && scene.restitution == 1.0 && scene.resting_speed == 0.0,
+          ErrorCode::unsupported, {"response"}, "must be to bounce without loss", is(false))
       .require(scene.end_time > scene.world.start_time, ErrorCode::unsupported, {"end_time"},
                "must lie after the start", scene.end_time)
       .require(scene.bodies.size() >= 2 && scene.bodies.size() == scene.motion->size(),

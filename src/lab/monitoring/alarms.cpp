@@ -116,7 +116,7 @@ Alarms straight_on_alarms(const RecordedSky& sky, const std::vector<Delivery>& d
   std::set<TrackPair> warned;
   const auto warns = [&](const TrackReport& a, const TrackReport& b, double now) {
     const auto ahead = [now](const TrackReport& report) {
-      return report.state.position + report.state.velocity * (now - report.stamp);
+      return report.state.position + report.state.velocity * (now - report.timestamp);
     };
     const Vec3 offset = ahead(a) - ahead(b);
     const Vec3 velocity = a.state.velocity - b.state.velocity;
@@ -142,7 +142,7 @@ Alarms straight_on_alarms(const RecordedSky& sky, const std::vector<Delivery>& d
   for (const Delivery& delivery : deliveries) {
     for (; next <= delivery.time; next += step) look(next);
     TrackReport& known = latest.try_emplace(delivery.track, delivery.report).first->second;
-    if (known.stamp < delivery.report.stamp) known = delivery.report;
+    if (known.timestamp < delivery.report.timestamp) known = delivery.report;
   }
   return alarms;
 }

@@ -52,10 +52,10 @@ Delivery FaultyReports::next() {
 }
 
 void FaultyReports::make_report(double time, std::uint32_t track) {
-  TrackReport report{.stamp = time + clocks_[track], .state = motion_.state(track, time)};
+  TrackReport report{.timestamp = time + clocks_[track], .state = motion_.state(track, time)};
   report.position_error = settings_.position_error;
   report.velocity_error = settings_.velocity_error;
-  report.stamp_error = settings_.clock_error;
+  report.timestamp_error = settings_.clock_error;
   report.state.position += settings_.position_error * random_.point_in_ball();
   report.state.velocity += settings_.velocity_error * random_.point_in_ball();
   const auto may_be_wrong = [this](std::uint32_t id) { return good_[id] >= good_between; };

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lab/monitoring/alarms.hpp"
-#include "monitor/course.hpp"
+#include "monitor/separation_forecast.hpp"
 
 namespace kinesphere {
 namespace {
@@ -89,13 +89,13 @@ std::uint64_t polling_floor(const RecordedSky& sky, const PollingSettings& setti
   const TrackClass promise = sky.promise();
   const Component distance{.limit = settings.distance};
   std::uint64_t asked = 0;
-  std::map<TrackId, Knowledge> there;
+  std::map<TrackId, TrackEstimate> there;
   const std::vector<Change> changes = changes_of(sky);
   auto change = changes.begin();
   const auto ask = [&](TrackId track, double time) {
     ++asked;
-    Knowledge& knowledge = there[track] = {};
-    knowledge.learn(sky.report(track, time), promise, time, settings.window);
+    TrackEstimate& estimate = there[track] = {};
+    estimate.update(sky.report(track, time), promise, time, settings.window);
   };
   for (double time = changes.front().time; change != changes.end(); time += step) {
     for (; change != changes.end() && change->time <= time; ++change) {
@@ -104,17 +104,17 @@ std::uint64_t polling_floor(const RecordedSky& sky, const PollingSettings& setti
       else
         there.erase(change->track);
     }
-    std::vector<std::pair<TrackId, Knowledge>> truth;
+    std::vector<std::pair<TrackId, TrackEstimate>> truth;
     for (const auto& [track, knowledge] : there) {
-      truth.emplace_back(track, Knowledge{});
-      truth.back().second.learn(sky.report(track, time), promise, time, settings.window);
+      truth.emplace_back(track, TrackEstimate{});
+      truth.back().second.update(sky.report(track, time), promise, time, settings.window);
     }
     for (const auto& one : there) {
       const TrackId track = one.first;
-      const Knowledge& knowledge = one.second;
-      const Claim& claim = Knowledge::tightest(knowledge.hypotheses().front(), time);
-      const Vec3 centre = claim.centre_at(time);
-      const double radius = claim.radius_at(time).total();
+      const TrackEstimate& estimate = one.second;
+      const ReachableSet& set = TrackEstimate::tightest(estimate.hypotheses().front(), time);
+      const Vec3 centre = set.centre_at(time);
+      const double radius = set.radius_at(time).total();
       const bool open = std::any_of(truth.begin(), truth.end(), [&](const auto& other) {
         if (other.first == track) return false;
         const Vec3& place = other.second.hypotheses().front().state.position;
@@ -122,7 +122,7 @@ std::uint64_t polling_floor(const RecordedSky& sky, const PollingSettings& setti
         if (between - radius > settings.distance ||
             between + radius <= settings.distance + settings.tolerance)
           return false;
-        const DistanceBetween limits = distance_between(knowledge, other.second, distance, time);
+        const DistanceBetween limits = distance_between(estimate, other.second, distance, time);
         return !(limits.lower > settings.distance || limits.upper <= settings.distance + settings.tolerance);
       });
       if (open) ask(track, time);

@@ -54,7 +54,7 @@ double RecordedSky::track_time() const {
 }
 
 TrackReport RecordedSky::report(TrackId track, double time) const {
-  return {.stamp = time,
+  return {.timestamp = time,
           .state = motion_.state(static_cast<std::uint32_t>(track), time),
           .plan = TrackReport::Plan{.acceleration_limit = limits_[track]}};
 }

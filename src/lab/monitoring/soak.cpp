@@ -26,8 +26,8 @@ Soak soak(const SoakSettings& settings, const std::function<void(std::uint64_t)>
                                      .separations = {{0, 0, {Separation::sphere(settings.distance)}}},
                                      .tolerance = settings.tolerance,
                                      .window = settings.faults.interval,
-                                     .silence_after = 10.0 * settings.faults.interval,
-                                     .forget_after = 1000.0 * settings.faults.interval})
+                                     .stale_after = 10.0 * settings.faults.interval,
+                                     .drop_after = 1000.0 * settings.faults.interval})
                         .value();
   Soak result;
   std::vector<MonitorEvent> told;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "bound/broken_promise.hpp"
+#include "bound/bound_violation.hpp"
 #include "engine/validation.hpp"
 
 namespace kinesphere {
@@ -21,7 +21,7 @@ Result<void> BoundDetector::add(std::uint32_t number, const BodyDefinition& defi
 }
 
 Result<void> BoundDetector::remove(std::uint32_t number) {
-  instant_.depart(
+  instant_.remove_body(
       book_, number, time_, [this](std::uint32_t body) { return sphere(body); }, definition_.box);
   std::erase(new_courses_, number);
   bodies_[number] = Body{};
@@ -71,7 +71,7 @@ void BoundDetector::move_on_to(double time) {
 }
 
 std::optional<Event> BoundDetector::deliver() {
-  std::optional<Event> event = instant_.deliver(
+  std::optional<Event> event = instant_.pop(
       book_, [this](BodyId id) { return bodies_[id.index].present; },
       [this](std::uint32_t number) { return sphere(number); }, definition_.box);
   if (!event) return event;
@@ -117,10 +117,10 @@ void BoundDetector::probe(std::uint32_t number) {
     state = {body.bound.centre_at(time_), body.bound.velocity_at(time_)};
   }
   const Bound before = std::exchange(body.bound, bound_of(body.definition, state, time_));
-  const auto broken = broken_promise(before, body.bound, body.definition.radius, body.kicked_to,
-                                     definition_.contact_tolerance);
+  const auto broken = bound_violation(before, body.bound, body.definition.radius, body.kicked_to,
+                                      definition_.contact_tolerance);
   if (!broken) return;
-  instant_.announce(violation_event(time_, {.id = {number, 0}, .state = state}, *broken));
+  instant_.queue(violation_event(time_, {.id = {number, 0}, .state = state}, *broken));
   begin_new_course(number);
 }
 
@@ -128,12 +128,12 @@ double BoundDetector::pair_outlook(std::uint32_t a, std::uint32_t b, double hori
   ++counters_.certificates;
   const Body& first = bodies_[a];
   const Body& second = bodies_[b];
-  const Outlook<Bound> outlook(rule(), {.within = book_.touch(a, b)}, first.bound, second.bound, time_,
-                               {horizon, horizon});
-  if (!fresh(a) || !fresh(b)) return outlook.until_reports();
-  const Promise sum{first.definition.velocity_error + second.definition.velocity_error,
-                    first.largest_acceleration() + second.largest_acceleration()};
-  return judge(outlook, contact_event(EventKind::zeno_guard, time_, sphere(a), sphere(b)), sum);
+  const ContactPredictor<Bound> predictor(rule(), {.within = book_.touch(a, b)}, first.bound, second.bound,
+                                          time_, {horizon, horizon});
+  if (!fresh(a) || !fresh(b)) return predictor.until_reports();
+  const RelativeLimits sum{first.definition.velocity_error + second.definition.velocity_error,
+                           first.largest_acceleration() + second.largest_acceleration()};
+  return judge(predictor, contact_event(EventKind::zeno_guard, time_, sphere(a), sphere(b)), sum);
 }
 
 double BoundDetector::wall_outlook(std::uint32_t number, double horizon) {
@@ -146,30 +146,31 @@ double BoundDetector::wall_outlook(std::uint32_t number, double horizon) {
   double first = infinity;
   for (const Wall wall : walls) {
     const HalfSpace inside = half_space(*definition_.box, wall);
-    const Outlook<HalfSpace> outlook(rule(), {.within = book_.touches_wall(number, wall)}, body.bound, inside,
-                                     time_, {horizon, horizon});
+    const ContactPredictor<HalfSpace> predictor(rule(), {.within = book_.touches_wall(number, wall)},
+                                                body.bound, inside, time_, {horizon, horizon});
     const Event current = wall_event(EventKind::zeno_guard, time_, sphere(number), *definition_.box, wall);
-    first = std::min(first,
-                     judge(outlook, current, {body.definition.velocity_error, body.largest_acceleration()}));
+    first = std::min(
+        first, judge(predictor, current, {body.definition.velocity_error, body.largest_acceleration()}));
   }
   return first;
 }
 
 /// Holds fresh reports against the contact rule.
 template <class Partner>
-double BoundDetector::judge(const Outlook<Partner>& outlook, Event current, const Promise& promise) {
-  Judgement verdict = outlook.judge(current, promise);
+double BoundDetector::judge(const ContactPredictor<Partner>& predictor, Event current,
+                            const RelativeLimits& promise) {
+  ContactDecision verdict = predictor.decide(current, promise);
   if (verdict.change == ContactRule::Change::begin && book_.is_jammed(current))
-    verdict = outlook.put_off(current, promise);
-  if (verdict.is_news()) {
+    verdict = predictor.defer(current, promise);
+  if (verdict.is_event()) {
     current.kind = kind_of(verdict.change, false, current.wall);
-    instant_.announce(current);
+    instant_.queue(current);
     return infinity;
   }
   if (verdict.change == ContactRule::Change::release) book_.set_touching(current, false);
   if (verdict.zeno_step) ++counters_.zeno_steps;
-  if (verdict.breaks_tolerance) instant_.announce(current);
-  return verdict.next_look;
+  if (verdict.breaks_tolerance) instant_.queue(current);
+  return verdict.next_check;
 }
 
 }  // namespace kinesphere

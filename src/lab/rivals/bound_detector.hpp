@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "contact/instant.hpp"
-#include "contact/outlook.hpp"
+#include "contact/contact_predictor.hpp"
+#include "contact/pending_events.hpp"
 #include "kinesphere/bound.hpp"
 #include "lab/detector/detector.hpp"
 #include "number/infinity.hpp"
@@ -98,12 +98,12 @@ class BoundDetector : public Detector {
   void handle_all_due();
   void begin_new_course(std::uint32_t number);
   template <class Partner>
-  double judge(const Outlook<Partner>& outlook, Event current, const Promise& promise);
+  double judge(const ContactPredictor<Partner>& predictor, Event current, const RelativeLimits& promise);
 
   WorldDefinition definition_;
   const Motion& motion_;
-  ContactBook book_;
-  Instant instant_;
+  ContactGraph book_;
+  PendingEvents instant_;
   double time_;
   std::vector<Body> bodies_;
   std::vector<std::uint32_t> new_courses_;

@@ -2,8 +2,8 @@
 // contacts.
 #include <vector>
 
-#include "contact/instant.hpp"
-#include "contact/outlook.hpp"
+#include "contact/contact_predictor.hpp"
+#include "contact/pending_events.hpp"
 #include "engine/validation.hpp"
 #include "input/input_check.hpp"
 #include "lab/detector/checked_detector.hpp"
@@ -41,7 +41,7 @@ class FixedStep final : public Detector {
   }
 
   Result<void> remove(std::uint32_t number) override {
-    instant_.depart(
+    instant_.remove_body(
         book_, number, time_, [this](std::uint32_t body) { return sphere(body); }, definition_.box);
     bodies_[number].present = false;
     if (search_ == FixedStepSearch::grid) grid_.remove(number);
@@ -97,7 +97,7 @@ class FixedStep final : public Detector {
   }
 
   std::optional<Event> deliver() {
-    std::optional<Event> event = instant_.deliver(
+    std::optional<Event> event = instant_.pop(
         book_, [this](BodyId id) { return bodies_[id.index].present; },
         [this](std::uint32_t number) { return sphere(number); }, definition_.box);
     instant_.changed().clear();
@@ -172,12 +172,12 @@ class FixedStep final : public Detector {
     if (change == ContactRule::Change::none) return;
     if (change == ContactRule::Change::release) return book_.set_touching(event, false);
     event.kind = kind_of(change, false, event.wall);
-    instant_.announce(event);
+    instant_.queue(event);
   }
 
   WorldDefinition definition_;
-  ContactBook book_;
-  Instant instant_;
+  ContactGraph book_;
+  PendingEvents instant_;
   const Motion& motion_;
   double step_;
   FixedStepSearch search_;

@@ -49,7 +49,7 @@ class ApproachLog {
 TrackReport report_of(const Arc& arc, double time, double end) {
   const double ahead = end - time;
   // The acceleration half-way: nowhere until the end is farther in time than half of what is ahead.
-  return {.stamp = time,
+  return {.timestamp = time,
           .state = arc.state_at(time),
           .position_error = SatelliteMotion::position_error,
           .velocity_error = SatelliteMotion::velocity_error,

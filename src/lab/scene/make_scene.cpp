@@ -132,7 +132,8 @@ Result<Scene> make_scene(const SceneParameters& parameters) {
   if (p.periodic) scene.world.periodic = {true, true, true};
   scene.world.contact_tolerance = p.contact_tolerance;
   scene.world.zeno_interval = p.zeno_interval;
-  scene.world.contacts = p.response == Response::bounce ? ContactMode::impacts : ContactMode::begin_and_end;
+  scene.world.contacts =
+      p.response == SceneResponse::bounce ? ContactMode::impacts : ContactMode::begin_and_end;
 
   const auto centres =
       place_spheres(radii, p.box, 4.0 * p.contact_tolerance, Random::at(p.seed, placement_stream, 0).bits());

@@ -29,7 +29,7 @@ struct SceneParameters {
   /// are changed by as much as makes the total momentum zero.
   bool periodic = false;
   double redraw_interval = 0.2;  ///< how long a random force lasts
-  Response response = Response::bounce;
+  SceneResponse response = SceneResponse::bounce;
   double restitution = 1.0;
   /// Scene::resting_speed. When positive and too small for the contact tolerance, it is raised to
   /// least_resting_speed().

@@ -28,10 +28,11 @@ class Relaxation {
 
   std::optional<std::vector<Vec3>> run() {
     for (std::uint32_t sphere = 0; sphere < centres_.size(); ++sphere) {
-      const Box room = room_of(sphere);
-      if (!(room.lower.x <= room.upper.x && room.lower.y <= room.upper.y && room.lower.z <= room.upper.z))
+      const Box margin = room_of(sphere);
+      if (!(margin.lower.x <= margin.upper.x && margin.lower.y <= margin.upper.y &&
+            margin.lower.z <= margin.upper.z))
         return std::nullopt;
-      move_to(sphere, random_point(room));
+      move_to(sphere, random_point(margin));
     }
     double to_beat = std::numeric_limits<double>::infinity();
     for (int sweeps = 1;; ++sweeps) {
@@ -51,15 +52,15 @@ class Relaxation {
     return {box_.lower + half, box_.upper - half};
   }
 
-  Vec3 random_point(const Box& room) {
-    return {random_.uniform(room.lower.x, room.upper.x), random_.uniform(room.lower.y, room.upper.y),
-            random_.uniform(room.lower.z, room.upper.z)};
+  Vec3 random_point(const Box& margin) {
+    return {random_.uniform(margin.lower.x, margin.upper.x), random_.uniform(margin.lower.y, margin.upper.y),
+            random_.uniform(margin.lower.z, margin.upper.z)};
   }
 
   void move_to(std::uint32_t sphere, const Vec3& centre) {
-    const Box room = room_of(sphere);
+    const Box margin = room_of(sphere);
     for (int axis = 0; axis < 3; ++axis)
-      centres_[sphere][axis] = std::clamp(centre[axis], room.lower[axis], room.upper[axis]);
+      centres_[sphere][axis] = std::clamp(centre[axis], margin.lower[axis], margin.upper[axis]);
     const double reach = radii_[sphere] + clearance_;
     const Vec3 half{reach, reach, reach};
     grid_.set(sphere, {centres_[sphere] - half, centres_[sphere] + half});

@@ -14,7 +14,7 @@
 
 namespace kinesphere {
 
-enum class Response {
+enum class SceneResponse {
   pass_through,  ///< nobody reacts: the contacts are a fixed truth
   bounce,        ///< bodies bounce off each other and the walls, mass ~ radius^3
 };
@@ -39,7 +39,7 @@ struct Scene {
   std::vector<SceneBody> bodies;  ///< by their number in the motion
   std::unique_ptr<const Motion> motion;
   std::vector<SceneTurn> turns;  ///< in any order; those of bodies that are not there then are passed over
-  Response response = Response::pass_through;
+  SceneResponse response = SceneResponse::pass_through;
   double restitution = 1.0;
   double resting_speed = 0.0;  ///< positive: bodies settle() with it instead of just bounce()
   double end_time = 1.0;

@@ -14,9 +14,9 @@ double mass(const Scene& scene, BodyId body) {
 
 }  // namespace
 
-Answer scene_answer(const Scene& scene, const Event& event) {
+Response scene_answer(const Scene& scene, const Event& event) {
   const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
-  if (scene.response != Response::bounce || !begins || event.approach_speed <= 0.0) return {};
+  if (scene.response != SceneResponse::bounce || !begins || event.approach_speed <= 0.0) return {};
   const bool pair = event.second != no_body;
   const double first_mass = mass(scene, event.first);
   const double second_mass = pair ? mass(scene, event.second) : first_mass;

@@ -92,7 +92,7 @@ class Simulation {
       if (!event) return event.error();
       if (!*event) return {};
       tell(**event);
-      const Answer answered = scene_answer(scene_, **event);
+      const Response answered = scene_answer(scene_, **event);
       const Event& at = **event;
       auto kicked = set_velocity(at.first, at.time, answered.first_velocity);
       if (kicked) kicked = set_velocity(at.second, at.time, answered.second_velocity);

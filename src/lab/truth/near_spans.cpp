@@ -18,10 +18,10 @@ constexpr double rounding = 0x1p-44;
 constexpr double fewest_windows = 64.0;
 constexpr double most_windows = 1 << 20;
 
-void include(Box& box, const Vec3& point, double room) {
+void include(Box& box, const Vec3& point, double margin) {
   for (int axis = 0; axis < 3; ++axis) {
-    box.lower[axis] = std::min(box.lower[axis], point[axis] - room);
-    box.upper[axis] = std::max(box.upper[axis], point[axis] + room);
+    box.lower[axis] = std::min(box.lower[axis], point[axis] - margin);
+    box.upper[axis] = std::max(box.upper[axis], point[axis] + margin);
   }
 }
 
@@ -35,11 +35,11 @@ void include(Box& box, const Segment& segment, double begin, double end) {
   const double since = end - segment.begin;
   const double size = norm_one(segment.position) + norm_one(segment.velocity) * since +
                       (norm_one(segment.acceleration) + norm_one(segment.jerk) * since) * since * since;
-  const double room = rounding * size;
-  include(box, state.position, room);
-  include(box, state.position + slope, room);
-  include(box, state.position + slope * 2.0 + bend, room);
-  include(box, state.position + slope * 3.0 + bend * 3.0 + twist, room);
+  const double margin = rounding * size;
+  include(box, state.position, margin);
+  include(box, state.position + slope, margin);
+  include(box, state.position + slope * 2.0 + bend, margin);
+  include(box, state.position + slope * 3.0 + bend * 3.0 + twist, margin);
 }
 
 bool overlap(const Box& a, const Box& b) {
@@ -116,9 +116,9 @@ class Search {
     for (const std::uint32_t number : present_) {
       const PresentBody& body = bodies_[number];
       Box box = box_of(*body.trajectory, std::max(from, body.begin), std::min(to, body.end));
-      const double room = (body.radius + 0.5 * gap_) * (1.0 + rounding);
-      box.lower -= {room, room, room};
-      box.upper += {room, room, room};
+      const double margin = (body.radius + 0.5 * gap_) * (1.0 + rounding);
+      box.lower -= {margin, margin, margin};
+      box.upper += {margin, margin, margin};
       enclosed_.push_back({box, number});
     }
   }
@@ -180,16 +180,16 @@ class Search {
   }
 
   void merge() {
-    std::size_t kept = 0;
+    std::size_t checkpoint = 0;
     for (const NearSpan& span : spans_) {
-      if (kept > 0 && spans_[kept - 1].first == span.first && spans_[kept - 1].second == span.second &&
-          span.begin <= spans_[kept - 1].end) {
-        spans_[kept - 1].end = std::max(spans_[kept - 1].end, span.end);
+      if (checkpoint > 0 && spans_[checkpoint - 1].first == span.first &&
+          spans_[checkpoint - 1].second == span.second && span.begin <= spans_[checkpoint - 1].end) {
+        spans_[checkpoint - 1].end = std::max(spans_[checkpoint - 1].end, span.end);
       } else {
-        spans_[kept++] = span;
+        spans_[checkpoint++] = span;
       }
     }
-    spans_.resize(kept);
+    spans_.resize(checkpoint);
   }
 
   const std::vector<PresentBody>& bodies_;

@@ -40,7 +40,7 @@ std::vector<Event> events_of(const Scene& scene, const DetectorMaker& make, std:
   return events;
 }
 
-Scene dense_scene(Response response, bool forces, std::uint64_t seed) {
+Scene dense_scene(SceneResponse response, bool forces, std::uint64_t seed) {
   SceneParameters parameters{.bodies = 30,
                              .radius_min = 0.5,
                              .radius_max = 1.5,
@@ -60,7 +60,7 @@ Scene dense_scene(Response response, bool forces, std::uint64_t seed) {
 TEST(Oracle, AgreesWithTheWorldOnBouncesUntilChaosParts) {
   for (const bool forces : {false, true})
     for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
-      const Scene scene = dense_scene(Response::bounce, forces, seed);
+      const Scene scene = dense_scene(SceneResponse::bounce, forces, seed);
       const auto world = events_of(scene, make_world_detector, 400);
       const auto oracle = events_of(scene, make_oracle, 400);
       std::size_t same = 0;
@@ -88,7 +88,7 @@ std::map<Key, std::vector<Event>> by_pair(const std::vector<Event>& events) {
 
 TEST(Oracle, AgreesWithTheWorldOnBodiesThatComeAndGo) {
   for (const bool forces : {false, true}) {
-    Scene scene = dense_scene(Response::pass_through, forces, 9);
+    Scene scene = dense_scene(SceneResponse::pass_through, forces, 9);
     scene.world.box.reset();  // some appear where it would be too late
     Random random(10);
     for (SceneBody& body : scene.bodies) {
@@ -163,7 +163,7 @@ TEST(WorldDetector, NumbersStayTheirsThroughReuseOfIndices) {
 }
 
 TEST(FixedStep, ConvergesToTheOracleInABenignScene) {
-  const Scene scene = dense_scene(Response::pass_through, false, 5);
+  const Scene scene = dense_scene(SceneResponse::pass_through, false, 5);
   const auto truth = by_pair(events_of(scene, make_oracle));
   double last_error = 1e9;
   std::size_t last_missing = 1000000;
@@ -235,7 +235,7 @@ TEST(AllDetectors, HeadOnBounceOnceAndGoOn) {
     Scene scene;
     scene.world.contacts = ContactMode::impacts;
     scene.world.box = Box{{-10, -10, -10}, {10, 10, 10}};
-    scene.response = Response::bounce;
+    scene.response = SceneResponse::bounce;
     scene.motion = std::make_unique<Ballistic>(
         Ballistic::create({.start = {{{-5, 0, 0}, {2, 0, 0}}, {{5, 0, 0}, {-2, 0, 0}}}}).value());
     scene.bodies = {{.radius = 1}, {.radius = 1}};

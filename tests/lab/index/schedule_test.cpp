@@ -311,7 +311,7 @@ TEST(TreeSchedule, comes_back_from_bytes) {
     const std::vector<std::byte> bytes = bytes_of(mirrored.schedule());
     EXPECT_EQ(bytes.size(), 8 + 8 * ((bodies + 7) / 8 * 8));  // the times alone
     TreeSchedule copy = read_back(bytes);
-    ASSERT_TRUE(copy.is_sound(bodies));
+    ASSERT_TRUE(copy.is_valid(bodies));
     EXPECT_EQ(bytes_of(copy), bytes);
     for (std::uint32_t body = 0; body < bodies + 20; ++body)
       ASSERT_EQ(copy.time_of(body), mirrored.schedule().time_of(body));
@@ -329,14 +329,14 @@ TEST(TreeSchedule, that_cannot_have_come_about_is_not_sound) {
   TreeSchedule schedule;
   schedule.set(9, 3.0);
   const std::vector<std::byte> bytes = bytes_of(schedule);
-  EXPECT_TRUE(read_back(bytes).is_sound(10));
-  EXPECT_TRUE(read_back(bytes).is_sound(100));
-  EXPECT_FALSE(read_back(bytes).is_sound(9)) << "a body that there is not";
-  EXPECT_FALSE(read_back(bytes).is_sound(8)) << "more times than bodies";
-  EXPECT_FALSE(read_back(bytes).is_sound(0));
+  EXPECT_TRUE(read_back(bytes).is_valid(10));
+  EXPECT_TRUE(read_back(bytes).is_valid(100));
+  EXPECT_FALSE(read_back(bytes).is_valid(9)) << "a body that there is not";
+  EXPECT_FALSE(read_back(bytes).is_valid(8)) << "more times than bodies";
+  EXPECT_FALSE(read_back(bytes).is_valid(0));
   schedule.remove(9);
-  EXPECT_TRUE(read_back(bytes_of(schedule)).is_sound(9));
-  EXPECT_FALSE(read_back(bytes_of(schedule)).is_sound(8));
+  EXPECT_TRUE(read_back(bytes_of(schedule)).is_valid(9));
+  EXPECT_FALSE(read_back(bytes_of(schedule)).is_valid(8));
   const auto with_time = [&bytes](double time) {
     std::vector<std::byte> changed = bytes;
     ByteWriter writer;
@@ -344,10 +344,10 @@ TEST(TreeSchedule, that_cannot_have_come_about_is_not_sound) {
     std::copy(writer.bytes().begin(), writer.bytes().end(), changed.begin() + 8 + 3 * 8);
     return read_back(changed);
   };
-  EXPECT_TRUE(with_time(0.0).is_sound(10));
-  EXPECT_FALSE(with_time(-0.0).is_sound(10));
-  EXPECT_FALSE(with_time(std::numeric_limits<double>::quiet_NaN()).is_sound(10));
-  EXPECT_FALSE(with_time(-std::numeric_limits<double>::quiet_NaN()).is_sound(10));
+  EXPECT_TRUE(with_time(0.0).is_valid(10));
+  EXPECT_FALSE(with_time(-0.0).is_valid(10));
+  EXPECT_FALSE(with_time(std::numeric_limits<double>::quiet_NaN()).is_valid(10));
+  EXPECT_FALSE(with_time(-std::numeric_limits<double>::quiet_NaN()).is_valid(10));
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ TEST(GasProperties, OfTwoSpheresAreCountedByHand) {
   scene.bodies = {{.radius = 0.5}, {.radius = 0.5}};
   scene.motion = std::make_unique<Ballistic>(
       Ballistic::create({.start = {{{2, 5, 5}, {1, 0, 0}}, {{6, 5, 5}, {-1, 0, 0}}}}).value());
-  scene.response = Response::bounce;
+  scene.response = SceneResponse::bounce;
   scene.end_time = 8.0;
   const GasBlocks blocks{.equilibration = 2, .measured = 6};
   const GasProperties found = measure_gas(scene, make_world_detector, blocks).value();
@@ -174,7 +174,7 @@ TEST(GasProperties, RefuseWhatIsNoGas) {
   };
   ASSERT_TRUE(measure_gas(make_scene(small_gas()).value(), make_world_detector));
   refused("periodic", but([](auto& gas) { gas.periodic = false; }));
-  refused("response", but([](auto& gas) { gas.response = Response::pass_through; }));
+  refused("response", but([](auto& gas) { gas.response = SceneResponse::pass_through; }));
   refused("response", but([](auto& gas) { gas.restitution = 0.9; }));
   refused("response", but([](auto& gas) { gas.resting_speed = 0.1; }));
   refused("bodies", but([](auto& gas) { gas.bodies = 1, gas.packing = 0.01; }));

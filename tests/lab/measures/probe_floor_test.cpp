@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "kinesphere/motion/steered.hpp"
+#include "kinesphere/motion/steered_motion.hpp"
 #include "lab/detector_table.hpp"
 #include "lab/scene/make_scene.hpp"
 #include "lab/truth/gap_course.hpp"
@@ -23,15 +23,15 @@ Scene straight(std::vector<State> states, double limit, double seconds) {
   Scene scene;
   const std::vector<double> limits(states.size(), limit);
   scene.bodies.resize(states.size());
-  scene.motion = std::make_unique<Steered>(
-      Steered::create({.start = std::move(states), .acceleration_limits = limits}).value());
-  scene.response = Response::bounce;
+  scene.motion = std::make_unique<SteeredMotion>(
+      SteeredMotion::create({.start = std::move(states), .acceleration_limits = limits}).value());
+  scene.response = SceneResponse::bounce;
   scene.world.contacts = ContactMode::impacts;
   scene.end_time = seconds;
   return scene;
 }
 
-Scene built_in(SceneParameters::MotionKind motion, double limit, Response response) {
+Scene built_in(SceneParameters::MotionKind motion, double limit, SceneResponse response) {
   return make_scene({.motion = motion,
                      .bodies = 60,
                      .radius_min = 1.0,
@@ -57,8 +57,8 @@ TEST(ProbeFloor, NobodyNearNeedsNoProbe) {
 std::uint64_t probes_of_an_approach(double gap, double speed, double limit, double tolerance) {
   std::uint64_t probes = 0;
   for (;; ++probes) {
-    const double room = gap + tolerance;
-    const double interval = 2.0 * room / (speed + std::sqrt(speed * speed + 2.0 * limit * room));
+    const double margin = gap + tolerance;
+    const double interval = 2.0 * margin / (speed + std::sqrt(speed * speed + 2.0 * limit * margin));
     gap -= speed * interval;
     if (gap <= 0.5 * tolerance) return probes + 1;  // the last is that of the contact
   }
@@ -106,7 +106,7 @@ TEST(ProbeFloor, AlongAWallByHand) {
 }
 
 TEST(ProbeFloor, BallisticBodiesAreAskedAtTheirContactsAlone) {
-  const Scene scene = built_in(SceneParameters::MotionKind::ballistic, 0.0, Response::bounce);
+  const Scene scene = built_in(SceneParameters::MotionKind::ballistic, 0.0, SceneResponse::bounce);
   const Flight flight = record_flight(scene, make_world_detector).value();
   std::vector<std::set<double>> times(scene.bodies.size());
   for (const FlightContact& contact : flight.contacts) {
@@ -137,8 +137,8 @@ std::uint64_t sampled_floor(const Scene& scene, const Flight& flight, std::uint3
     bool reached = false;
     for (std::uint32_t other = 0; other < scene.bodies.size(); ++other) {
       const double distance = norm(bound.centre_at(time) - state(other, time).position);
-      const double room = distance - bound.radius_at(time) - scene.bodies[other].radius;
-      reached = reached || (other != body && room < -scene.world.contact_tolerance);
+      const double margin = distance - bound.radius_at(time) - scene.bodies[other].radius;
+      reached = reached || (other != body && margin < -scene.world.contact_tolerance);
     }
     if (!stopped && !reached) continue;
     ++probes;
@@ -176,7 +176,7 @@ TEST(ProbeFloor, AgreesWithFineSteps) {
 }
 
 TEST(ProbeFloor, NoDetectorAsksLess) {
-  for (const Response response : {Response::bounce, Response::pass_through}) {
+  for (const SceneResponse response : {SceneResponse::bounce, SceneResponse::pass_through}) {
     const Scene scene = built_in(SceneParameters::MotionKind::random_forces, 15.0, response);
     for (const char* name : {"world", "paper", "hubbard", "hayward"}) {
       const Flight flight = record_flight(scene, detector_maker(name).value()).value();

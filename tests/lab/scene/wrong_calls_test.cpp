@@ -108,7 +108,7 @@ TEST(WrongScene, OfARecordingDoesNotBounce) {
       RecordedTracks::create({{{0.0, {-3, 0, 0}}, {10.0, {7, 0, 0}}}, {{0.0, {3, 0, 0}}, {10.0, {-7, 0, 0}}}})
           .value());
   ASSERT_TRUE(simulate(scene, make_world_detector));
-  scene.response = Response::bounce;
+  scene.response = SceneResponse::bounce;
   const auto result = simulate(scene, make_world_detector);
   expect_error(result, ErrorCode::unsupported, "response", "simulate:", {0, 0});
 }
@@ -116,7 +116,7 @@ TEST(WrongScene, OfARecordingDoesNotBounce) {
 TEST(WrongScene, ThatBouncesIsNotCompared) {
   Scene scene = meeting();
   EXPECT_TRUE(compare_with_oracle(scene, {}));
-  scene.response = Response::bounce;
+  scene.response = SceneResponse::bounce;
   expect_error(compare_with_oracle(scene, {}), ErrorCode::unsupported, "scene", "compare_with_oracle:");
   scene = meeting();
   scene.world.contacts = ContactMode::impacts;

@@ -137,9 +137,9 @@ TEST(GapCourse, AgreesWithDenseSamples) {
     const GapCourse gap = round % 5 == 0 ? GapCourse(a, HalfSpace{random.unit_vector(), -3.0}, 0.5 * radii)
                                          : GapCourse(a, b, radii);
     const double level = random.uniform(-0.2, 1.0);
-    for (const LevelCrossing crossing : {LevelCrossing::falls_to, LevelCrossing::rises_to}) {
-      const double sign = crossing == LevelCrossing::falls_to ? 1.0 : -1.0;
-      const auto time = gap.first_time(crossing, level, from, last);
+    for (const LevelCrossing overlap : {LevelCrossing::falls_to, LevelCrossing::rises_to}) {
+      const double sign = overlap == LevelCrossing::falls_to ? 1.0 : -1.0;
+      const auto time = gap.first_time(overlap, level, from, last);
       const double until = time.value_or(last);
       constexpr int samples = 2000;
       for (int k = 0; k < samples && until > from; ++k) {

@@ -87,8 +87,8 @@ class DamagedStream : public testing::TestWithParam<StreamFormat> {};
 TEST_P(DamagedStream, IsReadAsFarAsItGoes) {
   const StreamFormat format = GetParam();
   const WatchSettings settings{.separations = {parse_separation("cylinder:5NM:1000ft")},
-                               .acceleration = Spread::cylinder(6.0, 3.0),
-                               .largest_speed = Spread::cylinder(400.0, 60.0),
+                               .acceleration = ErrorBound::cylinder(6.0, 3.0),
+                               .largest_speed = ErrorBound::cylinder(400.0, 60.0),
                                .position_error = {100.0, "test"},
                                .height_error = {80.0, "test"},
                                .velocity_error = {25.0, "test"},

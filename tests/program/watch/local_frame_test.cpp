@@ -119,7 +119,7 @@ TEST_P(LocalFrameOf, TellsVelocitiesAsTheyAre) {
 TEST_P(LocalFrameOf, MakesRoomForTheCurvatureOfStraightWays) {
   const LocalFrame frame = this->frame();
   const double speed = 400.0, step = 10.0;
-  const TrackClass promise = frame.promise(Spread::cylinder(0.0, 0.0), Spread::cylinder(speed, 0.0));
+  const TrackClass promise = frame.promise(ErrorBound::cylinder(0.0, 0.0), ErrorBound::cylinder(speed, 0.0));
   Random random(4);
   double largest = 0.0;
   for (int k = 0; k < 4000; ++k) {

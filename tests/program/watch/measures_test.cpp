@@ -32,8 +32,8 @@ TEST(Measures, RefuseOthers) {
 }
 
 TEST(Measures, AreBallsOrCylinders) {
-  EXPECT_EQ(parse_spread("3", Measure::length, "--x"), Spread(3.0));
-  EXPECT_EQ(parse_spread("3:1ft", Measure::length, "--x"), Spread::cylinder(3.0, foot));
+  EXPECT_EQ(parse_spread("3", Measure::length, "--x"), ErrorBound(3.0));
+  EXPECT_EQ(parse_spread("3:1ft", Measure::length, "--x"), ErrorBound::cylinder(3.0, foot));
 }
 
 TEST(Separations, AreShapesWithLengths) {

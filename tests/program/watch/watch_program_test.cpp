@@ -124,7 +124,8 @@ TEST_F(WatchProgram, TellsWhatAMonitorTells) {
     for (std::size_t k = 0; k < states.size(); ++k) {
       const double stamp = t + static_cast<double>(k) / 32.0;
       State& state = states[k];
-      TrackReport report{.stamp = stamp, .state = {state.position + state.velocity * stamp, state.velocity}};
+      TrackReport report{.timestamp = stamp,
+                         .state = {state.position + state.velocity * stamp, state.velocity}};
       report.position_error = 0.25;
       report.velocity_error = 0.125;
       // Late ones and jumps, too.
@@ -140,8 +141,8 @@ TEST_F(WatchProgram, TellsWhatAMonitorTells) {
   MonitorDefinition definition{.classes = {{.acceleration_limit = 1.0}},
                                .separations = {{0, 0, {Separation::sphere(12.0), Separation::sphere(6.0)}}},
                                .tolerance = 6e-4,
-                               .silence_after = 3.0,
-                               .forget_after = 5.0};
+                               .stale_after = 3.0,
+                               .drop_after = 5.0};
   Monitor monitor = Monitor::create(definition).value();
   std::vector<std::string> expected;
   const auto go_on = [&](double time) {
@@ -159,7 +160,7 @@ TEST_F(WatchProgram, TellsWhatAMonitorTells) {
     }
   };
   for (const auto& [id, report] : reports) {
-    go_on(std::max(monitor.time(), report.stamp));
+    go_on(std::max(monitor.time(), report.timestamp));
     monitor.report(id, report).value();
     go_on(monitor.time());
   }

@@ -29,7 +29,7 @@ class Contest {
         scene_(entry.make(entry.response)),
         world_(default_engine(entry.alarm > 0.0 ? alarm_engine(entry.alarm) : world_engine())) {
     if (!has_rivals() && !entry.floor) return;
-    passing_ = entry.make(Response::pass_through);
+    passing_ = entry.make(SceneResponse::pass_through);
     // Who looks at steps alone need not know an alarm from a contact.
     for (SceneBody& body : passing_.bodies) body.radius += 0.5 * entry.alarm;
     if (has_rivals()) truth_ = counted(count_contacts(passing_, world_engine().make));
@@ -60,7 +60,7 @@ class Contest {
 
   bool has_rivals() const { return !entry_.rates.empty(); }
   /// What fixed steps are timed on.
-  const Scene& stepped() const { return entry_.response == Response::bounce ? scene_ : passing_; }
+  const Scene& stepped() const { return entry_.response == SceneResponse::bounce ? scene_ : passing_; }
 
   ContactCounts counted(ContactCounts counts) const {
     std::erase_if(counts, [&](const auto& entry) { return std::get<1>(entry.first) < entry_.first_counted; });
@@ -166,7 +166,7 @@ class Contest {
                  .moves = 1.0 / recording.step,
                  .bytes = static_cast<double>(timing.bytes) / static_cast<double>(recording.radii.size()),
                  .hash = timing.hash};
-    if (entry_.response == Response::bounce)
+    if (entry_.response == SceneResponse::bounce)
       row.contacts = static_cast<double>(recording.contacts) / recording.body_time();
     else if (seen)
       row.contacts = static_cast<double>(total(*seen)) / body_time_of_all();

@@ -19,11 +19,12 @@ namespace {
 /// Independent streams of random numbers, one for each thing that is drawn.
 enum Stream : std::uint64_t { placement_stream, body_stream, force_stream, walk_stream };
 
-Scene empty_scene(Response response, double seconds) {
+Scene empty_scene(SceneResponse response, double seconds) {
   Scene scene;
   scene.response = response;
   scene.end_time = seconds;
-  scene.world.contacts = response == Response::bounce ? ContactMode::impacts : ContactMode::begin_and_end;
+  scene.world.contacts =
+      response == SceneResponse::bounce ? ContactMode::impacts : ContactMode::begin_and_end;
   return scene;
 }
 
@@ -77,7 +78,7 @@ Vec3 place_in_square(std::uint32_t body, std::uint32_t squares, double edge, Ran
 
 }  // namespace
 
-Scene make_mixture(const MixtureParameters& p, Response response) {
+Scene make_mixture(const MixtureParameters& p, SceneResponse response) {
   Scene scene = empty_scene(response, p.seconds);
   if (p.walls) scene.world.box = p.box;
   std::vector<double> radii, limits;
@@ -106,7 +107,7 @@ Scene make_mixture(const MixtureParameters& p, Response response) {
   return scene;
 }
 
-Scene make_crowd(const CrowdParameters& p, Response response) {
+Scene make_crowd(const CrowdParameters& p, SceneResponse response) {
   Scene scene = empty_scene(response, p.seconds);
   const double edge = std::sqrt(p.area_each);
   const auto squares = static_cast<std::uint32_t>(std::ceil(std::sqrt(p.people)));
@@ -121,7 +122,7 @@ Scene make_crowd(const CrowdParameters& p, Response response) {
   return scene;
 }
 
-Scene make_gas(const GasParameters& p, Response response) {
+Scene make_gas(const GasParameters& p, SceneResponse response) {
   constexpr double radius = 0.5;
   constexpr double volume = 3.14159265358979 / 6.0;
   constexpr double gap = 0.03;  // else half of them collide at once

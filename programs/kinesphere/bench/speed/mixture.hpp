@@ -27,7 +27,7 @@ struct MixtureParameters {
 };
 
 /// All are pushed around by random forces. Throws ProgramError when they do not fit into the box.
-Scene make_mixture(const MixtureParameters& parameters, Response response);
+Scene make_mixture(const MixtureParameters& parameters, SceneResponse response);
 
 /// People on a square: everyone walks towards a place of his own and now and then changes his mind. All
 /// stay in one plane.
@@ -38,7 +38,7 @@ struct CrowdParameters {
   std::uint64_t seed = 1;
 };
 
-Scene make_crowd(const CrowdParameters& parameters, Response response);
+Scene make_crowd(const CrowdParameters& parameters, SceneResponse response);
 
 /// Spheres of diameter 1 that start with speed 1, bounce, and fly straight in between, in space that repeats.
 /// At the start they are pushed apart at random, between walls.
@@ -50,6 +50,6 @@ struct GasParameters {
 };
 
 /// Throws ProgramError when they do not fit. Cost: some hundred microseconds per sphere.
-Scene make_gas(const GasParameters& parameters, Response response);
+Scene make_gas(const GasParameters& parameters, SceneResponse response);
 
 }  // namespace kinesphere::program

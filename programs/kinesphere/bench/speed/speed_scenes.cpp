@@ -54,7 +54,7 @@ class SceneList {
     parameters.seconds = shorter(parameters.seconds);
     scene.bodies = parameters.bodies;
     scene.response = parameters.response;
-    scene.make = [parameters](Response response) mutable {
+    scene.make = [parameters](SceneResponse response) mutable {
       parameters.response = response;
       return require(make_scene(parameters));
     };
@@ -78,7 +78,7 @@ class SceneList {
 
   void mixture(SpeedScene scene, const MixtureParameters& parameters) {
     for (const BodyKind& kind : parameters.kinds) scene.bodies += kind.bodies;
-    scene.make = [parameters](Response response) { return make_mixture(parameters, response); };
+    scene.make = [parameters](SceneResponse response) { return make_mixture(parameters, response); };
     scenes_.push_back(std::move(scene));
   }
 
@@ -87,7 +87,7 @@ class SceneList {
     const std::uint32_t drones = fewer(100'000);
     const double shrink = std::sqrt(drones / 100'000.0);
     mixture({.name = "drones",
-             .response = Response::pass_through,
+             .response = SceneResponse::pass_through,
              .rates = {1.0, 4.0, 15.0, 60.0, 240.0},
              .alarm = alarm,
              .floor = true},
@@ -99,16 +99,16 @@ class SceneList {
     const CrowdParameters people{.people = fewer(20'000), .area_each = 4.0, .seconds = shorter(4.0)};
     scenes_.push_back({.name = "crowd",
                        .bodies = people.people,
-                       .response = Response::pass_through,
-                       .make = [people](Response response) { return make_crowd(people, response); },
+                       .response = SceneResponse::pass_through,
+                       .make = [people](SceneResponse response) { return make_crowd(people, response); },
                        .rates = {10.0, 30.0, 60.0, 240.0},
                        .floor = true});
     constexpr double close = 50.0;
     const VesselParameters vessels{.vessels = fewer(2708), .seconds = shorter(3600.0)};
     scenes_.push_back({.name = "vessels",
                        .bodies = vessels.vessels,
-                       .response = Response::pass_through,
-                       .make = [vessels](Response) { return make_vessels(vessels, close); },
+                       .response = SceneResponse::pass_through,
+                       .make = [vessels](SceneResponse) { return make_vessels(vessels, close); },
                        .rates = {0.1, 1.0}});
   }
 
@@ -116,7 +116,7 @@ class SceneList {
     const std::uint32_t boulders = fewer(10'000);
     const double edge = 200.0 * std::cbrt(boulders / 10'000.0);
     mixture({.name = "bullets",
-             .response = Response::pass_through,
+             .response = SceneResponse::pass_through,
              .rates = {60.0, 240.0, 1000.0, 4000.0},
              .first_counted = boulders,
              .floor = true},
@@ -129,9 +129,12 @@ class SceneList {
       const double radius = 0.01 * static_cast<double>(1u << k);
       sizes.kinds.push_back({std::max(fewer(8192) >> k, 1u), radius, radius, 1.0, 10.0, 10.0});
     }
-    mixture(
-        {.name = "sizes", .response = Response::bounce, .rates = game_rates, .trees = true, .floor = true},
-        sizes);
+    mixture({.name = "sizes",
+             .response = SceneResponse::bounce,
+             .rates = game_rates,
+             .trees = true,
+             .floor = true},
+            sizes);
   }
 
   /// Fixed steps have no way around a space that repeats.
@@ -144,8 +147,8 @@ class SceneList {
                                 .seconds = shorter(bodies > 4'000 ? 0.2 : 3.0)};
         scenes_.push_back({.name = fmt::format("gas{}-{}", percent, bodies),
                            .bodies = gas.bodies,
-                           .response = Response::bounce,
-                           .make = [gas](Response response) { return make_gas(gas, response); },
+                           .response = SceneResponse::bounce,
+                           .make = [gas](SceneResponse response) { return make_gas(gas, response); },
                            .rates = {}});
       }
     }

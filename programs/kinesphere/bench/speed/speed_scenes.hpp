@@ -14,8 +14,8 @@ namespace kinesphere::program {
 struct SpeedScene {
   std::string name;  ///< without blanks; for --only
   std::uint32_t bodies;
-  Response response;  ///< of the runs that are timed; missed contacts are counted where all pass through
-  std::function<Scene(Response)> make;
+  SceneResponse response;  ///< of the runs that are timed; missed contacts are counted where all pass through
+  std::function<Scene(SceneResponse)> make;
   std::vector<double> rates;  ///< of fixed steps, per unit of time
   /// Positive: every body has a sensor of this distance, and what is looked for are alarms. Nobody bounces.
   double alarm = 0.0;

@@ -146,7 +146,7 @@ class StepRecorder {
   }
 
   void answer(const Event& event) {
-    if (scene_.response != Response::bounce || event.approach_speed <= 0.0) return;
+    if (scene_.response != SceneResponse::bounce || event.approach_speed <= 0.0) return;
     ++recording_.contacts;
     const bool pair = event.second != no_body;
     const double second_mass = pair ? mass(event.second.index) : 1.0;

@@ -66,10 +66,10 @@ class EventDrivenDetector::Audit {
   /// The body stands in the cells that its bound meets and, but for rounding, in no other.
   void check_cells(std::uint32_t number) {
     const CellRange& cells = detector_.residents_[number].cells;
-    const Vec3 room = Vec3{1.0, 1.0, 1.0} * (0.25 * detector_.definition().contact_tolerance);
+    const Vec3 margin = Vec3{1.0, 1.0, 1.0} * (0.25 * detector_.definition().contact_tolerance);
     const Box box = swept_box(detector_.body(number).bound, now_, now_);
-    const CellRange inner = detector_.grids_->cells_of(cells.level, {box.lower + room, box.upper - room});
-    const CellRange outer = detector_.grids_->cells_of(cells.level, {box.lower - room, box.upper + room});
+    const CellRange inner = detector_.grids_->cells_of(cells.level, {box.lower + margin, box.upper - margin});
+    const CellRange outer = detector_.grids_->cells_of(cells.level, {box.lower - margin, box.upper + margin});
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (cells.last[axis] - cells.first[axis] > 1)
         find("registration", name(number) + " stands in more than eight cells");

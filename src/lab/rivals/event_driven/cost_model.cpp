@@ -34,9 +34,9 @@ constexpr double resets_at_bounce = 1.0;
 /// Until the bound has the diameter `edge` (paper, eq 8).
 double time_to_reset(const MovingSphere& sphere, double edge) {
   constexpr double longest = 1e30;
-  const double room = std::max(0.0, 0.5 * edge - sphere.radius);
+  const double margin = std::max(0.0, 0.5 * edge - sphere.radius);
   const double speed = sphere.growth_speed;
-  return std::min(2.0 * room / (speed + std::sqrt(speed * speed + 2.0 * sphere.limit * room)), longest);
+  return std::min(2.0 * margin / (speed + std::sqrt(speed * speed + 2.0 * sphere.limit * margin)), longest);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bound/rounding.hpp"
-#include "contact/outlook.hpp"
+#include "contact/contact_predictor.hpp"
 #include "number/infinity.hpp"
 
 namespace kinesphere {
@@ -63,18 +63,19 @@ double MovingSide::earliest_entering(double plane, double horizon) const {
 
 double MovingSide::latest_leaving(double plane, double horizon) const {
   // It must have parted by more than the margin of entering, or it would enter again at once.
-  const double room = room_to(plane) - 2.0 * margin * (position_size_ + std::abs(plane));
-  const double d = last_rise(room, -speed_, -acceleration_);
+  const double gap = room_to(plane) - 2.0 * margin * (position_size_ + std::abs(plane));
+  const double d = last_rise(gap, -speed_, -acceleration_);
   const double time = std::max(rounding::sum_up(from_, d), just_after(from_));
   return time <= horizon ? time : infinity;
 }
 
 double outgrowing_time(const Bound& bound, double edge) {
   constexpr double sliver = 0x1p-10;
-  const double room = 0.5 * edge * (1.0 - sliver) - bound.radius;
-  if (!(room > 0.0)) return bound.time;
+  const double margin = 0.5 * edge * (1.0 - sliver) - bound.radius;
+  if (!(margin > 0.0)) return bound.time;
   const double speed = bound.growth_speed;
-  const double s = 2.0 * room / (speed + std::sqrt(speed * speed + 2.0 * bound.growth_acceleration * room));
+  const double s =
+      2.0 * margin / (speed + std::sqrt(speed * speed + 2.0 * bound.growth_acceleration * margin));
   return bound.time + s;
 }
 

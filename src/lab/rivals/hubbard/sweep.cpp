@@ -51,15 +51,15 @@ void Sweep::begin(double duration) {
 }
 
 Sweep::Crossing Sweep::step() {
-  const Crossing crossing = queue_.front();
+  const Crossing overlap = queue_.front();
   pop();
-  time_ = crossing.time;
-  const std::size_t lower = rank_[crossing.below];
+  time_ = overlap.time;
+  const std::size_t lower = rank_[overlap.below];
   exchange(lower);
   if (lower > 0) schedule_crossing(lower - 1);
   if (lower + 2 < status_.size()) schedule_crossing(lower + 1);
   drop_outdated();
-  return crossing;
+  return overlap;
 }
 
 void Sweep::schedule_crossing(std::size_t lower) {

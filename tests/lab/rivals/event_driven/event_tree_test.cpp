@@ -79,9 +79,9 @@ Candidate random_candidate(Random& random) {
   auto second = first;
   if (kind == CandidateKind::colliding)
     second += static_cast<std::uint32_t>(random.bits() % (bodies - first));
-  const bool crossing = kind == CandidateKind::entering || kind == CandidateKind::leaving;
+  const bool overlap = kind == CandidateKind::entering || kind == CandidateKind::leaving;
   return {static_cast<double>(random.bits() % 8), kind, first, second,
-          static_cast<std::uint8_t>(crossing ? random.bits() % 6 : 0)};
+          static_cast<std::uint8_t>(overlap ? random.bits() % 6 : 0)};
 }
 
 TEST(EventTree, answers_like_a_plain_list) {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "kinesphere/motion/steered.hpp"
+#include "kinesphere/motion/steered_motion.hpp"
 #include "lab/detector/detector.hpp"
 #include "lab/rivals/rivals.hpp"
 
@@ -16,8 +16,9 @@ namespace {
 class Flight {
  public:
   Flight(std::vector<State> start, double limit, const WorldDefinition& definition = {})
-      : motion_(Steered::create({.start = start, .acceleration_limits = std::vector(start.size(), limit)})
-                    .value()),
+      : motion_(
+            SteeredMotion::create({.start = start, .acceleration_limits = std::vector(start.size(), limit)})
+                .value()),
         detector_(make_hubbard_detector(definition, motion_).value()) {
     for (std::uint32_t number = 0; number < start.size(); ++number)
       detector_->add(number, motion_.definition(number, 0.0)).value();
@@ -38,7 +39,7 @@ class Flight {
   DetectorCounters counters() const { return detector_->counters(); }
 
  private:
-  Steered motion_;
+  SteeredMotion motion_;
   std::unique_ptr<Detector> detector_;
 };
 

@@ -28,15 +28,15 @@ Line random_line(Random& random) { return {random.uniform(-10.0, 10.0), random.u
 
 /// Crossings during [0, duration] of lines that are sorted at time 0, by (below, above).
 std::map<Pair, double> crossings_of_all_pairs(const Sweep& sweep, std::uint32_t count, double duration) {
-  std::map<Pair, double> crossings;
+  std::map<Pair, double> overlaps;
   for (std::uint32_t a = 0; a < count; ++a)
     for (std::uint32_t b = 0; b < count; ++b) {
       if (a == b || !sweep.is_below(a, b)) continue;
       const double gap = sweep.line(b).start - sweep.line(a).start;
       const double closing = sweep.line(a).speed - sweep.line(b).speed;
-      if (closing * duration > gap) crossings[{a, b}] = gap / closing;
+      if (closing * duration > gap) overlaps[{a, b}] = gap / closing;
     }
-  return crossings;
+  return overlaps;
 }
 
 /// Sweeps to the end and holds every crossing against `expected`.
@@ -44,14 +44,14 @@ void expect_crossings(Sweep& sweep, std::map<Pair, double> expected, double erro
   double last = 0.0;
   while (sweep.next_time() < std::numeric_limits<double>::infinity()) {
     const double announced = sweep.next_time();
-    const Sweep::Crossing crossing = sweep.step();
-    ASSERT_EQ(crossing.time, announced);
-    ASSERT_GE(crossing.time, last);
-    last = crossing.time;
-    const auto found = expected.find({crossing.below, crossing.above});
-    ASSERT_NE(found, expected.end()) << crossing.below << " and " << crossing.above << " cross at " << last;
-    ASSERT_NEAR(crossing.time, found->second, error);
-    ASSERT_TRUE(sweep.is_below(crossing.above, crossing.below));
+    const Sweep::Crossing overlap = sweep.step();
+    ASSERT_EQ(overlap.time, announced);
+    ASSERT_GE(overlap.time, last);
+    last = overlap.time;
+    const auto found = expected.find({overlap.below, overlap.above});
+    ASSERT_NE(found, expected.end()) << overlap.below << " and " << overlap.above << " cross at " << last;
+    ASSERT_NEAR(overlap.time, found->second, error);
+    ASSERT_TRUE(sweep.is_below(overlap.above, overlap.below));
     ASSERT_TRUE(sweep.is_sorted(error));
     expected.erase(found);
   }
@@ -125,13 +125,13 @@ TEST(Sweep, a_bundle_through_one_point_is_turned_over) {
   }
   sweep.sort(ignore);
   sweep.begin(4.0);
-  std::uint32_t crossings = 0;
+  std::uint32_t overlaps = 0;
   while (sweep.next_time() <= 4.0) {
     EXPECT_NEAR(sweep.step().time, 2.0, 1e-12);
-    ++crossings;
+    ++overlaps;
     EXPECT_TRUE(sweep.is_sorted(Sweep::order_error(count, 20.0)));
   }
-  EXPECT_EQ(crossings, count * (count - 1) / 2);
+  EXPECT_EQ(overlaps, count * (count - 1) / 2);
 }
 
 TEST(Sweep, coincident_and_parallel_lines_do_not_cross) {

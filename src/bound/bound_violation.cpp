@@ -1,0 +1,30 @@
+#include "bound/bound_violation.hpp"
+
+namespace kinesphere {
+
+std::optional<BoundViolation> bound_violation(const Bound& before, const Bound& after, double radius,
+                                              const std::optional<Vec3>& kicked_to,
+                                              double contact_tolerance) {
+  const double s = after.time - before.time;
+  const Vec3 way = after.position - before.centre_at(after.time);
+  const double position_errors = (before.radius - radius) + (after.radius - radius);
+  const double deviation_limit = before.radius_at(after.time) - before.radius + position_errors;
+  const Vec3 expected = kicked_to.value_or(before.velocity_at(after.time));
+  const Vec3 turn = after.velocity - expected;
+  const double change_limit =
+      (kicked_to ? 0.0 : before.growth_acceleration * s) + (before.growth_speed + after.growth_speed);
+  const double position_slack = contact_tolerance / 16.0;
+  // Nearly all reports are faithful: no root for them.
+  if (norm_squared(way) <= deviation_limit * deviation_limit &&
+      norm_squared(turn) <= change_limit * change_limit)
+    return std::nullopt;
+  const double deviation = norm(way);
+  const double change = norm(turn);
+  const double velocity_slack = 0x1p-30 * (norm(after.velocity) + norm(expected) + change_limit);
+  const bool left = deviation > deviation_limit + position_slack;
+  const bool jumped = change > change_limit + velocity_slack;
+  if (!left && !jumped) return std::nullopt;
+  return BoundViolation{left ? deviation - deviation_limit : 0.0, jumped ? change - change_limit : 0.0};
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,156 @@
+#include "broadphase/broad_phase.hpp"
+
+#include <cmath>
+
+namespace kinesphere {
+
+Box BroadPhase::box_of(std::uint32_t number, double now) const {
+  const Registration& here = registrations_[number];
+  return space_.within(levels_[here.level].box_at(here.slot, now));
+}
+
+std::size_t BroadPhase::size() const {
+  std::size_t all = 0;
+  for (const GridLevel& layer : levels_) all += layer.spheres.size();
+  return all;
+}
+
+std::size_t BroadPhase::moving() const {
+  std::size_t all = 0;
+  for (const GridLevel& layer : levels_)
+    if (layer.window.end < infinity) all += layer.spheres.size();
+  return all;
+}
+
+double BroadPhase::least_width() const {
+  double least = infinity;
+  for (const GridLevel& layer : levels_)
+    if (!layer.is_empty()) least = std::min(least, layer.widest());
+  return least;
+}
+
+/// The layer of this window and level, which may be without a frame yet, if it is empty.
+std::uint32_t BroadPhase::level_for(const Window& window, int level) {
+  std::uint32_t free = none;
+  for (std::uint32_t k = 0; k < levels_.size(); ++k) {
+    const GridLevel& layer = levels_[k];
+    if (layer.is_of(window, level)) return k;
+    // One that is over, though others go on, is of no use to anybody.
+    const bool over =
+        !layer.fresh && layer.is_empty() && window.end < infinity && layer.window.end <= window.begin();
+    if ((layer.window.end == -infinity || over) && free == none) free = k;
+  }
+  if (free == none) {
+    free = static_cast<std::uint32_t>(levels_.size());
+    levels_.emplace_back();
+  }
+  GridLevel& layer = levels_[free];
+  layer = {.window = window, .size_class = level, .spheres = std::move(layer.spheres)};
+  return free;
+}
+
+void BroadPhase::open(GridLevel& layer, double origin) {
+  layer.open(base_, origin, size_classes_.coarseness(layer.window.rung, layer.size_class));
+  next_end_ = std::min(next_end_, layer.window.end);
+}
+
+void BroadPhase::add(std::uint32_t number, std::uint32_t layer, const InflatedBound& bound, double now) {
+  GridLevel& to = levels_[layer];
+  registrations_[number] = {to.window.end, layer,
+                            to.spheres.add(number, to.swept_sphere(bound, now), to.time(now))};
+}
+
+BroadPhase::Entry BroadPhase::prepare(std::uint32_t number, const InflatedBound& bound, double now,
+                                      const Window& window) const {
+  Entry entry{.size_class = size_classes_.size_class_to_enter(SizeClasses::size_class_of(bound, window))};
+  if (!contains(number)) return entry;
+  const Registration& here = registrations_[number];
+  const GridLevel& layer = levels_[here.level];
+  if (!layer.is_of(window, entry.size_class)) return entry;
+  entry.sphere = layer.swept_sphere(bound, now);
+  const auto looseness = layer.spheres.looseness_at(here.slot, entry.sphere, layer.time(now));
+  if (!looseness) return entry;
+  entry.level = here.level;
+  entry.slot = here.slot;
+  entry.looseness = *looseness;
+  return entry;
+}
+
+/// Several threads may do that at the same time, for different bodies.
+void BroadPhase::replace(const Entry& entry, double now, SweptSphereGrid::Growth& growth) {
+  GridLevel& layer = levels_[entry.level];
+  layer.spheres.replace(entry.slot, entry.sphere, layer.time(now), entry.looseness, growth);
+}
+
+/// As the body is of the same size for the same window, whenever in it the body enters, and as a layer has
+/// the same frame, whoever enters first, searches find the same in whatever order bodies enter.
+void BroadPhase::enter(std::uint32_t number, const InflatedBound& bound, double now, const Window& window) {
+  const Entry entry = prepare(number, bound, now, window);
+  if (entry.level != none) {
+    SweptSphereGrid::Growth growth;
+    replace(entry, now, growth);
+    return levels_[entry.level].grow(growth);
+  }
+  if (number >= registrations_.size()) registrations_.resize(number + std::size_t{1});
+  const std::uint32_t layer = level_for(window, entry.size_class);
+  ++levels_[layer].changes;
+  if (registrations_[number].level == layer) {
+    take_out(number);
+  } else if (registrations_[number].level != none) {
+    leave(number);
+  }
+  if (!levels_[layer].has_frame) {
+    if (!has_base_) base_ = bound.moved.centre;
+    has_base_ = true;
+    open(levels_[layer], window.end < infinity ? window.begin() : 0.0);
+  }
+  add(number, layer, bound, now);
+}
+
+void BroadPhase::leave(std::uint32_t number) {
+  ++levels_[registrations_[number].level].changes;
+  take_out(number);
+}
+
+void BroadPhase::take_out(std::uint32_t number) {
+  Registration& here = registrations_[number];
+  levels_[here.level].spheres.remove(here.slot);
+  here.level = none;
+}
+
+void BroadPhase::sort(GridLevel& layer, PoolLease& shift) {
+  layer.spheres.sort(
+      shift, [this](std::uint32_t number, std::uint32_t place) { registrations_[number].slot = place; });
+}
+
+void BroadPhase::tidy(PoolLease& shift) {
+  for (GridLevel& layer : levels_)
+    if (layer.spheres.is_untidy()) sort(layer, shift);
+}
+
+std::optional<std::string> BroadPhase::check(std::uint32_t number) const {
+  const Registration& here = registrations_[number];
+  if (here.level >= levels_.size()) return "is in a layer that is not there";
+  const SweptSphereTable& table = levels_[here.level].spheres.table();
+  if (here.slot >= table.slots() || table.number_at(here.slot) != number)
+    return "is not where its layer has it";
+  if (here.end != levels_[here.level].window.end) return "is not in the window of its layer";
+  return std::nullopt;
+}
+
+bool BroadPhase::is_valid(std::size_t bodies) const {
+  if (registrations_.size() > bodies || !size_classes_.is_valid() || !is_finite(base_) ||
+      std::isnan(next_end_))
+    return false;
+  std::size_t registered = 0;
+  for (std::uint32_t number = 0; number < registrations_.size(); ++number) {
+    if (!contains(number)) continue;
+    ++registered;
+    if (std::isnan(registrations_[number].end) || check(number)) return false;
+  }
+  return registered == size() && std::all_of(levels_.begin(), levels_.end(), [this](const GridLevel& layer) {
+           return layer.is_valid() && (layer.is_empty() || next_end_ <= layer.window.end);
+         });
+}
+
+}  // namespace kinesphere

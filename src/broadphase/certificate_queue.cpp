@@ -1,0 +1,121 @@
+#include "broadphase/certificate_queue.hpp"
+
+#include <cassert>
+#include <iterator>
+#include <utility>
+
+namespace kinesphere {
+namespace {
+
+/// The order of a heap.
+auto later_by(const CertificateOrder& order) {
+  return [order](const PairCertificate& a, const PairCertificate& b) { return order(b, a); };
+}
+
+}  // namespace
+
+std::size_t CertificateQueue::bucket_of(double time) const {
+  const double slices = (time - begin_) * per_time_;
+  const auto last = static_cast<double>(heads_.size() - 1);
+  return static_cast<std::size_t>(slices < last ? std::max(slices, 0.0) : last);
+}
+
+/// In a slice that comes.
+void CertificateQueue::wait(const PairCertificate& pair) {
+  std::uint32_t node = free_;
+  if (node == none) {
+    node = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.emplace_back();
+  } else {
+    free_ = nodes_[node].next;
+  }
+  std::uint32_t& head = heads_[bucket_of(pair.failure_time)];
+  nodes_[node] = {pair, head};
+  head = node;
+  ++waiting_;
+}
+
+void CertificateQueue::drop_first() {
+  if (heap_comes_first()) {
+    std::pop_heap(heap_.begin(), heap_.end(), later_by(order_));
+    heap_.pop_back();
+  } else {
+    assert(next_ < sorted_.size());
+    ++next_;
+  }
+}
+
+void CertificateQueue::add(const PairCertificate& pair) {
+  if (!heads_.empty() && bucket_of(pair.failure_time) > bucket_) return wait(pair);
+  heap_.push_back(pair);
+  std::push_heap(heap_.begin(), heap_.end(), later_by(order_));
+}
+
+void CertificateQueue::clear() {
+  sorted_.clear();
+  next_ = 0;
+  heap_.clear();
+  nodes_.clear();
+  heads_.clear();
+  free_ = none;
+  waiting_ = 0;
+  bucket_ = 0;
+}
+
+/// Slices from now on, for so many pairs between these times. Nothing waits.
+void CertificateQueue::divide(double first, double last, std::size_t pairs) {
+  constexpr std::size_t in_a_slice = 16;
+  constexpr std::size_t most = std::size_t{1} << 18;
+  const std::size_t slices = std::clamp<std::size_t>(pairs / in_a_slice, 1, most) + 1;
+  heads_.assign(slices, none);
+  nodes_.clear();
+  free_ = none;
+  bucket_ = 0;
+  begin_ = first;
+  const double length = (last - first) / static_cast<double>(slices - 1);
+  per_time_ = length > 0.0 ? 1.0 / length : 0.0;
+  if (!(per_time_ < infinity)) per_time_ = 0.0;
+}
+
+void CertificateQueue::add_all(std::vector<PairCertificate>& pairs) {
+  if (4 * pairs.size() < size() || pairs.size() < 64) {
+    for (const PairCertificate& pair : pairs) add(pair);
+  } else {
+    for_each([&](const PairCertificate& pair) { pairs.push_back(pair); });
+    sorted_.clear();
+    next_ = 0;
+    heap_.clear();
+    waiting_ = 0;
+    const auto [first, last] = std::minmax_element(pairs.begin(), pairs.end());
+    divide(first->failure_time, last->failure_time, pairs.size());
+    // What is due first makes the present slice.
+    for (const PairCertificate& pair : pairs) {
+      if (bucket_of(pair.failure_time) > 0) {
+        wait(pair);
+      } else {
+        sorted_.push_back(pair);
+      }
+    }
+    std::sort(sorted_.begin(), sorted_.end(), order_);
+  }
+  pairs.clear();
+}
+
+CertificateTimes::CertificateTimes(std::vector<PairCertificate> pairs) : pairs_(std::move(pairs)) {
+  std::sort(pairs_.begin(), pairs_.end(), [](const PairCertificate& a, const PairCertificate& b) {
+    return std::tie(a.first, a.second, a.failure_time) < std::tie(b.first, b.second, b.failure_time);
+  });
+}
+
+double CertificateTimes::of(std::uint32_t a, std::uint32_t b) const {
+  // The walls have the greatest number.
+  const auto [first, second] = std::minmax(a, b);
+  const auto found = std::partition_point(
+      pairs_.begin(), pairs_.end(), [first = first, second = second](const PairCertificate& pair) {
+        return std::tie(pair.first, pair.second) < std::tie(first, second);
+      });
+  return found != pairs_.end() && found->first == first && found->second == second ? found->failure_time
+                                                                                   : infinity;
+}
+
+}  // namespace kinesphere

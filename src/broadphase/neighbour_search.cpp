@@ -1,0 +1,145 @@
+#include "broadphase/neighbour_search.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <functional>
+#include <iterator>
+
+namespace kinesphere {
+namespace {
+
+bool is_within_a_period(const Box& box, const Space& space) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (space.repeats(axis) && !(box.upper[axis] - box.lower[axis] < space.period()[axis])) return false;
+  return true;
+}
+
+}  // namespace
+
+void NeighbourSearch::clear_searches() {
+  searches_.clear();
+  images_.clear();
+}
+
+/// Adds searches of one layer, in all images, for the k-th of some bodies, from now on until `end` or until
+/// the window of the layer ends. False where that would not do: all that are there may be near.
+bool NeighbourSearch::add_searches(const Space& space, const GridLevel& layer, std::uint32_t k,
+                                   const InflatedBound& bound, double now, double end) {
+  const auto add = [&](const Vec3& shift) {
+    InflatedBound image = bound;
+    image.moved.centre += shift;
+    layer.spheres.add_search(layer.query(image, now, end), searches_);
+    images_.push_back({k, shift != Vec3{}});
+  };
+  if (!space.repeats()) {
+    add({});
+    return true;
+  }
+  const Box box = bound.box_of_way(duration_until(end, now));
+  // It may overlap several images of all: a search of one would not do.
+  if (!is_within_a_period(box, space)) return false;
+  space.for_each_image(box, layer.widest(), [&](const Box&, const Vec3& shift) { add(shift); });
+  return true;
+}
+
+std::vector<std::uint32_t>& NeighbourSearch::near(const BroadPhase& windows, std::uint32_t number,
+                                                  const InflatedBound& bound, double now, double end) {
+  numbers_.clear();
+  for (const GridLevel& layer : windows.levels()) {
+    if (layer.is_empty()) continue;
+    const SweptSphereTable& table = layer.spheres.table();
+    const auto note = [&](std::uint32_t place) {
+      const std::uint32_t other = table.number_at(place);
+      if (other != number && other != SweptSphereTable::nobody) numbers_.push_back(other);
+    };
+    clear_searches();
+    if (add_searches(windows.space(), layer, 0, bound, now, end)) {
+      layer.spheres.make(searches_);
+      searches_.for_each_found([&](std::uint32_t, std::uint32_t place) { note(place); });
+    } else {
+      for (std::uint32_t place = 0; place < table.slots(); ++place) note(place);
+    }
+  }
+  return numbers_;
+}
+
+std::span<const std::uint32_t> NeighbourSearch::in_box(const BroadPhase& windows, const Box& box,
+                                                       double now) {
+  numbers_.clear();
+  for (const GridLevel& layer : windows.levels()) {
+    if (layer.is_empty()) continue;
+    const double end = layer.window.end < infinity ? now : infinity;
+    clear_searches();
+    windows.space().for_each_image(box, layer.widest(), [&](const Box& image, const Vec3&) {
+      Bound ball{.time = now, .position = 0.5 * (image.lower + image.upper)};
+      ball.radius = 0.5 * norm(image.upper - image.lower);
+      layer.spheres.add_search(layer.query({BoundAt(ball, now), 0.0}, now, end), searches_);
+    });
+    layer.spheres.make(searches_);
+    searches_.for_each_found([&](std::uint32_t, std::uint32_t place) {
+      const std::uint32_t number = layer.spheres.table().number_at(place);
+      if (number != SweptSphereTable::nobody) numbers_.push_back(number);
+    });
+  }
+  return numbers_;
+}
+
+/// Those that have started may have neighbours elsewhere than in their own layer as it is.
+bool NeighbourSearch::has_several_images(const BroadPhase& windows) {
+  const auto layers = windows.levels();
+  const auto empty = std::count_if(layers.begin(), layers.end(), std::mem_fn(&GridLevel::is_empty));
+  return windows.space().repeats() || std::ssize(layers) > empty + 1;
+}
+
+/// From the k-th on, no more than so many.
+NeighbourSearch::Started NeighbourSearch::started_at(std::span<const GridLevel> layers, std::size_t k,
+                                                     std::size_t most) {
+  const auto holds = [&k](const GridLevel& layer) {
+    if (!layer.fresh) return false;
+    const std::size_t places = layer.spheres.table().slots();
+    if (k < places) return true;
+    k -= places;
+    return false;
+  };
+  const auto found = std::find_if(layers.begin(), layers.end(), holds);
+  assert(found != layers.end());
+  const std::size_t behind = found->spheres.table().slots() - k;
+  return {*found, static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(std::min(behind, most))};
+}
+
+/// Those behind them in their own layer.
+void NeighbourSearch::search_behind(const Started& some) {
+  const SweptSphereGrid& layer = some.own.spheres;
+  clear_searches();
+  for (std::uint32_t k = 0; k < some.count; ++k) layer.add_search_behind(some.slot + k, searches_);
+  layer.make(searches_);
+  searches_.for_each_found([&](std::uint32_t k, std::uint32_t place) {
+    pairs_.push_back({layer.table().number_at(some.slot + k), layer.table().number_at(place)});
+  });
+}
+
+/// Those in other layers and, of their own, other images.
+void NeighbourSearch::search_other_levels(const BroadPhase& windows, const Started& some, double now) {
+  for (const GridLevel& other : windows.levels()) {
+    const bool is_own = &other == &some.own;
+    if (other.is_empty() || (other.fresh && other.is_before(some.own)) ||
+        (is_own && !windows.space().repeats()))
+      continue;
+    const SweptSphereTable& table = other.spheres.table();
+    const auto note = [&](const ImageSearch& image, std::uint32_t place) {
+      if (is_own && (!image.shifted || place <= some.slot + image.k)) return;
+      const std::uint32_t number = table.number_at(place);
+      if (number != SweptSphereTable::nobody)
+        pairs_.push_back({some.own.spheres.table().number_at(some.slot + image.k), number});
+    };
+    clear_searches();
+    for (std::uint32_t k = 0; k < some.count; ++k) {
+      if (add_searches(windows.space(), other, k, bounds_[k], now, some.own.window.end)) continue;
+      for (std::uint32_t place = 0; place < table.slots(); ++place) note({k, true}, place);
+    }
+    other.spheres.make(searches_);
+    searches_.for_each_found([&](std::uint32_t query, std::uint32_t place) { note(images_[query], place); });
+  }
+}
+
+}  // namespace kinesphere

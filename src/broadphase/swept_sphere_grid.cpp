@@ -1,0 +1,247 @@
+#include "broadphase/swept_sphere_grid.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <cmath>
+
+#include "number/infinity.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// Cells are to hold about as many, where they hold any.
+constexpr std::size_t too_few_in_a_cell = 3;
+constexpr std::size_t too_many_in_a_cell = 24;
+
+}  // namespace
+
+void SweptSphereGrid::clear(const SweptSphereFrame& frame) {
+  frame_ = frame;
+  table_.clear();
+  cells_.clear();
+  starts_.clear();
+  sorted_ = 0;
+  reach_ = 0.0f;
+  widest_ = 0.0f;
+  most_behind_ = least_behind;
+}
+
+std::uint32_t SweptSphereGrid::add(std::uint32_t number, const SweptSphere& sphere, float from) {
+  widest_ = std::max(widest_, float_aabb_of(sphere, from, 1.0f).widest());
+  return table_.add(number, sphere);
+}
+
+std::optional<float> SweptSphereGrid::looseness_at(std::uint32_t place, const SweptSphere& sphere,
+                                                   float from) const {
+  assert(table_.number_at(place) != SweptSphereTable::nobody);
+  // Those that were added later have no cell.
+  if (place >= sorted_) return 0.0f;
+  const FloatAabb aabb = float_aabb_of(sphere, from, 1.0f);
+  const Grid::Cell here = grid_.nearest_image(cells_[place], grid_.cell_around(aabb));
+  const float out = grid_.looseness(here, aabb);
+  return out <= grid_.edge() ? std::optional(out) : std::nullopt;
+}
+
+void SweptSphereGrid::replace(std::uint32_t place, const SweptSphere& sphere, float from, float looseness,
+                              Growth& growth) {
+  growth.reach = std::max(growth.reach, looseness);
+  growth.widest = std::max(growth.widest, float_aabb_of(sphere, from, 1.0f).widest());
+  ++growth.replaced;
+  table_.replace(place, sphere);
+}
+
+SweptSphereSpread SweptSphereGrid::spread_of(const UnsortedSweptSpheres& all, PoolLease& shift) {
+  std::vector<SweptSphereSpread> spreads(shift.count());
+  shift.parallel_for(all.spheres.size(), many, [&](std::size_t begin, std::size_t end, std::size_t worker) {
+    SweptSphereSpread error;
+    for (std::size_t k = begin; k < end; ++k) error.add(float_aabb_of(all.spheres[k], 0.0f, 1.0f));
+    spreads[worker].add(error);
+  });
+  SweptSphereSpread error;
+  for (const SweptSphereSpread& one : spreads) error.add(one);
+  return error;
+}
+
+/// Makes cells coarse enough to hold some each, and counts by them.
+void SweptSphereGrid::choose_grid(const UnsortedSweptSpheres& all, const SweptSphereSpread& error,
+                                  std::vector<std::uint32_t>& cells, PoolLease& shift) {
+  const std::size_t count = cells.size();
+  // Larger ones would be of no use.
+  const auto is_of_use = [&error](float coarseness) {
+    return coarseness == 1.0f || coarseness * error.widest() <= 4.0f * error.extent();
+  };
+  while (!is_of_use(coarseness_)) coarseness_ *= 0.5f;
+  for (;;) {
+    grid_ = Grid(error, count, coarseness_);
+    count_by_cells(all, cells, shift);
+    filled_ = filled_cubes(shift);
+    const bool few_in_cells = grid_.cells() > 1 && count < too_few_in_a_cell * filled_;
+    if (!(few_in_cells && coarseness_ < coarsest && is_of_use(2.0f * coarseness_))) break;
+    coarseness_ *= 2.0f;
+  }
+  if (count > too_many_in_a_cell * filled_ && coarseness_ > 1.0f) coarseness_ *= 0.5f;
+}
+
+/// Of cells that have been counted.
+std::uint32_t SweptSphereGrid::filled_cubes(PoolLease& shift) const {
+  const std::size_t along = grid_.cells_in_a_row();
+  const std::size_t rows = grid_.cells() / along;
+  std::atomic<std::uint32_t> all = 0;
+  shift.parallel_for(rows, many / along + 1, [&](std::size_t from, std::size_t to, std::size_t) {
+    std::uint32_t filled = 0;
+    for (std::size_t row = from * along; row < to * along; row += along) {
+      for (std::size_t first = 0; first < along; first += Grid::slices) {
+        const auto begin = starts_.begin() + static_cast<std::ptrdiff_t>(row + first);
+        const auto end = begin + static_cast<std::ptrdiff_t>(std::min(Grid::slices, along - first));
+        filled += std::any_of(begin, end, [](std::uint32_t count) { return count > 0; }) ? 1 : 0;
+      }
+    }
+    all += filled;
+  });
+  return all;
+}
+
+double SweptSphereGrid::density(bool flat) const {
+  if (filled_ == 0) return 0.0;
+  const double edge = grid_.edge();
+  return sorted_ / (filled_ * (flat ? edge * edge : edge * edge * edge));
+}
+
+/// Counts how many are in each cell, starts_[cell], tells in which cell each is, and finds out how far they
+/// stick out of them.
+void SweptSphereGrid::count_by_cells(const UnsortedSweptSpheres& all, std::vector<std::uint32_t>& cells,
+                                     PoolLease& shift) {
+  std::vector<float> reaches(shift.count());
+  shift.parallel_for(all.spheres.size(), many, [&](std::size_t begin, std::size_t end, std::size_t worker) {
+    float reach = 0.0f;
+    for (std::size_t k = begin; k < end; ++k) {
+      const FloatAabb aabb = float_aabb_of(all.spheres[k], 0.0f, 1.0f);
+      const Grid::Cell cell = grid_.cell_around(aabb);
+      cells[k] = grid_.index_of(cell);
+      reach = std::max(reach, grid_.looseness(cell, aabb));
+    }
+    reaches[worker] = std::max(reaches[worker], reach);
+  });
+  reach_ = *std::max_element(reaches.begin(), reaches.end());
+  // Growing alone would make room for twice as many.
+  starts_.reserve(grid_.cells() + 1);
+  starts_.resize(grid_.cells() + 1);
+  starts_.back() = 0;
+  for_each_range(cells.size(), shift, [&](std::uint32_t from, std::uint32_t to) {
+    std::fill(starts_.begin() + from, starts_.begin() + to, 0);
+    for (const std::uint32_t cell : cells)
+      if (cell - from < to - from) ++starts_[cell];
+  });
+}
+
+/// Calls visit(from, to) for ranges of cells that together are all, one for each of some threads if there are
+/// many capsules: each of them goes through all of these.
+template <class Visit>
+void SweptSphereGrid::for_each_range(std::size_t spheres, PoolLease& shift, Visit visit) const {
+  const std::size_t cells = grid_.cells();
+  constexpr std::size_t most_ranges = 8;
+  const std::size_t ranges = spheres < many ? 1 : std::min(shift.count(), most_ranges);
+  shift.parallel_for(ranges, 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t k = begin; k < end; ++k)
+      visit(static_cast<std::uint32_t>(cells * k / ranges),
+            static_cast<std::uint32_t>(cells * (k + 1) / ranges));
+  });
+}
+
+/// Gives each its place among those of its cell, in the order in which they stand, in the cells that have
+/// been counted.
+void SweptSphereGrid::choose_places(const std::vector<std::uint32_t>& cells,
+                                    std::vector<std::uint32_t>& places, PoolLease& shift) {
+  // Cells tell of the ends of their parts first, and of their begins when the last one has been taken from
+  // there.
+  std::uint32_t sum = 0;
+  for (std::uint32_t& start : starts_) start = sum += start;
+  for_each_range(cells.size(), shift, [&](std::uint32_t from, std::uint32_t to) {
+    for (std::size_t k = cells.size(); k-- > 0;)
+      if (cells[k] - from < to - from) places[k] = --starts_[cells[k]];
+  });
+}
+
+/// Returns how wide the widest is.
+float SweptSphereGrid::arrange(const UnsortedSweptSpheres& all, PoolLease& shift) {
+  const auto count = static_cast<std::uint32_t>(all.numbers.size());
+  std::vector<std::uint32_t> cells(count);
+  const SweptSphereSpread error = spread_of(all, shift);
+  choose_grid(all, error, cells, shift);
+  std::vector<std::uint32_t> places(count);
+  choose_places(cells, places, shift);
+  most_behind_ = least_behind + static_cast<std::uint32_t>(4.0 * std::sqrt(static_cast<double>(count)));
+  table_.resize(count, most_behind_ + 2);
+  cells_.resize(count);
+  shift.parallel_for(count, many, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t k = begin; k < end; ++k) {
+      table_.fill(places[k], all.numbers[k], all.spheres[k]);
+      cells_[places[k]] = cells[k];
+    }
+  });
+  sorted_ = count;
+  return error.largest();
+}
+
+/// A query, and the sorted capsules that may meet its own, but for those before a place.
+void SweptSphereGrid::add_runs(const SweptSphereQuery& query, std::uint32_t first_place,
+                               SweptSphereSearches& searches) const {
+  const auto number = static_cast<std::uint32_t>(searches.queries.size());
+  searches.queries.push_back(query);
+  const auto cells = grid_.cells_near(float_aabb_of(query.sphere, query.from, query.to), reach_);
+  if (!cells) return;
+  // Two runs that take no fewer vectors than both with all between them are read as one; unless what is
+  // between them may have been read already.
+  const bool in_order = !grid_.wraps(*cells);
+  const auto vectors = [](const SlotRange& run) {
+    return (run.end - run.begin + search_lanes - 1) / search_lanes;
+  };
+  std::vector<SlotRange>& runs = searches.runs;
+  grid_.for_each_row(*cells, [&](std::uint32_t first, std::uint32_t last) {
+    const SlotRange run{std::max(starts_[first], first_place), starts_[last], number};
+    if (run.begin >= run.end) return;
+    if (in_order && !runs.empty() && runs.back().query == number) {
+      const SlotRange both{runs.back().begin, run.end, number};
+      if (vectors(both) <= vectors(runs.back()) + vectors(run)) {
+        runs.back() = both;
+        return;
+      }
+    }
+    runs.push_back(run);
+  });
+}
+
+void SweptSphereGrid::add_search(const SweptSphereQuery& query, SweptSphereSearches& searches) const {
+  if (sorted_ > 0) {
+    add_runs(query, 0, searches);
+  } else {
+    searches.queries.push_back(query);
+  }
+  if (table_.slots() > sorted_)
+    searches.runs.push_back(
+        {sorted_, table_.slots(), static_cast<std::uint32_t>(searches.queries.size() - 1)});
+}
+
+void SweptSphereGrid::add_search_behind(std::uint32_t place, SweptSphereSearches& searches) const {
+  assert(sorted_ == table_.slots());
+  add_runs({table_.swept_sphere_at(place), 0.0f, 1.0f}, place + 1, searches);
+}
+
+bool SweptSphereGrid::is_valid() const {
+  const auto is_positive = [](double value) { return value > 0.0 && value < infinity; };
+  if (!is_finite(frame_.base) || !std::isfinite(frame_.origin) || !is_positive(frame_.per_length) ||
+      !is_positive(frame_.per_time))
+    return false;
+  if (!(reach_ >= 0.0f && widest_ >= 0.0f && coarseness_ >= 1.0f && coarseness_ <= coarsest)) return false;
+  if (!table_.is_valid() || sorted_ > table_.slots()) return false;
+  if (sorted_ == 0) return true;
+  if (!grid_.is_valid() || starts_.size() != grid_.cells() + 1 || cells_.size() < sorted_) return false;
+  for (std::uint32_t place = 0; place < sorted_; ++place)
+    if (cells_[place] >= grid_.cells() || place < starts_[cells_[place]] ||
+        place >= starts_[cells_[place] + 1])
+      return false;
+  return starts_.front() == 0 && starts_.back() == sorted_ && std::is_sorted(starts_.begin(), starts_.end());
+}
+
+}  // namespace kinesphere

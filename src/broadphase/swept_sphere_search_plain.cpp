@@ -1,0 +1,39 @@
+// What a search computes, capsule by capsule: the plain twin of capsule_search.cpp.
+//
+// Two capsules are apart during the span if the distance of their centres, which is least at a time s that
+// one division gives, is more than the sum of their radii. As squares: no root. Where numbers are too small
+// for their squares nothing is certain; neither where radii are too large for that, or something is not a
+// number: then no comparison holds.
+#include <algorithm>
+
+#include "broadphase/swept_sphere_search.hpp"
+
+namespace kinesphere {
+
+void near_swept_spheres_plain(const SweptSphereColumns& table, std::span<const SweptSphereQuery> queries,
+                              std::span<const SlotRange> runs, std::uint64_t* words) {
+  for (const SlotRange& run : runs) {
+    const auto& [capsule, from, to] = queries[run.query];
+    const auto& [centre, velocity, radius] = capsule;
+    std::fill_n(words, words_for(run), 0);
+    for (std::uint32_t k = run.begin; k < run.end; ++k) {
+      const float dx = table[0][k] - centre[0], dy = table[1][k] - centre[1], dz = table[2][k] - centre[2];
+      const float du = table[3][k] - velocity[0], dv = table[4][k] - velocity[1],
+                  dw = table[5][k] - velocity[2];
+      const float radii = table[6][k] + radius;
+      const float xv = dx * du + dy * dv + dz * dw;
+      const float vv = du * du + dv * dv + dw * dw;
+      const float nearest = -xv / (vv + swept_sphere_search::least_square);
+      const float late = nearest > from ? nearest : from;
+      const float s = late < to ? late : to;
+      const float px = dx + du * s, py = dy + dv * s, pz = dz + dw * s;
+      const float square = px * px + py * py + pz * pz;
+      const std::uint32_t at = k - run.begin;
+      if (!(square > radii * radii + swept_sphere_search::least_square))
+        words[at / slots_in_a_word] |= std::uint64_t{1} << (at % slots_in_a_word);
+    }
+    words += words_for(run);
+  }
+}
+
+}  // namespace kinesphere

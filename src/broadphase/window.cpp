@@ -1,0 +1,40 @@
+#include "broadphase/window.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "broadphase/window_policy.hpp"
+#include "number/powers.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// The shortest window at a time may not be shorter than what its multiples can tell.
+constexpr int digits = 50;
+
+}  // namespace
+
+Window Window::at(double now, int rung) {
+  const int tellable = std::clamp(exponent_of(now) - digits, -longest_rung, longest_rung);
+  const int possible = std::clamp(rung, tellable, longest_rung);
+  return {possible, (std::floor(now * power_of_two(-possible)) + 1.0) * power_of_two(possible)};
+}
+
+Window Window::free_at(double now, int rung, std::span<const int> held) {
+  Window window = at(now, rung);
+  while (std::find(held.begin(), held.end(), window.rung) != held.end()) {
+    const Window shorter = at(now, window.rung - WindowPolicy::powers_between_rungs);
+    if (shorter.rung == window.rung) return {window.rung, now};
+    window = shorter;
+  }
+  return window;
+}
+
+double Window::begin() const { return end - power_of_two(rung); }
+
+bool Window::is_valid() const {
+  return rung == endless().rung ? end == infinity
+                                : std::abs(rung) <= longest_rung && std::abs(end) <= latest_end;
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,309 @@
+#include "broadphase/window_policy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "number/powers.hpp"
+
+namespace kinesphere {
+namespace {
+
+// Costs in looks at a capsule, fitted to measured times.
+/// To start a body, apart from its search.
+constexpr double start_cost = 120.0;
+/// A search that finds nothing looks at so many capsules,
+constexpr double search_spheres = 24.0;
+/// and costs this with the rows in which they are.
+constexpr double search_cost = 36.0;
+/// A search finds a near pair, which mostly becomes hot.
+constexpr double cost_of_near_pair = 100.0;
+/// The same with the looks and reports that come of it.
+constexpr double price_of_near_pair = 260.0;
+/// Cells are cubes, capsules are not: so many times as far apart are bodies at which a search looks.
+constexpr double farther_in_cells = 5.0;
+// Of a search among cells that are small beside its capsule.
+constexpr double cost_of_row = 4.0;
+constexpr double spheres_in_cell = 2.0;
+
+/// Another length has to be so much cheaper.
+constexpr double enough_cheaper = 0.9;
+/// A body is much faster than most if it goes so many times as far.
+constexpr double much_farther = 4.0;
+constexpr int most_powers = 300;
+constexpr double shortest_way = power_of_two(-most_powers);
+/// At once, to shorter windows.
+constexpr int most_change = 6;
+/// Those that are much faster than most change what they do after so many starts.
+constexpr std::uint64_t enough_starts = 64;
+
+double length_of(int rung) { return power_of_two(rung); }
+
+double power(double base, int exponent) {
+  double product = 1.0;
+  for (int k = 0; k < exponent; ++k) product *= base;
+  return product;
+}
+
+}  // namespace
+
+void MotionStatistics::Magnitudes::note(double value) {
+  const int last = static_cast<int>(counts_.size()) - 1;
+  ++counts_[static_cast<std::size_t>(std::clamp(exponent_of(value) - least, 0, last))];
+  ++all_;
+}
+
+/// Of the smallest and the largest ones it is 0 and infinity.
+double MotionStatistics::Magnitudes::value_of(std::size_t k) const {
+  if (k == 0) return 0.0;
+  return k + 1 == counts_.size() ? infinity : 1.5 * power_of_two(static_cast<int>(k) + least);
+}
+
+double MotionStatistics::Magnitudes::median() const {
+  std::size_t k = 0;
+  for (std::uint64_t below = counts_[0]; 2 * below < all_;) below += counts_[++k];
+  return value_of(k);
+}
+
+double MotionStatistics::Magnitudes::mean() const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < counts_.size(); ++k)
+    if (counts_[k] > 0) sum += static_cast<double>(counts_[k]) / static_cast<double>(all_) * value_of(k);
+  return sum;
+}
+
+void MotionStatistics::note(const Vec3& centre, const SpeedBound& speed_bound) {
+  ++bodies_;
+  for (int axis = 0; axis < 3; ++axis) {
+    lower_[axis] = std::min(lower_[axis], centre[axis]);
+    upper_[axis] = std::max(upper_[axis], centre[axis]);
+  }
+  speeds_.note(speed_bound.speed);
+  accelerations_.note(speed_bound.acceleration);
+}
+
+double MotionStatistics::spacing() const {
+  const Vec3 size = upper_ - lower_;
+  std::array<double, 3> sides{size.x, size.y, size.z};
+  std::sort(sides.begin(), sides.end(), std::greater<>());
+  const double on_line = sides[0] / static_cast<double>(bodies_);
+  if (!(sides[1] > on_line)) return on_line;
+  const double in_layer = std::sqrt(sides[1] * on_line);
+  if (!(sides[2] > in_layer)) return in_layer;
+  // The mathematical library has no cubic root that is the same everywhere.
+  return sides[0] * power_of_two(-exponent_of(static_cast<double>(bodies_)) / 3);
+}
+
+SpeedBound MotionStatistics::typical() const { return {speeds_.median(), accelerations_.mean()}; }
+
+void WindowPolicy::choose(double way, const SpeedBound& typical) {
+  way = std::min(way, longest_way_);
+  const double squared_speed = typical.speed * typical.speed;
+  const double time =
+      2.0 * way / (typical.speed + std::sqrt(squared_speed + 2.0 * typical.acceleration * way));
+  main_rung_ = time < infinity ? std::clamp(exponent_of(time), -most_powers, most_powers) : most_powers;
+  typical_way_ = way;
+  fast_way_ = std::min(much_farther * way, longest_way_);
+}
+
+int WindowPolicy::rung_for(const SpeedBound& speed_bound) const {
+  int rung = main_rung_;
+  if (speed_bound.way(length_of(rung)) <= much_farther * typical_way_) return rung;
+  do rung -= powers_between_rungs;
+  while (rung > -most_powers && !(speed_bound.way(length_of(rung)) <= fast_way_));
+  return rung;
+}
+
+double WindowPolicy::Starts::times_larger(double factor, int dimensions) const {
+  return power(short_side(factor) / short_side(1.0), dimensions - 1) * (long_side(factor) / long_side(1.0));
+}
+
+double WindowPolicy::Starts::cost_of_finding(double factor, int dimensions) const {
+  const double slenderness = long_side(factor) / short_side(factor);
+  return power(farther_in_cells * slenderness, dimensions - 1);
+}
+
+/// At how many capsules so many searches look that find so many near pairs, among those in main windows, if
+/// these were so many times as long; at no more than there are.
+double WindowPolicy::looks(std::uint64_t searches, double found, double times_longer) const {
+  return std::min(found * main_.cost_of_finding(times_longer, dimensions_),
+                  static_cast<double>(searches) * static_cast<double>(bodies_));
+}
+
+/// The cost of a time as long as a main window, if these were so many times as long and there were so many
+/// kicks in so many windows. Cells become larger with the capsules, so that searches that find nothing cost
+/// the same. Those that start find each pair once, and kicks do not.
+double WindowPolicy::main_rate(double times_longer, const RenewalCounts& updates, double windows) const {
+  const auto pairs = [&](std::uint64_t searches, std::uint64_t near) {
+    const double found = static_cast<double>(near) * main_.times_larger(times_longer, dimensions_);
+    return found * cost_of_near_pair + looks(searches, found, times_longer);
+  };
+  const double starts =
+      static_cast<double>(main_.bodies) * (start_cost + search_cost) + pairs(main_.bodies, main_.near);
+  const double of_kicks =
+      static_cast<double>(updates.bodies) * 2.0 * search_cost + pairs(updates.bodies, updates.near);
+  return starts / times_longer + of_kicks / windows;
+}
+
+/// The same for those that are much faster than most, whose cells are those of others.
+double WindowPolicy::fast_rate(double times_longer) const {
+  const double width = fast_.long_side(times_longer) / static_cast<double>(fast_.bodies);
+  const double cells = 1.0 + width / std::max(price_.long_side, typical_way_);
+  const double rows = power(cells, dimensions_ - 1);
+  const double search = std::min(rows * (cost_of_row + cells * spheres_in_cell),
+                                 (cost_of_row + 1.0) * static_cast<double>(bodies_));
+  const double pairs = static_cast<double>(fast_.near) * fast_.times_larger(times_longer, dimensions_);
+  return (static_cast<double>(fast_.bodies) * (start_cost + search) + pairs * cost_of_near_pair) /
+         times_longer;
+}
+
+void WindowPolicy::start_main(double now, const RenewalCounts& updates) {
+  if (now > main_start_ && main_.bodies > 0) adapt_main(updates, (now - main_start_) / length_of(main_rung_));
+  main_ = {};
+  main_start_ = now;
+}
+
+/// Far less than the typical way.
+double WindowPolicy::Sample::quantum() const {
+  constexpr int quanta_in_way = 12;
+  return power_of_two(exponent_of(std::max(policy_->typical_way_, shortest_way)) - quanta_in_way);
+}
+
+/// Lengths far beyond the typical way say no more than that they are, and those far below it no less; 2^30 of
+/// the longest still have a sum.
+std::uint64_t WindowPolicy::Sample::quanta_in(double length) const {
+  constexpr double most = 0x1p33;
+  const double quanta = std::ceil(length / quantum());
+  return static_cast<std::uint64_t>(quanta < most ? quanta : most);
+}
+
+void WindowPolicy::Sample::add(double width, const SpeedBound& speed_bound, double time, double most) {
+  widths_ += quanta_in(width);
+  const double part = std::min(1.0, most / speed_bound.way(time));
+  if (!(part > 0.0)) {
+    ways_ += quanta_in(most);
+    return;
+  }
+  ways_ += quanta_in(part * speed_bound.speed * time);
+  growths_ += quanta_in(part * speed_bound.acceleration * time * time);
+}
+
+void WindowPolicy::Sample::note(const SpeedBound& speed_bound, double width, int rung) {
+  ++bodies_;
+  // Where times cannot be told apart so well, windows are longer than they should be.
+  if (rung >= policy_->main_rung_) ++in_main_;
+  if (!most_) return add(width, speed_bound, length_of(rung), policy_->longest_way_);
+  const double time = length_of(policy_->main_rung_);
+  add(width, speed_bound, time, much_farther * policy_->typical_way_);
+  const double way = speed_bound.way(time);
+  const int magnitude = way > 0.0 ? exponent_of(way / policy_->typical_way_) : -least_magnitude;
+  const int last = static_cast<int>(magnitudes) - 1;
+  ++ways_gone_[static_cast<std::size_t>(std::clamp(magnitude + least_magnitude, 0, last))];
+}
+
+WindowPolicy::Sample& WindowPolicy::Sample::operator+=(const Sample& more) {
+  bodies_ += more.bodies_;
+  in_main_ += more.in_main_;
+  for (std::size_t k = 0; k < magnitudes; ++k) ways_gone_[k] += more.ways_gone_[k];
+  widths_ += more.widths_;
+  ways_ += more.ways_;
+  growths_ += more.growths_;
+  return *this;
+}
+
+/// What a round adds to those that have started.
+WindowPolicy::Starts& WindowPolicy::Starts::operator+=(const Sample& round) {
+  bodies += round.bodies_;
+  in_main += round.in_main_;
+  for (std::size_t k = 0; k < magnitudes; ++k) ways_gone[k] += round.ways_gone_[k];
+  const double quantum = round.quantum();
+  widths += quantum * static_cast<double>(round.widths_);
+  ways += quantum * static_cast<double>(round.ways_);
+  growths += quantum * static_cast<double>(round.growths_);
+  return *this;
+}
+
+void WindowPolicy::finish_start(const Sample& round, std::uint64_t near, std::uint64_t bodies) {
+  bodies_ = bodies;
+  Starts& starts = round.most_ ? main_ : fast_;
+  starts += round;
+  starts.near += near;
+  if (round.most_) {
+    note_price();
+  } else if (fast_.bodies >= enough_starts) {
+    adapt_fast();
+  }
+}
+
+void WindowPolicy::note_price() {
+  const auto count = static_cast<double>(main_.bodies);
+  const auto near = static_cast<double>(main_.near);
+  const double pairs = near * price_of_near_pair + looks(main_.bodies, near, 1.0);
+  const double across = main_.short_side(1.0) / count;
+  const double along = main_.long_side(1.0) / count;
+  price_ = {};
+  if (along < infinity && across > 0.0) price_ = {across, along, pairs / count};
+}
+
+/// As times_larger() has it; the cells stay as they are.
+double WindowPolicy::cost_of_width(double more) const {
+  const auto& [across, along, pairs] = price_;
+  if (!(across > 0.0)) return 0.0;
+  const double longer = 1.0 + more / along;
+  const double larger = power(1.0 + more / across, dimensions_ - 1) * longer;
+  const double cost = search_spheres * (power(longer, dimensions_) - 1.0) + pairs * (larger - 1.0);
+  return std::isnan(cost) ? infinity : cost;
+}
+
+void WindowPolicy::adapt_main(const RenewalCounts& updates, double windows) {
+  int change = 0;
+  double least = enough_cheaper * main_rate(1.0, updates, windows);
+  // Longer ones have to be tried: what searches find in them is not known well.
+  const bool may_grow = 2 * main_.in_main > main_.bodies && 2.0 * typical_way_ <= longest_way_;
+  for (int powers = may_grow ? 1 : -1; powers >= -most_change; --powers) {
+    const double changed = main_rate(power_of_two(powers), updates, windows);
+    if (powers == 0 || !(changed < least)) continue;
+    least = changed;
+    change = powers;
+  }
+  change = std::clamp(change, -most_powers - main_rung_, most_powers - main_rung_);
+  main_rung_ += change;
+  // An eighth of the bodies may be faster than most.
+  std::size_t magnitude = magnitudes - 1;
+  for (std::uint64_t faster = main_.ways_gone[magnitude]; 8 * faster <= main_.bodies && magnitude > 0;)
+    faster += main_.ways_gone[--magnitude];
+  const double way = typical_way_ * power_of_two(static_cast<int>(magnitude) - least_magnitude + change);
+  const double before = typical_way_;
+  typical_way_ = std::clamp(way, shortest_way, longest_way_);
+  const double fast_way = before > 0.0 ? fast_way_ * (typical_way_ / before) : much_farther * typical_way_;
+  fast_way_ = std::clamp(fast_way, typical_way_, longest_way_);
+}
+
+/// Their windows differ by factors.
+void WindowPolicy::adapt_fast() {
+  const double factor = power_of_two(powers_between_rungs);
+  const double least = enough_cheaper * fast_rate(1.0);
+  if (2 * fast_.in_main > fast_.bodies) {
+    // Most bodies are in windows that are longer than the main one, which must be far too short.
+    main_rung_ = std::min(main_rung_ + powers_between_rungs, most_powers);
+    typical_way_ = std::min(typical_way_ * factor, longest_way_);
+  } else if (fast_rate(factor) < least) {
+    fast_way_ = std::min(fast_way_ * factor, longest_way_);
+  } else if (fast_rate(1.0 / factor) < least) {
+    fast_way_ = std::max(fast_way_ / factor, typical_way_);
+  }
+  fast_ = {};
+}
+
+bool WindowPolicy::is_valid() const {
+  const auto is_way = [this](double way) { return way >= 0.0 && way <= longest_way_; };
+  const auto are_sound = [](const Starts& starts) {
+    return starts.widths >= 0.0 && starts.ways >= 0.0 && starts.growths >= 0.0;
+  };
+  const bool is_price =
+      price_.short_side >= 0.0 && price_.long_side >= price_.short_side && price_.pairs >= 0.0;
+  return is_price && std::abs(main_rung_) <= most_powers && is_way(typical_way_) && is_way(fast_way_) &&
+         are_sound(main_) && are_sound(fast_) && std::isfinite(main_start_);
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,129 @@
+#include "contact/contact_predictor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <type_traits>
+
+#include "bound/sides_in_reach.hpp"
+#include "contact/contact_event.hpp"
+#include "number/bit_cast.hpp"
+#include "number/infinity.hpp"
+
+namespace kinesphere {
+
+double just_after(double time) {
+  if (time == 0.0) return std::numeric_limits<double>::denorm_min();
+  if (!(time < infinity)) return time;
+  const auto bits = bit_cast<std::int64_t>(time);
+  return bit_cast<double>(time > 0.0 ? bits + 1 : bits - 1);
+}
+
+EventKind kind_of(ContactRule::Change change, bool sensed, Wall wall) {
+  if (sensed) return change == ContactRule::Change::begin ? EventKind::sensor_enter : EventKind::sensor_leave;
+  if (change == ContactRule::Change::begin)
+    return wall == Wall::none ? EventKind::contact_begin : EventKind::wall_begin;
+  return wall == Wall::none ? EventKind::contact_end : EventKind::wall_end;
+}
+
+template <class Partner>
+double ContactPredictor<Partner>::until_reports() const {
+  const double time = threshold_.within ? separation(rule_.release_gap()) : meeting(0.0);
+  if (time == infinity || time <= now_) return time;
+  const GapLimits gap = gap_limits(bound_, partner_, now_);
+  const bool far = threshold_.within ? gap.upper < rule_.separation_distance() + threshold_.distance
+                                     : gap.lower > rule_.tolerance() + threshold_.distance;
+  return far ? time : now_;
+}
+
+template <class Partner>
+ContactDecision ContactPredictor<Partner>::decide(const Event& current, const RelativeLimits& promise) const {
+  ContactDecision verdict;
+  const double beyond = current.gap - threshold_.distance;
+  const double error = approach_error(current, arm(current.gap));
+  verdict.change = rule_.decide(threshold_.within, beyond, current.approach_speed, error);
+  if (verdict.is_event()) return verdict;
+  if (threshold_.within && verdict.change != ContactRule::Change::release) {
+    verdict.next_check = std::max(separation(rule_.release_gap()), just_after(now_));
+    return verdict;
+  }
+  // A certificate cannot guard a gap that lies within its own rounding of the present one, as it may for two
+  // within the tolerance.
+  const double gap = beyond > rule_.tolerance() ? beyond : beyond - resolution();
+  double time = meeting(rule_.guarded_gap(gap));
+  const double hidden_approach = std::max(current.approach_speed + error, 0.0);
+  const double least =
+      now_ + rule_.least_step(beyond, promise.speed_error + hidden_approach, promise.acceleration);
+  if (time < least) {
+    // The Zeno guard: time has to move on between two looks at a contact that does not approach.
+    time = least;
+    verdict.zeno_step = true;
+    verdict.breaks_tolerance = rule_.step_breaks_tolerance(beyond);
+  }
+  if (rule_.is_deep(gap)) {
+    const double surfaces = separation(rule_.surface_gap());
+    // The meeting was looked for no further than this, so no more is known.
+    if (surfaces <= horizons_.meeting) time = std::min(time, surfaces);
+  }
+  verdict.next_check = std::max(time, just_after(now_));
+  return verdict;
+}
+
+template <class Partner>
+ContactDecision ContactPredictor<Partner>::defer(const Event& current, const RelativeLimits& promise) const {
+  const double beyond = current.gap - threshold_.distance;
+  const double speed = promise.speed_error + std::max(current.approach_speed, 0.0);
+  const double next_look = now_ + rule_.least_step(beyond, speed, promise.acceleration);
+  return {.next_check = std::max(next_look, just_after(now_)),
+          .zeno_step = true,
+          .breaks_tolerance = rule_.step_breaks_tolerance(beyond)};
+}
+
+/// Of approach_error().
+template <class Partner>
+double ContactPredictor<Partner>::arm(double gap) const {
+  if constexpr (std::is_same_v<Partner, Bound>)
+    return gap + bound_.radius + partner_.radius;
+  else
+    return std::is_same_v<Partner, HalfSpace> ? infinity : gap + bound_.radius;
+}
+
+/// More than what rounding can hide of the present gap.
+template <class Partner>
+double ContactPredictor<Partner>::resolution() const {
+  const GapLimits limits = gap_limits(bound_, partner_, now_);
+  return 1.25 * (limits.upper - limits.lower);
+}
+
+template class ContactPredictor<Bound>;
+template class ContactPredictor<HalfSpace>;
+template class ContactPredictor<Box>;
+template class ContactPredictor<Triangle>;
+
+namespace {
+
+Box walls_in_reach(const ContactRule& rule, const BoundAt& bound, const Box& box, double duration) {
+  // Covers rounding, as positions and ways are at most 2^45 tolerances.
+  const double rounding_room = rule.tolerance() / 16.0;
+  return sides_in_reach(bound, box, duration, rule.tolerance() + rounding_room);
+}
+
+}  // namespace
+
+Box walls_in_reach(const ContactRule& rule, const Bound& bound, const Box& box, double now, double until) {
+  return walls_in_reach(rule, BoundAt(bound, now), box, until - now);
+}
+
+double until_reports_of_walls(const ContactRule& rule, const Bound& bound, const Box& box, double now,
+                              double until) {
+  const BoundAt moved(bound, now);
+  const Box near = walls_in_reach(rule, moved, box, until - now);
+  if (!has_sides(near)) return infinity;
+  const double time = earliest_exit(bound, near, now, until);
+  if (time == infinity || time <= now) return time;
+  // The time holds in any case; whether fresh reports would give a better one may be off by rounding.
+  const bool far = !has_sides(sides_in_reach(moved, near, 0.0, rule.tolerance()));
+  return far ? time : now;
+}
+
+}  // namespace kinesphere

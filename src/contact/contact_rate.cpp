@@ -1,0 +1,57 @@
+#include "contact/contact_rate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinesphere {
+namespace {
+
+/// A chain of touching bodies passes a push on in some contacts each; these are far more.
+constexpr std::uint32_t many_at_one_instant = 64;
+constexpr std::uint32_t most_at_one_instant = 256;
+
+}  // namespace
+
+void ContactRate::add(std::uint32_t body, double zeno_interval) {
+  if (body >= bodies_.size()) bodies_.resize(body + std::size_t{1});
+  bodies_[body] = {};
+  set_zeno_interval(body, zeno_interval);
+}
+
+void ContactRate::set_zeno_interval(std::uint32_t body, double zeno_interval) {
+  bodies_[body].zeno_interval = TruncatedDouble(zeno_interval);
+}
+
+ContactRate::Marks ContactRate::note(std::span<const std::uint32_t> bodies, double time) {
+  Marks marks{false, contacts_now(bodies, time) >= many_at_one_instant};
+  for (const std::uint32_t body : bodies) {
+    Body& one = bodies_[body];
+    marks.repeated = marks.repeated || time - one.last_contact < one.zeno_interval.value();
+    if (one.last_contact != time) one.contacts_then = 0;
+    if (one.contacts_then < most_at_one_instant) ++one.contacts_then;
+    one.last_contact = time;
+  }
+  return marks;
+}
+
+bool ContactRate::is_jammed(std::span<const std::uint32_t> bodies, double time) const {
+  return contacts_now(bodies, time) >= most_at_one_instant;
+}
+
+/// That each of them has had at least.
+std::uint32_t ContactRate::contacts_now(std::span<const std::uint32_t> bodies, double time) const {
+  std::uint32_t least = most_at_one_instant;
+  for (const std::uint32_t body : bodies) {
+    const Body& one = bodies_[body];
+    least = std::min(least, one.last_contact == time ? std::uint32_t{one.contacts_then} : 0);
+  }
+  return least;
+}
+
+bool ContactRate::is_valid() const {
+  return std::all_of(bodies_.begin(), bodies_.end(), [](const Body& body) {
+    return !std::isnan(body.last_contact) && body.zeno_interval.value() >= 0.0;
+  });
+}
+
+}  // namespace kinesphere

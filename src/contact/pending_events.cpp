@@ -1,0 +1,94 @@
+#include "contact/pending_events.hpp"
+
+#include <algorithm>
+
+namespace kinesphere {
+namespace {
+
+/// Brings the event up to date with the two as they are now.
+void describe_now(Event& event, const Sphere& first, const Sphere& second, const Space& space,
+                  const std::optional<Box>& box) {
+  if (event.wall != Wall::none) {
+    describe(event, first, *box);
+  } else {
+    describe(event, first, second, space);
+  }
+}
+
+bool still_begins(const ContactGraph& book, const Event& now, const Sphere& first, const Sphere& second) {
+  const ContactRule& rule = book.rule_of({.within = false, .sensed = is_of_sensor(now.kind)});
+  return rule.decide(false, now.gap - now.distance, now.approach_speed, approach_error(now, first, second)) ==
+         ContactRule::Change::begin;
+}
+
+}  // namespace
+
+/// What the sensor_enter of the same two and the same distance told.
+Senses PendingEvents::senses_at_enter(const ContactGraph& book, const Event& leave) {
+  for (const OverlapRecord& overlap :
+       book.overlaps_of(book.number_of(leave.first), book.number_of(leave.second)))
+    if (overlap.distance == leave.distance) return overlap.senses;
+  return Senses::neither;
+}
+
+void PendingEvents::end(ContactGraph& book, const Event& contact) {
+  book.set_touching(contact, false);
+  // An end that had come by itself has not taken effect yet.
+  pending_.erase(contact);
+  if (is_of_sensor(contact.kind) || !book.rule().impacts_only()) ended_.insert(contact);
+}
+
+void PendingEvents::queue(const Event& event) {
+  // A caller who kicks at a Zeno guard must not get the same one again at the same instant, for ever.
+  if (!delivered_guards_.contains(event)) pending_.insert(event);
+}
+
+/// Changes the contact's state and brings the event up to date with kicks of this instant. False when it does
+/// not hold any more.
+bool PendingEvents::take_effect(ContactGraph& book, Event& event, const Sphere& first, const Sphere& second,
+                                const std::optional<Box>& box) {
+  if (event.kind == EventKind::zeno_guard) delivered_guards_.insert(event);
+  if (event.kind == EventKind::zeno_guard || event.kind == EventKind::bound_violation) return true;
+  const bool begins_now = begins(event.kind);
+  describe_now(event, first, second, book.space(), box);
+  if (begins_now && !still_begins(book, event, first, second)) return false;
+  if (begins_now && !is_of_sensor(event.kind)) book.note_contact(event);
+  book.set_touching(event, begins_now);
+  changed_.emplace_back(book.number_of(first.id), book.number_of(second.id));
+  return true;
+}
+
+bool PendingEvents::is_valid(std::size_t bodies, double time, const std::optional<Box>& box,
+                             const std::function<bool(BodyId)>& is_known) const {
+  const auto event_is_valid = [&](const Event& event) {
+    const bool pair = is_known(event.second) && event.first < event.second && event.wall == Wall::none;
+    const bool wall = event.second == no_body && event.wall != Wall::none &&
+                      static_cast<int>(event.wall) <= wall_count && box && stands(*box, event.wall);
+    if (event.time != time || !is_known(event.first)) return false;
+    if (!(event.senses <= Senses::both)) return false;
+    switch (event.kind) {
+      case EventKind::bound_violation:
+      case EventKind::woke:
+        return event.second == no_body && event.wall == Wall::none;
+      case EventKind::contact_begin:
+      case EventKind::contact_end:
+        return pair;
+      case EventKind::wall_begin:
+      case EventKind::wall_end:
+        return wall;
+      case EventKind::zeno_guard:
+        return pair || wall;
+      case EventKind::sensor_enter:
+      case EventKind::sensor_leave:
+        return pair && event.distance >= 0.0;
+    }
+    return false;
+  };
+  const auto change_is_valid = [&](const auto& pair) { return pair.first < bodies && pair.second < bodies; };
+  return pending_.is_valid() && pending_.all_of(event_is_valid) &&
+         std::all_of(ended_.begin(), ended_.end(), event_is_valid) &&
+         std::all_of(delivered_guards_.begin(), delivered_guards_.end(), event_is_valid) &&
+         std::all_of(changed_.begin(), changed_.end(), change_is_valid);
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,266 @@
+#include "distributed/batch_exchange.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "distributed/guarded.hpp"
+
+namespace kinesphere {
+namespace {
+
+enum class Standing : std::uint8_t { content, has_news, has_failed };
+
+}  // namespace
+
+BatchExchange::BatchExchange(Communicator& communicator, ErrorConsensus& agreement, RankState& local,
+                             Migration& transit, HaloRegions& known, SpeculativeRunner& islands)
+    : communicator_(communicator),
+      agreement_(agreement),
+      local_(local),
+      transit_(transit),
+      known_(known),
+      runner_(islands),
+      round_(communicator.ranks()) {}
+
+Result<void> BatchExchange::run() {
+  for (;;) {
+    join_as_told();
+    if (!agreement_.has_noted() &&
+        !runner_.execute_all([this](const Cluster& group) { return is_ready(group); }))
+      agreement_.note(*runner_.failure());
+    const auto shared = share();
+    if (!shared) return shared.error();
+    if (!*shared) return {};
+  }
+}
+
+bool BatchExchange::is_ours(const Cluster& group) const {
+  const auto members = runner_.members_of(group);
+  return std::any_of(members.begin(), members.end(), [this](std::uint32_t number) { return is_own(number); });
+}
+
+/// All pairs of its bodies are known here.
+bool BatchExchange::is_ready(const Cluster& group) const {
+  const auto members = runner_.members_of(group);
+  return is_ours(group) && std::all_of(members.begin(), members.end(), [this](std::uint32_t number) {
+           return is_own(number) || !local_.state.broad_phase.contains(number) ||
+                  known_.covers(local_.box_of(number));
+         });
+}
+
+/// In ascending order.
+std::vector<int> BatchExchange::owners_of(const Cluster& group) const {
+  std::vector<int> owners;
+  for (const std::uint32_t number : runner_.members_of(group)) {
+    const int owner = local_.directory[number].owner;
+    if (std::find(owners.begin(), owners.end(), owner) == owners.end()) owners.push_back(owner);
+  }
+  std::sort(owners.begin(), owners.end());
+  return owners;
+}
+
+/// Tells the others what is new of islands, and learns the same from them. False when nothing is, anywhere.
+Result<bool> BatchExchange::share() {
+  if (!agreement_.has_noted() && communicator_.ranks() > 1) note_news();
+  const Standing standing = agreement_.has_noted() ? Standing::has_failed
+                            : round_.is_empty()    ? Standing::content
+                                                   : Standing::has_news;
+  ByteWriter writer;
+  writer(standing, round_.asks);
+  std::vector<std::vector<Box>> asked;
+  bool any = false;
+  bool failed = false;
+  for (const Communicator::Bytes& bytes : communicator_.gather(writer.bytes())) {
+    Standing theirs{};
+    ByteReader reader(bytes);
+    reader(theirs, asked.emplace_back());
+    any = any || theirs == Standing::has_news;
+    failed = failed || theirs == Standing::has_failed;
+  }
+  if (failed) return agreement_.agree_on_noted().error();
+  if (!any) return false;
+  ++rounds_;
+  SendBuffers outbox(communicator_.ranks());
+  for (int rank = 0; rank < communicator_.ranks(); ++rank) {
+    if (rank == communicator_.rank()) continue;
+    const std::vector<Box>& boxes = asked[static_cast<std::size_t>(rank)];
+    for (const Box& box : boxes) known_[rank].add(box);
+    for (const std::uint32_t number : local_.own_bodies_in(boxes)) send(number, rank);
+    agreement_.note(guarded([&] { send_to(rank, outbox); }));
+  }
+  round_ = Round(communicator_.ranks());
+  take_in(outbox.exchange(communicator_));
+  // What has come with space that was asked for may be in the way of those who asked.
+  for (const std::uint32_t own : std::exchange(asking_, {}))
+    if (!runner_.clusters()[own].is_merged()) runner_.run_again(own);
+  return true;
+}
+
+/// What the round has for this rank.
+void BatchExchange::send_to(int rank, SendBuffers& outbox) {
+  auto& [message, bodies] = round_.to(rank);
+  for (const std::uint32_t number : bodies) {
+    message.bodies.push_back(transit_.pack_checkpoint(number, runner_));
+    message.bodies.back().enters = true;
+  }
+  transit_.add_due(message.bodies, bodies, &runner_);
+  if (!message.is_empty()) outbox.add(rank, message);
+}
+
+void BatchExchange::take_in(const std::vector<Communicator::Bytes>& incoming) {
+  std::vector<RoundMessage> messages(incoming.size());
+  std::vector<BodyMessage> parcels;
+  for (std::size_t from = 0; from < incoming.size(); ++from) {
+    if (incoming[from].empty()) continue;
+    RoundMessage& message = messages[from];
+    ByteReader reader(incoming[from]);
+    reader(message);
+    std::move(message.bodies.begin(), message.bodies.end(), std::back_inserter(parcels));
+    std::move(message.lists.begin(), message.lists.end(), std::back_inserter(lists_));
+  }
+  std::optional<InitialWork> beginning;
+  agreement_.note(guarded([&]() -> Result<void> {
+    auto installed = transit_.install(parcels, &runner_);
+    if (!installed) return installed.error();
+    beginning = std::move(*installed);
+    return {};
+  }));
+  if (!beginning) return;
+  local_.state.contacts.start_side_by_side(local_.bodies().sensors.any());
+  const auto later =
+      std::partition(beginning->due.begin(), beginning->due.end(),
+                     [this](const PairCertificate& pair) { return runner_.is_in_batch(pair.failure_time); });
+  std::for_each(later, beginning->due.end(),
+                [this](const PairCertificate& pair) { local_.main.queue().add(pair); });
+  beginning->due.erase(later, beginning->due.end());
+  runner_.add(*beginning);
+  for (std::size_t from = 0; from < messages.size(); ++from) {
+    for (const std::uint32_t name : messages[from].wanted)
+      if (const auto number = local_.directory.find(name)) send(*number, static_cast<int>(from));
+    for (auto& [name, kick] : messages[from].updates) {
+      const auto number = local_.directory.find(name);
+      if (!number) continue;
+      kick.number = *number;
+      runner_.add_foreign_update(kick);
+    }
+  }
+}
+
+/// SpeculativeRunner that others have joined are joined here, as soon as all of their bodies are known.
+void BatchExchange::join_as_told() {
+  std::erase_if(lists_, [this](JoinList& list) { return join_as_told(list); });
+}
+
+/// False if the list has to wait.
+bool BatchExchange::join_as_told(JoinList& list) {
+  std::vector<std::uint32_t> numbers;
+  for (const JoinList::Member& member : list.together) {
+    if (const auto number = local_.directory.find(member.name)) {
+      numbers.push_back(*number);
+    } else {
+      ask_for(member);
+    }
+  }
+  if (numbers.size() < list.together.size()) return false;
+  runner_.merge_bodies(numbers);
+  std::erase_if(list.counted_on, [&](std::uint32_t name) {
+    const auto number = local_.directory.find(name);
+    if (!number || !is_own(*number)) return true;
+    if (runner_.cluster_of(*number) == nullptr) return false;
+    numbers.push_back(*number);
+    runner_.merge_bodies(numbers);
+    return true;
+  });
+  return list.counted_on.empty();
+}
+
+/// A registered body comes with the space around it, others by their names.
+void BatchExchange::ask_for(const JoinList::Member& member) {
+  if (member.is_registered) {
+    ask_for(member.box);
+  } else {
+    round_.to(member.owner).message.wanted.push_back(member.name);
+  }
+}
+
+/// False if the space is known.
+bool BatchExchange::ask_for(const Box& box) {
+  const bool is_new = known_.cover(box);
+  if (is_new) round_.asks.push_back(box);
+  return is_new;
+}
+
+/// The rank gets a copy of an own body, unless it has one.
+void BatchExchange::send(std::uint32_t number, int to) {
+  if (local_.directory.add_holder(number, to)) round_.to(to).bodies.push_back(number);
+}
+
+void BatchExchange::note_news() {
+  for (Cluster& group : runner_.clusters()) {
+    if (group.is_merged() || !group.is_unsent || !is_ours(group)) continue;
+    group.is_unsent = false;
+    note_space(group);
+    note_list(group, std::nullopt);
+    note_updates(group);
+  }
+  for (const auto& [own, number] : runner_.take_conflicts()) {
+    const Cluster& group = runner_.clusters()[own];
+    if (!group.is_merged()) note_list(group, number);
+  }
+}
+
+/// Asks for what lies in the way of the island's bodies.
+void BatchExchange::note_space(const Cluster& group) {
+  bool any = false;
+  for (const std::uint32_t number : runner_.members_of(group))
+    if (!is_own(number) && local_.state.broad_phase.contains(number))
+      any = ask_for(local_.box_of(number)) || any;
+  for (const SweptSphereUpdate& update : runner_.updates_of(group))
+    any = ask_for(local_.box_of(update)) || any;
+  if (any) asking_.push_back(group.index);
+}
+
+/// Tells the owners of its bodies and of those it counts on of an island; or the owner of one that it meets.
+void BatchExchange::note_list(const Cluster& group, std::optional<std::uint32_t> met) {
+  std::vector<int> owners;
+  const auto note = [&](std::uint32_t number) {
+    const int owner = local_.directory[number].owner;
+    if (owner != communicator_.rank() && std::find(owners.begin(), owners.end(), owner) == owners.end())
+      owners.push_back(owner);
+  };
+  if (met) {
+    note(*met);
+  } else {
+    for (const std::uint32_t number : runner_.members_of(group)) note(number);
+    for (const ReadEntry& counted_on : runner_.read_set_of(group)) note(counted_on.number);
+  }
+  if (owners.empty()) return;
+  JoinList list;
+  const auto add = [&](std::uint32_t number) {
+    const bool is_registered = local_.state.broad_phase.contains(number);
+    list.together.push_back({local_.name_of(number), local_.directory[number].owner, is_registered,
+                             is_registered ? local_.box_of(number) : Box{}});
+  };
+  for (const std::uint32_t number : runner_.members_of(group)) add(number);
+  if (met) add(*met);
+  for (const ReadEntry& counted_on : runner_.read_set_of(group))
+    list.counted_on.push_back(local_.name_of(counted_on.number));
+  for (const int owner : owners) round_.to(owner).message.lists.push_back(list);
+}
+
+/// Tells of kicked bodies all ranks to whose space they come.
+void BatchExchange::note_updates(const Cluster& group) {
+  std::optional<std::vector<int>> owners;
+  for (const SweptSphereUpdate& update : runner_.updates_of(group)) {
+    if (!is_own(update.number)) continue;
+    for (const int to : known_.ranks_that_meet(local_.box_of(update))) {
+      if (!owners) owners = owners_of(group);
+      if (std::binary_search(owners->begin(), owners->end(), to)) continue;
+      send(update.number, to);
+      round_.to(to).message.updates.push_back({local_.name_of(update.number), update});
+    }
+  }
+}
+
+}  // namespace kinesphere

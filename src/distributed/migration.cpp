@@ -1,0 +1,277 @@
+#include "distributed/migration.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "distributed/guarded.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// The body has set out from `departure`, if there is one, for as long as this lives.
+class TemporaryDeparture {
+ public:
+  TemporaryDeparture(Motion& motion, std::uint32_t number, const std::optional<MotionOrigin>& origin)
+      : motion_(motion), number_(number) {
+    if (!origin) return;
+    before_ = motion.origin(number);
+    motion.set_origin(number, *origin).value();
+  }
+  TemporaryDeparture(const TemporaryDeparture&) = delete;
+  TemporaryDeparture& operator=(const TemporaryDeparture&) = delete;
+  ~TemporaryDeparture() {
+    if (before_) (void)motion_.set_origin(number_, *before_);
+  }
+
+ private:
+  Motion& motion_;
+  std::uint32_t number_;
+  std::optional<MotionOrigin> before_;
+};
+
+}  // namespace
+
+BodyMessage Migration::pack(std::uint32_t number) const {
+  const Bodies& bodies = local_.bodies();
+  const BodyDirectory::Entry& entry = local_.directory[number];
+  BodyMessage message;
+  message.name = local_.name_of(number);
+  message.owner = entry.owner;
+  const auto [body, home] = bodies.checkpoint(number);
+  message.body = body;
+  message.image = home;
+  message.filter = bodies.filters.of(number);
+  message.contacts = ContactCheckpoint::of(local_.state.contacts, number);
+  const BroadPhase& windows = local_.state.broad_phase;
+  message.is_registered = windows.contains(number);
+  if (message.is_registered) {
+    message.tier = windows.window_of(number).rung;
+    message.end = windows.end_of(number);
+  }
+  motion_.write_body(entry.in_motion, message.motion).value();
+  // Numbers become names.
+  PartnerList partners;
+  std::vector<OverlapRecord>& overlaps = message.contacts.overlaps;
+  for (const std::uint32_t partner : message.contacts.partners.all()) partners.add(local_.name_of(partner));
+  for (OverlapRecord& overlap : overlaps) overlap.partner = local_.name_of(overlap.partner);
+  if (const PendingLinks::Links* links = dangling_.of(message.name)) {
+    for (const std::uint32_t partner : links->partners) partners.add(partner);
+    overlaps.insert(overlaps.end(), links->overlaps.begin(), links->overlaps.end());
+  }
+  message.contacts.partners = std::move(partners);
+  return message;
+}
+
+BodyMessage Migration::pack_checkpoint(std::uint32_t number, SpeculativeRunner& islands) {
+  const Cluster* group = islands.cluster_of(number);
+  const BodyCheckpoint* checkpoint =
+      group != nullptr && group->executed ? islands.checkpoint_of(number) : nullptr;
+  BodyMessage message;
+  if (checkpoint == nullptr) {
+    message = pack(number);
+  } else {
+    std::optional<MotionOrigin> before;
+    for (const auto& [body, departure] : islands.undo_log_of(*group))
+      if (!before && body.index == local_.name_of(number)) before = departure;
+    const TemporaryDeparture as_it_began(motion_, local_.directory[number].in_motion, before);
+    const Bodies::Checkpoint now = local_.bodies().checkpoint(number);
+    const ContactCheckpoint contacts = ContactCheckpoint::of(local_.state.contacts, number);
+    local_.bodies().restore(number, checkpoint->body);
+    checkpoint->contacts.restore(local_.state.contacts, number);
+    message = pack(number);
+    local_.bodies().restore(number, now);
+    contacts.restore(local_.state.contacts, number);
+  }
+  if (group != nullptr) {
+    for (const Event& event : group->pending)
+      if (event.first.index == message.name) message.pending.push_back(event);
+  }
+  return message;
+}
+
+BodyMessage::Due Migration::due_of(const PairCertificate& pair, std::uint32_t number) const {
+  if (!pair.has_second()) return {pair.failure_time, pair.second};
+  return {pair.failure_time, local_.name_of(pair.first == number ? pair.second : pair.first)};
+}
+
+/// When the part of the phase began, if there is one; else now.
+std::uint32_t Migration::revision_of(std::uint32_t number, const SpeculativeRunner* islands) const {
+  const BodyCheckpoint* checkpoint = islands != nullptr ? islands->checkpoint_of(number) : nullptr;
+  return checkpoint != nullptr ? checkpoint->body.body.revision : local_.bodies()[number].revision;
+}
+
+PairCertificate Migration::certificate(const BodyMessage::Due& due, std::uint32_t number, std::uint32_t other,
+                                       const SpeculativeRunner* islands) const {
+  PairCertificate pair = local_.main.certifier().certificate(due.time, number, other);
+  pair.first_revision = revision_of(pair.first, islands);
+  if (pair.has_second()) pair.second_revision = revision_of(pair.second, islands);
+  return pair;
+}
+
+void Migration::add_due(std::vector<BodyMessage>& messages, std::span<const std::uint32_t> numbers,
+                        SpeculativeRunner* islands) {
+  if (numbers.empty()) return;
+  places_.resize(local_.bodies().numbers());
+  for (std::size_t k = 0; k < numbers.size(); ++k) places_[numbers[k]] = static_cast<std::uint32_t>(k) + 1;
+  const auto note = [&](const PairCertificate& pair) {
+    const std::uint32_t first = places_[pair.first];
+    const std::uint32_t second = pair.has_second() ? places_[pair.second] : 0;
+    if (first == 0 && second == 0) return;
+    if (revision_of(pair.first, islands) != pair.first_revision) return;
+    if (pair.has_second() && revision_of(pair.second, islands) != pair.second_revision) return;
+    if (first != 0) messages[first - 1].due.push_back(due_of(pair, pair.first));
+    if (second != 0) messages[second - 1].due.push_back(due_of(pair, pair.second));
+  };
+  local_.main.queue().for_each(note);
+  if (islands != nullptr) {
+    for (const Cluster& group : islands->clusters()) {
+      if (group.is_merged()) continue;
+      for (const PairCertificate& pair : islands->due_of(group)) note(pair);
+    }
+  }
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    places_[numbers[k]] = 0;
+    if (!loose_) continue;
+    if (const auto loose = loose_->find(numbers[k]); loose != loose_->end())
+      messages[k].due.insert(messages[k].due.end(), loose->second.begin(), loose->second.end());
+  }
+}
+
+void Migration::add_due(BodyMessage& message, std::uint32_t number,
+                        std::span<const PairCertificate> pairs) const {
+  for (const PairCertificate& pair : pairs)
+    if (pair.first == number || (pair.has_second() && pair.second == number))
+      message.due.push_back(due_of(pair, number));
+}
+
+Result<InitialWork> Migration::install(std::vector<BodyMessage>& messages, const SpeculativeRunner* islands) {
+  InitialWork beginning;
+  std::vector<std::uint32_t> numbers;
+  for (BodyMessage& message : messages) {
+    const auto number = install(message);
+    if (!number) return number.error();
+    numbers.push_back(*number);
+    if (message.body.dirty) beginning.dirty.push_back(*number);
+  }
+  for (const BodyMessage& message : messages) link(message);
+  for (std::size_t k = 0; k < messages.size(); ++k) {
+    BodyMessage& message = messages[k];
+    const std::uint32_t number = numbers[k];
+    if (message.enters && message.is_registered)
+      local_.state.broad_phase.enter(number, inflated_bound(local_.bodies(), number, local_.time()),
+                                     local_.time(), message.window());
+    for (const BodyMessage::Due& due : message.due) {
+      if (due.other >= PairCertificate::window_end) {
+        beginning.due.push_back(certificate(due, number, due.other, islands));
+      } else if (const auto other = local_.directory.find(due.other)) {
+        beginning.due.push_back(certificate(due, number, *other, islands));
+      } else if (loose_) {
+        (*loose_)[number].push_back(due);
+      }
+    }
+    for (Event& event : message.pending) {
+      event.first = local_.bodies().id_of(number);
+      beginning.pending.push_back(event);
+    }
+  }
+  // Of two bodies that have come together, each has brought their pair.
+  std::sort(beginning.due.begin(), beginning.due.end());
+  const auto same = [](const PairCertificate& a, const PairCertificate& b) { return !(a < b) && !(b < a); };
+  beginning.due.erase(std::unique(beginning.due.begin(), beginning.due.end(), same), beginning.due.end());
+  local_.state.broad_phase.tidy();
+  return beginning;
+}
+
+/// The body itself: whom it touches, and where it is registered, comes later.
+Result<std::uint32_t> Migration::install(BodyMessage& message) {
+  Bodies& bodies = local_.bodies();
+  BodyDirectory& directory = local_.directory;
+  std::span<const std::byte> bytes(message.motion);
+  const auto known = directory.find(message.name);
+  if (known) {
+    if (auto removed = motion_.remove(directory[*known].in_motion); !removed) return removed.error();
+  }
+  const auto in_motion = motion_.read_body(bytes);
+  if (!in_motion) return in_motion.error();
+  const std::uint32_t number = known ? *known : bodies.add(BodyDefinition{}, message.name);
+  Body& body = bodies[number];
+  const std::uint32_t generation = body.generation;
+  const std::uint32_t stamp = message.is_void || !known ? body.revision + 1 : body.revision;
+  body = message.body;
+  body.generation = generation;
+  body.revision = stamp;
+  body.shape_number = body.change_number = body.sleep_number = Body::none;
+  bodies.filters.keep(number, message.filter);
+  bodies.set_solid(number, body.solid);
+  if (bodies.space().repeats()) bodies.images[number] = message.image;
+  if (!known) {
+    local_.state.contacts.add(number, 0.0);
+    directory.add(message.name, number, message.owner);
+  }
+  directory[number].owner = message.owner;
+  directory[number].in_motion = *in_motion;
+  message.contacts.restore_alone(local_.state.contacts, number);
+  if (body.dirty) {
+    body.dirty = false;
+    local_.main.dirty().add(local_.bodies(), number);
+  }
+  return number;
+}
+
+/// Links of the two that have found each other dangle no longer.
+void Migration::link(const BodyMessage& message) {
+  std::vector<std::uint32_t> partners;
+  std::vector<OverlapRecord> overlaps;
+  PendingLinks::Links missing;
+  for (const std::uint32_t name : message.contacts.partners.all()) {
+    if (const auto partner = local_.directory.find(name)) {
+      partners.push_back(*partner);
+      dangling_.remove(name, message.name);
+    } else {
+      missing.partners.push_back(name);
+    }
+  }
+  for (const OverlapRecord& overlap : message.contacts.overlaps) {
+    if (const auto partner = local_.directory.find(overlap.partner)) {
+      overlaps.push_back({*partner, overlap.distance, overlap.senses});
+      dangling_.remove(overlap.partner, message.name);
+    } else {
+      missing.overlaps.push_back(overlap);
+    }
+  }
+  local_.state.contacts.set_links(*local_.directory.find(message.name), partners, std::move(overlaps));
+  dangling_.set(message.name, std::move(missing));
+}
+
+Result<std::vector<BodyMessage>> Migration::exchange(Communicator& communicator, ErrorConsensus& agreement,
+                                                     SendBuffers& outbox) {
+  std::vector<BodyMessage> messages;
+  for (const Communicator::Bytes& bytes : outbox.exchange(communicator)) {
+    ByteReader reader(bytes);
+    while (reader.remaining() > 0 && !reader.failed()) reader(messages.emplace_back());
+  }
+  agreement.note(guarded([&]() -> Result<void> {
+    auto beginning = install(messages, nullptr);
+    if (!beginning) return beginning.error();
+    local_.main.queue().add_all(beginning->due);
+    return {};
+  }));
+  if (auto agreed = agreement.agree_on_noted(); !agreed) return agreed.error();
+  return messages;
+}
+
+void Migration::drop(std::uint32_t number) {
+  const std::uint32_t name = local_.name_of(number);
+  for (const std::uint32_t partner : local_.state.contacts.partners_of(number))
+    dangling_.add_partner(local_.name_of(partner), name);
+  for (const OverlapRecord& overlap : local_.state.contacts.overlaps_of(number))
+    dangling_.add_overlap(local_.name_of(overlap.partner), {name, overlap.distance, overlap.senses});
+  local_.state.contacts.set_links(number, {}, {});
+  dangling_.remove(name);
+  if (local_.state.broad_phase.contains(number)) local_.state.broad_phase.leave(number);
+  (void)motion_.remove(local_.directory[number].in_motion);
+  local_.directory.remove(name, number);
+  local_.bodies().remove(number);
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,34 @@
+// What a rank has to send to each of the others: values are written as they come up, and go all at once.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "archive/archive.hpp"
+#include "distributed/communicator.hpp"
+
+namespace kinesphere {
+
+class SendBuffers {
+ public:
+  explicit SendBuffers(int ranks) : writers_(static_cast<std::size_t>(ranks)) {}
+
+  template <class... Values>
+  void add(int to, const Values&... values) {
+    writers_[static_cast<std::size_t>(to)](values...);
+  }
+  /// Collective. Sends all; returns what has come, by rank.
+  std::vector<Communicator::Bytes> exchange(Communicator& communicator) {
+    std::vector<Communicator::Bytes> bytes(writers_.size());
+    std::transform(writers_.begin(), writers_.end(), bytes.begin(),
+                   [](ByteWriter& writer) { return writer.take(); });
+    return communicator.exchange(std::move(bytes));
+  }
+
+ private:
+  std::vector<ByteWriter> writers_;
+};
+
+}  // namespace kinesphere

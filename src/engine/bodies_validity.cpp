@@ -1,0 +1,160 @@
+// Whether bodies that were read from a snapshot can have come about.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "archive/archive.hpp"
+#include "archive/fields.hpp"
+#include "engine/bodies.hpp"
+#include "engine/static_body.hpp"
+#include "engine/validation.hpp"
+#include "kinesphere/limits.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// A place as a report can give it. Where space repeats a bound is in the image that the middle of its way
+/// chooses, which is any number of periods away from there at times that are too coarse for short windows.
+std::optional<Vec3> reported_place(const Vec3& position, const Space& space) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(std::abs(position[axis]) <= limits::largest_size)) return std::nullopt;
+  return space.wrapped(position).position;
+}
+
+bool is_valid(const Bound& bound, const Vec3& place, double now, const WorldDefinition& world) {
+  BodyDefinition as_body;
+  as_body.radius = 0.5 * bound.radius;  // the sum of a radius and an error
+  as_body.acceleration_limit = bound.growth_acceleration;
+  as_body.planned_acceleration = bound.planned_acceleration;
+  as_body.velocity_error = bound.growth_speed;
+  as_body.position = place;
+  as_body.velocity = bound.velocity;
+  return bound.time >= -limits::largest_time && bound.time <= now && check_body(as_body, world, "restore");
+}
+
+/// To the bit.
+template <class T>
+bool same(const T& a, const T& b) {
+  ByteWriter bytes_of_a, bytes_of_b;
+  bytes_of_a(a);
+  bytes_of_b(b);
+  return bytes_of_a.bytes() == bytes_of_b.bytes();
+}
+
+}  // namespace
+
+bool BodyTable::is_valid() const {
+  std::vector<bool> is_free(bodies_.size(), false);
+  for (const std::uint32_t number : free_) {
+    if (number >= numbers() || is_free[number]) return false;
+    is_free[number] = true;
+  }
+  for (std::uint32_t number = 0; number < numbers(); ++number)
+    if (bodies_[number].alive == is_free[number]) return false;
+  return live_count_ + free_.size() == bodies_.size();
+}
+
+bool Shapes::is_valid(const BodyTable& bodies) const {
+  std::vector<bool> is_taken(shapes_.size(), false);
+  const auto take = [&is_taken](std::uint32_t number) {
+    if (number >= is_taken.size() || is_taken[number]) return false;
+    is_taken[number] = true;
+    return true;
+  };
+  for (const std::uint32_t number : free_)
+    if (!take(number)) return false;
+  for (const Body& body : bodies)
+    if (body.is_static() && !(body.alive && take(body.shape_number))) return false;
+  return std::find(is_taken.begin(), is_taken.end(), false) == is_taken.end();
+}
+
+const char* Bodies::first_invalid_part(double now, const std::vector<std::uint32_t>& dirty) const {
+  if (!shapes.is_valid(table_) || (shapes.any() && !filters.any())) return "shapes";
+  if (!bodies_are_valid(now, dirty)) return "bodies";
+  for (int number = 0; number <= std::numeric_limits<SensorClass>::max(); ++number)
+    if (!check_sensor(sensors.of(static_cast<SensorClass>(number)), definition_)) return "sensors";
+  return nullptr;
+}
+
+bool Bodies::bodies_are_valid(double now, const std::vector<std::uint32_t>& dirty) const {
+  const std::size_t where_space_repeats = space_.repeats() ? numbers() : 0;
+  if (!table_.is_valid() || !changes.is_valid(table_) || !sleep_records.is_valid(table_) ||
+      !filters.is_valid(numbers()) || images.size() != where_space_repeats)
+    return false;
+  std::vector<bool> is_listed(numbers(), false);
+  for (const std::uint32_t number : dirty) {
+    if (number >= numbers()) return false;
+    is_listed[number] = true;
+  }
+  for (std::uint32_t number = 0; number < numbers(); ++number)
+    if ((table_[number].dirty && !is_listed[number]) || !is_valid(number, now)) return false;
+  return true;
+}
+
+bool Bodies::is_valid(std::uint32_t number, double now) const {
+  const Body& body = table_[number];
+  if (body.is_static()) return is_valid_static(number, now);
+  if (body.visited || !sleep_is_valid(body)) return false;
+  // An index that is free is as its next body will find it.
+  if (!body.alive) return !body.dirty && body.change_number == Body::none;
+  WorldDefinition unbounded = definition_;
+  unbounded.box.reset();
+  BodyDefinition definition = definition_of(number);
+  const auto place = reported_place(body.bound.position, space_);
+  if (!place) return false;
+  definition.position = *place;
+  if (!check_body(definition, unbounded, "restore") ||
+      !check_radius(definition, no_body, definition_, "restore") ||
+      !kinesphere::is_valid(body.bound, *place, now, unbounded) ||
+      (space_.repeats() && !images[number].is_valid(space_)))
+    return false;
+  if (!limits_are_valid(body, definition)) return false;
+  if (!body.enabled) return !body.dirty;
+  // The radius and an error; only that of a disabled body is stale.
+  if (body.bound.radius < body.radius) return false;
+  // Before time moves on there is a report.
+  return body.change_number == Body::none || (body.dirty && !body.fresh(now));
+}
+
+/// Promises that come into force later: of these, definition_of() tells one.
+bool Bodies::limits_are_valid(const Body& body, BodyDefinition definition) const {
+  const auto is_promise = [&](const MotionLimits& limits) {
+    return static_cast<bool>(
+        check_limits(with_motion_limits(definition, limits), no_body, definition_, "restore"));
+  };
+  const Change* change = changes.find(body);
+  const SleepRecord* rest = sleep_records.find(body);
+  if (change && !(is_promise(change->limits) &&
+                  (!change->velocity || check_velocity(*change->velocity, no_body, definition_, "restore"))))
+    return false;
+  if (rest && !is_promise(rest->limits)) return false;
+  definition.position_error = body.position_error;
+  return is_promise(motion_limits_of(definition));
+}
+
+/// It must equal what its shape makes of it.
+bool Bodies::is_valid_static(std::uint32_t number, double now) const {
+  const Body& body = table_[number];
+  if (!check_shape(shapes.of(body), definition_, "restore")) return false;
+  if (space_.repeats() && !(images[number].is_valid(space_) && images[number].image == Vec3{} &&
+                            same(normalized(shapes.of(body), definition_), shapes.of(body))))
+    return false;
+  const BodyDefinition made = body_of(static_definition(*this, id_of(number)));
+  return same(definition_of(number), made) &&
+         same(body.bound, bound_of(made, {made.position, {}}, body.bound.time)) && body.bound.time <= now &&
+         body.bound.time >= -limits::largest_time && !body.visited && body.change_number == Body::none &&
+         !body.is_sleeping() && !(body.dirty && !body.enabled);
+}
+
+/// A body that rests can move and takes part, and its bound stands still unless there is no report yet.
+bool Bodies::sleep_is_valid(const Body& body) const {
+  const SleepRecord* rest = sleep_records.find(body);
+  if (!rest) return true;
+  Bound still = body.bound;
+  still.velocity = still.planned_acceleration = {};
+  still.growth_speed = still.growth_acceleration = 0.0;
+  return body.present() && (!body.is_at_rest() || same(still, body.bound)) &&
+         rest->limits.position_error == body.position_error;
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,76 @@
+#include "engine/body_bounds.hpp"
+
+#include "engine/validation.hpp"
+#include "kinesphere/limits.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// Bodies and their bounds, with all that they sense, reach less far than eight times the limit of their
+/// coordinates.
+Box cut_box(const Bodies& bodies, const Shape& shape) {
+  return bounding_box(shape, 8.0 * coordinate_limit(bodies.definition()));
+}
+
+}  // namespace
+
+Bound bound_now(const BodyDefinition& body, double now) {
+  return bound_of(body, {body.position, body.velocity}, now);
+}
+
+Bound bound_with(const Bodies& bodies, std::uint32_t number, const BodyDefinition& changed, double now) {
+  const Body& body = bodies[number];
+  if (body.fresh(now)) return bound_of(changed, {body.bound.position, body.bound.velocity}, now);
+  // The old promise held until now, and the next report comes before time moves on.
+  Bound bound = body.bound;
+  bound.radius = changed.radius + (bound.radius - body.radius);
+  return bound;
+}
+
+GapLimits gap_at(const Bodies& bodies, double now, const CollisionShape& a, const CollisionShape& b) {
+  const auto limits = [now](const Bound& bound, const auto& partner) {
+    return gap_limits(bound, partner, now);
+  };
+  const Space& space = bodies.space();
+  if (!space.repeats()) return visit_shapes(a, b, limits);
+  Bound nearest = b.bound;
+  nearest.position += space.shift_to_nearest(b.bound.centre_at(now), a.bound.centre_at(now));
+  return limits(a.bound, nearest);
+}
+
+Sphere sphere_at(const Bodies& bodies, double now, std::uint32_t number) {
+  const Bound& bound = bodies[number].bound;
+  Sphere sphere{bodies.id_of(number),
+                bound.radius,
+                {bound.centre_at(now), bound.velocity_at(now)},
+                bodies.shapes.empty() ? nullptr : collision_shape_of(bodies, number).shape,
+                bodies[number].user_data};
+  const Space& space = bodies.space();
+  if (space.repeats()) sphere.state.position = space.wrapped(sphere.state.position).position;
+  return sphere;
+}
+
+Box box_now(const Bodies& bodies, const CollisionShape& extent, double now) {
+  if (extent.shape) return cut_box(bodies, *extent.shape);
+  return bodies.space().within(swept_box(extent.bound, now, now));
+}
+
+Box box_of_static(const Bodies& bodies, std::uint32_t number) {
+  const Vec3 margin = Vec3{1.0, 1.0, 1.0} * bodies.sensors.reach(bodies[number].sensor_class);
+  const Box box = cut_box(bodies, bodies.shapes.of(bodies[number]));
+  return bodies.space().within({box.lower - margin, box.upper + margin});
+}
+
+InflatedBound inflated_bound(const Bodies& bodies, std::uint32_t number, double now) {
+  const Body& body = bodies[number];
+  if (!body.is_static()) return margin_for(bodies, number, BoundAt(body.bound, now));
+  Bound ball = body.bound;
+  if (const Shape* shape = collision_shape_of(bodies, number).shape) {
+    const Box box = bodies.space().within(cut_box(bodies, *shape));
+    ball.position = 0.5 * (box.lower + box.upper);
+    ball.radius = norm(0.5 * (box.upper - box.lower));
+  }
+  return margin_for(bodies, number, BoundAt(ball, now));
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,140 @@
+// The course of an instant: what is due is gathered, events are delivered, and what they have changed is
+// settled before time moves on.
+#include "engine/event_processor.hpp"
+
+#include <algorithm>
+
+#include "archive/fields.hpp"
+#include "archive/heap_counter.hpp"
+#include "engine/sleeping.hpp"
+
+namespace kinesphere {
+
+Result<void> EventProcessor::gather() {
+  for (;;) {
+    if (auto settled = recertify(); !settled) return settled;
+    if (next_time() > time_) break;
+    const PairCertificate pair = queue_.first();
+    queue_.drop_first();
+    if (certifier().is_stale(pair)) continue;
+    if (auto looked = recheck(pair); !looked) return looked;
+  }
+  gathering_ = false;
+  return {};
+}
+
+Event EventProcessor::contact(EventKind kind, std::uint32_t a, std::uint32_t b) const {
+  return contact_event(kind, time_, sphere(a), sphere(b), bodies().space());
+}
+
+Event EventProcessor::wall_contact(EventKind kind, std::uint32_t number, Wall wall) const {
+  return wall_event(kind, time_, sphere(number), *bodies().walls(), wall);
+}
+
+/// Who senses the other at the distance of this event now.
+Senses EventProcessor::senses_in(const Event& event) const {
+  const Sensing first = sensing_of(bodies(), bodies().table().number_of(event.first));
+  const Sensing second = sensing_of(bodies(), bodies().table().number_of(event.second));
+  const bool by_first = bodies().sensors.senses_one_way(first, second, event.distance);
+  const bool by_second = bodies().sensors.senses_one_way(second, first, event.distance);
+  if (by_first && by_second) return Senses::both;
+  return by_first ? Senses::first : by_second ? Senses::second : Senses::neither;
+}
+
+std::optional<Event> EventProcessor::pop() {
+  const auto is_there = [this](BodyId id) {
+    const std::uint32_t number = bodies().table().number_of(id);
+    return id == bodies().id_of(number) && bodies()[number].present();
+  };
+  std::optional<Event> event = events_.pop(
+      contacts(), is_there, [this](std::uint32_t number) { return sphere(number); },
+      [this](const Event& enter) { return senses_in(enter); }, bodies().walls());
+  if (!event) return event;
+  event->first = bodies().table().tagged(event->first);
+  if (event->second != no_body) event->second = bodies().table().tagged(event->second);
+  ++work_.counters.events[static_cast<std::size_t>(event->kind)];
+  if (!bodies().sleep_records.empty()) Sleeping(*state_, *this).wake_by(*event);
+  if (event->repeated) ++work_.counters.repeated_contacts;
+  return event;
+}
+
+Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers) {
+  PoolLease alone;
+  return probe(numbers, alone);
+}
+
+Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, PoolLease& shift) {
+  // Counted first: a probe that throws leaves the same world as one that does not answer.
+  work_.counters.probes += numbers.size();
+  if (log_)
+    for (const std::uint32_t number : numbers) log_->note_change(number, time_);
+  const auto broken = reports_.take(bodies(), time_, numbers, shift);
+  if (!broken) return broken.error();
+  for (const auto& [k, velocity, promise] : *broken) {
+    Sphere reported = sphere(numbers[k]);
+    reported.state.velocity = velocity;
+    events_.queue(violation_event(time_, reported, promise));
+    invalidate(numbers[k]);
+  }
+  return {};
+}
+
+Result<bool> EventProcessor::probe_stale(std::span<const std::uint32_t> numbers, PoolLease& shift) {
+  std::vector<std::uint32_t> stale;
+  for (const std::uint32_t number : numbers)
+    if (bodies()[number].enabled && !bodies()[number].fresh(time_)) stale.push_back(number);
+  if (stale.empty()) return false;
+  if (auto probed = probe(stale, shift); !probed) return probed.error();
+  return true;
+}
+
+void EventProcessor::invalidate(std::uint32_t number) {
+  ++bodies()[number].revision;
+  dirty_.add(bodies(), number);
+}
+
+void EventProcessor::set_velocity(std::uint32_t number, const Vec3& velocity) {
+  Body& body = bodies()[number];
+  if (body.is_sleeping()) Sleeping(*state_, *this).wake(number);
+  if (body.fresh(time_)) {
+    body.bound.velocity = velocity;
+  } else {
+    bodies().change_of(number).velocity = velocity;
+  }
+  if (log_) {
+    note_linked_conflicts(number);
+    if (!log_->conflicts.empty()) return;
+  }
+  if (bodies().definition().contacts == ContactMode::impacts) contacts().release_all(number);
+  invalidate(number);
+}
+
+void EventProcessor::recertify_changed() {
+  auto& changed = events_.changed();
+  while (!changed.empty()) {
+    const auto [a, b] = changed.back();
+    recertify_changed(a, b);
+    changed.pop_back();
+  }
+}
+
+Result<void> EventProcessor::recertify() {
+  recertify_changed();
+  // Reports may show broken promises, which make further bodies dirty.
+  while (!dirty_.empty()) {
+    if (auto settled = recertify_dirty(); !settled) return settled;
+  }
+  return {};
+}
+
+/// Body and body, or a body and (itself) its walls: what was certified concerns the contact as it was.
+void EventProcessor::recertify_changed(std::uint32_t a, std::uint32_t b) {
+  if (!bodies()[a].present() || !bodies()[b].present() || bodies()[a].dirty || bodies()[b].dirty) return;
+  queue_.add(certifier().certificate(time_, a, a == b ? PairCertificate::walls : b));
+}
+
+std::size_t EventProcessor::bytes() const {
+  return queue_.bytes() + reports_.bytes() + heap_bytes(events_, dirty_, round_, found_.certificates);
+}
+
+}  // namespace kinesphere

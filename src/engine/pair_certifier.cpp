@@ -1,0 +1,119 @@
+#include "engine/pair_certifier.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "number/infinity.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// Of two in their order.
+[[gnu::always_inline]] inline double apart_until_in_order(const Bodies& bodies, const BoundRef& a,
+                                                          const BoundRef& b, double now) {
+  const double end = std::min(a.end, b.end);
+  const double sensed = reach_of_pair(bodies, a.number, b.number);
+  BoundAt moved(*b.bound, now);
+  if (bodies.space().repeats()) moved.centre += bodies.space().shift_between_homes(*b.middle, *a.middle);
+  const QuickReject pair(BoundAt(*a.bound, now), moved);
+  const double near = sensed + bodies.definition().contact_tolerance;
+  if (pair.stay_apart(end - now, near)) return infinity;
+  if (pair.is_near(near)) return now;
+  const double until =
+      rounding::sum_down(now, pair.meeting(end - now, sensed + rounding_margin(bodies.definition())));
+  return until < end ? std::max(until, now) : infinity;
+}
+
+}  // namespace
+
+std::optional<Window> PairCertifier::window_of(std::uint32_t number) const {
+  if (const SweptSphereUpdate* update = log_ ? log_->last_update(number) : nullptr) return update->window;
+  if (!state_.broad_phase.contains(number)) return std::nullopt;
+  return state_.broad_phase.window_of(number);
+}
+
+PairCertificate PairCertifier::certificate(double time, std::uint32_t a, std::uint32_t b) const {
+  if (b >= PairCertificate::window_end) return {time, a, b, revision_of(a), 0};
+  const auto [first, second] = bodies().table().comes_before(b, a) ? std::pair(b, a) : std::pair(a, b);
+  return {time, first, second, revision_of(first), revision_of(second)};
+}
+
+double apart_until(const Bodies& bodies, const BoundRef& a, const BoundRef& b, double now) {
+  return bodies.table().comes_before(b.number, a.number) ? apart_until_in_order(bodies, b, a, now)
+                                                         : apart_until_in_order(bodies, a, b, now);
+}
+
+double PairCertifier::apart_until(std::uint32_t a, std::uint32_t b) const {
+  // The same, to the last bit, whoever has found whom.
+  if (bodies().table().comes_before(b, a)) std::swap(a, b);
+  if (!bodies().may_meet(a, b)) return infinity;
+  const BoundRef one = bound_ref(a);
+  const BoundRef other = bound_ref(b);
+  const double end = std::min(one.end, other.end);
+  if (bodies()[a].is_static() || bodies()[b].is_static() || end == infinity) {
+    const double until = unchanged_until_by_thresholds(a, b);
+    return until < end ? until : infinity;
+  }
+  return apart_until_in_order(bodies(), one, other, time_);
+}
+
+double PairCertifier::unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const {
+  const double end = earliest_window_end(a, b);
+  double first = infinity;
+  if (!bodies().may_meet(a, b)) return first;
+  visit_pair(bodies(), a, b, [&](const Bound& bound, const auto& other) {
+    for_each_threshold(a, b, [&](const Threshold& threshold) {
+      const ContactPredictor predictor(contacts().rule_of(threshold), threshold, bound, other, time_,
+                                       {end, end});
+      first = std::min(first, predictor.until_reports());
+    });
+  });
+  return first;
+}
+
+double PairCertifier::walls_unchanged_until(std::uint32_t number) const {
+  if (contacts().walls_of(number) != 0) return time_;
+  return until_reports_of_walls(contacts().rule(), bodies()[number].bound, *bodies().walls(), time_,
+                                window_end_of(number));
+}
+
+double PairCertifier::certify(std::uint32_t a, std::uint32_t b, SearchResults& found) const {
+  ++found.candidates;
+  const double until = apart_until(a, b);
+  if (until == infinity) return until;
+  ++found.near;
+  if (are_linked(a, b)) return infinity;
+  found.certificates.push_back(certificate(until, a, b));
+  ++found.certified;
+  return until;
+}
+
+/// They may be anywhere.
+void PairCertifier::certify_linked(std::uint32_t number, SearchResults& found) const {
+  const auto add = [&](std::uint32_t other) {
+    // Of two in the round the first one finds it.
+    if (!state_.broad_phase.contains(other) ||
+        (bodies()[other].visited && bodies().table().comes_before(other, number)))
+      return;
+    const double until = unchanged_until_by_thresholds(number, other);
+    if (until < earliest_window_end(number, other))
+      found.certificates.push_back(certificate(until, number, other));
+  };
+  for (const std::uint32_t partner : contacts().partners_of(number)) add(partner);
+  const auto crossed = contacts().overlaps_of(number);
+  for (std::size_t k = 0; k < crossed.size(); ++k) {
+    const std::uint32_t other = crossed[k].partner;
+    if (k > 0 && other == crossed[k - 1].partner) continue;
+    if (!contacts().touch(number, other)) add(other);
+  }
+}
+
+void PairCertifier::certify_walls(std::uint32_t number, SearchResults& found) const {
+  const Body& body = bodies()[number];
+  if (!bodies().walls() || body.is_static()) return;
+  const double until = walls_unchanged_until(number);
+  if (until < window_end_of(number))
+    found.certificates.push_back(certificate(until, number, PairCertificate::walls));
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,106 @@
+// Settling: bodies get capsules one by one, and the pairs that may change before their windows end become
+// hot.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/event_processor.hpp"
+#include "number/infinity.hpp"
+#include "number/powers.hpp"
+
+namespace kinesphere {
+/// A capsule and hot pairs for each dirty body.
+Result<void> EventProcessor::recertify_dirty() {
+  // Some have been removed or disabled since, or have started with all others.
+  round_ = dirty_.sort(bodies());
+  PoolLease alone;
+  if (auto probed = probe_stale(round_, alone); !probed) return probed.error();
+  // Broken promises may have made further bodies dirty.
+  round_ = dirty_.numbers();
+  recertify(round_);
+  for (const std::uint32_t number : round_) bodies()[number].mark_visited();
+  dirty_.clear();
+  return {};
+}
+
+void EventProcessor::recertify(std::span<const std::uint32_t> numbers) {
+  for (const std::uint32_t number : numbers)
+    enter(number, window_choice().next_window(number, certifier().window_of(number)));
+  search(numbers);
+}
+
+/// Of bodies that have a new capsule.
+void EventProcessor::search(std::span<const std::uint32_t> numbers) {
+  work_.counters.restarts += numbers.size();
+  if (!log_) state_->broad_phase.tidy();
+  // An island that stopped to claim a body may have left something.
+  found_.clear();
+  const PairCertifier certifier = this->certifier();
+  for (const std::uint32_t number : numbers) {
+    if (log_) note_linked_conflicts(number);
+    ++found_.searches;
+    for (const std::uint32_t other : near(number)) {
+      if (log_ && !log_->is_own(other)) {
+        certify_speculatively(number, other);
+      } else if (!bodies()[other].visited) {
+        certifier.certify(number, other, found_);
+      }
+    }
+    if (log_ && !log_->conflicts.empty()) return;
+    bodies()[number].visited = true;
+  }
+  for (const std::uint32_t number : numbers) {
+    certifier.certify_linked(number, found_);
+    certifier.certify_walls(number, found_);
+  }
+  for (const std::uint32_t number : numbers) bodies()[number].visited = false;
+  work_.recertified += {numbers.size(), found_.near};
+  found_.hand_over(queue_, work_.counters);
+}
+
+/// A window that the body has for itself ends.
+Result<void> EventProcessor::renew(std::uint32_t number) {
+  const WindowChoice pacing = this->window_choice();
+  if (pacing.needs_report(number)) {
+    if (auto probed = probe(std::span(&number, 1)); !probed) return probed;
+  }
+  if (bodies()[number].dirty) return {};
+  const auto ended = certifier().window_of(number);
+  const bool lasted = ended && ended->end <= time_;
+  enter(number, lasted ? pacing.longer_window(number, *ended) : pacing.window_for(number));
+  search(std::span(&number, 1));
+  return {};
+}
+
+/// The body gets a capsule from now on. That it was kicked does not end the phase, so its window may end
+/// before.
+void EventProcessor::enter(std::uint32_t number, const Window& window) {
+  const Body& body = bodies()[number];
+  if (bodies().space().repeats())
+    bodies().wrap_to_primary(number, time_, window.end < infinity ? window.end - time_ : 0.0);
+  if (body.relocated) {
+    epoch_end_ = std::min(epoch_end_, window.end);
+  } else if (window.end < epoch_end_) {
+    queue_.add({window.end, number, PairCertificate::window_end, body.revision, 0});
+  }
+  if (log_) {
+    const Vec3 middle = bodies().space().repeats() ? bodies().images[number].middle : Vec3{};
+    log_->add({number, body.revision, time_, window, body.bound, middle});
+  } else {
+    state_->broad_phase.enter(number, inflated_bound(bodies(), number, time_), time_, window);
+  }
+}
+
+/// The bodies whose capsules may touch the body's new one; some of them need not.
+std::span<const std::uint32_t> EventProcessor::near(std::uint32_t number) {
+  const InflatedBound bound = inflated_bound(bodies(), number, time_);
+  std::vector<std::uint32_t>& numbers =
+      found_.search.near(state_->broad_phase, number, bound, time_, certifier().window_end_of(number));
+  if (!log_) return numbers;
+  std::erase_if(numbers, [&](std::uint32_t other) { return log_->last_update(other) != nullptr; });
+  log_->for_each_updated([&](std::uint32_t other) {
+    if (other != number) numbers.push_back(other);
+  });
+  return numbers;
+}
+
+}  // namespace kinesphere

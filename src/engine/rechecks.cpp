@@ -1,0 +1,155 @@
+// Looking at pairs that are due: from bounds as they are, whether they can have changed; and if so, from
+// fresh reports, whether they have.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/event_processor.hpp"
+#include "number/infinity.hpp"
+
+namespace kinesphere {
+
+/// A pair that was taken out of the agenda is put back unless it has been looked at.
+class EventProcessor::RequeueGuard {
+ public:
+  RequeueGuard(EventProcessor& island, const PairCertificate& pair) : processor_(island), pair_(pair) {}
+  RequeueGuard(const RequeueGuard&) = delete;
+  RequeueGuard& operator=(const RequeueGuard&) = delete;
+  ~RequeueGuard() {
+    if (!done_) processor_.queue_.add(pair_);
+  }
+  void finish() { done_ = true; }
+
+ private:
+  EventProcessor& processor_;
+  PairCertificate pair_;
+  bool done_ = false;
+};
+
+Result<void> EventProcessor::recheck(const PairCertificate& pair) {
+  RequeueGuard due(*this, pair);
+  auto looked = pair.second == PairCertificate::walls        ? recheck_walls(pair.first)
+                : pair.second == PairCertificate::window_end ? renew(pair.first)
+                                                             : recheck_pair(pair.first, pair.second);
+  if (looked) due.finish();
+  return looked;
+}
+
+Result<void> EventProcessor::recheck_pair(std::uint32_t a, std::uint32_t b) {
+  ++work_.counters.pair_checks;
+  const PairCertifier certifier = this->certifier();
+  const double end = certifier.earliest_window_end(a, b);
+  // A broken promise makes a body dirty, and then it gets all its pairs anew.
+  while (!bodies()[a].dirty && !bodies()[b].dirty) {
+    const bool fresh = bodies()[a].fresh(time_) && bodies()[b].fresh(time_);
+    if (fresh) {
+      const auto next = decide_pair(a, b);
+      if (next && *next < end) queue_.add(certifier.certificate(*next, a, b));
+      return {};
+    }
+    ++work_.counters.certificates;
+    const double until = certifier.are_linked(a, b) ? certifier.unchanged_until_by_thresholds(a, b)
+                                                    : certifier.apart_until(a, b);
+    if (until > time_) {
+      if (until < end) queue_.add(certifier.certificate(until, a, b));
+      return {};
+    }
+    if (auto probed = probe_staler(a, b); !probed) return probed;
+  }
+  return {};
+}
+
+/// Probes the body whose report is older; the second one, if they are of the same age. One of them at least
+/// is not fresh.
+Result<void> EventProcessor::probe_staler(std::uint32_t a, std::uint32_t b) {
+  const bool a_is_staler = bodies()[a].bound.time < bodies()[b].bound.time;
+  const bool a_is_asked = !bodies()[a].fresh(time_) && (a_is_staler || bodies()[b].fresh(time_));
+  const std::uint32_t staler = a_is_asked ? a : b;
+  return probe(std::span(&staler, 1));
+}
+
+/// What the fresh reports of two bodies say: when to look again, unless there is news to be told first.
+std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t b) {
+  const PairCertifier certifier = this->certifier();
+  const double end = certifier.earliest_window_end(a, b);
+  const Body& one = bodies()[a];
+  const Body& other = bodies()[b];
+  const RelativeLimits sum{one.bound.growth_speed + other.bound.growth_speed,
+                           one.largest_acceleration() + other.largest_acceleration()};
+  std::optional<double> next = infinity;
+  visit_pair(bodies(), a, b, [&](const Bound& bound, const auto& partner) {
+    certifier.for_each_threshold(a, b, [&](const Threshold& threshold) {
+      ++work_.counters.certificates;
+      const ContactPredictor predictor(contacts().rule_of(threshold), threshold, bound, partner, time_,
+                                       {end, end});
+      const auto known = decide(predictor, threshold, contact(EventKind::zeno_guard, a, b), sum);
+      next = next && known ? std::optional(std::min(*next, *known)) : std::nullopt;
+    });
+  });
+  return next;
+}
+
+/// Holds fresh reports against the contact rule. Announces what is news; unless that is a begin or an end,
+/// tells how long the threshold cannot be crossed.
+template <class Partner>
+std::optional<double> EventProcessor::decide(const ContactPredictor<Partner>& predictor,
+                                             const Threshold& threshold, Event current,
+                                             const RelativeLimits& promise) {
+  ContactDecision verdict = predictor.decide(current, promise);
+  if (verdict.change == ContactRule::Change::begin && !threshold.sensed && contacts().is_jammed(current))
+    verdict = predictor.defer(current, promise);
+  if (verdict.is_event()) {
+    current.kind = kind_of(verdict.change, threshold.sensed, current.wall);
+    current.distance = threshold.distance;
+    events_.queue(current);
+    return std::nullopt;
+  }
+  if (verdict.change == ContactRule::Change::release) contacts().set_touching(current, false);
+  if (verdict.zeno_step) ++work_.counters.zeno_steps;
+  if (verdict.breaks_tolerance) events_.queue(current);
+  return verdict.next_check;
+}
+
+/// The walls of a body are due.
+Result<void> EventProcessor::recheck_walls(std::uint32_t number) {
+  ++work_.counters.wall_checks;
+  const PairCertifier certifier = this->certifier();
+  const double end = certifier.window_end_of(number);
+  while (!bodies()[number].dirty) {
+    if (bodies()[number].fresh(time_)) {
+      const auto next = decide_walls(number);
+      if (next && *next < end) queue_.add(certifier.certificate(*next, number, PairCertificate::walls));
+      return {};
+    }
+    const double until = certifier.walls_unchanged_until(number);
+    if (until > time_) {
+      if (until < end) queue_.add(certifier.certificate(until, number, PairCertificate::walls));
+      return {};
+    }
+    if (auto probed = probe(std::span(&number, 1)); !probed) return probed;
+  }
+  return {};
+}
+
+/// Holds the fresh report of a body against each wall that it touches or may reach. The others cannot change
+/// anything before its window ends.
+std::optional<double> EventProcessor::decide_walls(std::uint32_t number) {
+  const Body& body = bodies()[number];
+  const double end = certifier().window_end_of(number);
+  const RelativeLimits promise{body.bound.growth_speed, body.largest_acceleration()};
+  const Box near = walls_in_reach(contacts().rule(), body.bound, *bodies().walls(), time_, end);
+  double first = infinity;
+  for (const Wall wall : walls) {
+    const bool touches = contacts().touches_wall(number, wall);
+    if (!touches && !stands(near, wall)) continue;
+    const HalfSpace inside = half_space(*bodies().walls(), wall);
+    const Threshold threshold{.within = touches};
+    const ContactPredictor<HalfSpace> predictor(contacts().rule(), threshold, body.bound, inside, time_,
+                                                {end, end});
+    const auto next =
+        decide(predictor, threshold, wall_contact(EventKind::zeno_guard, number, wall), promise);
+    if (next) first = std::min(first, *next);
+  }
+  return first;
+}
+
+}  // namespace kinesphere

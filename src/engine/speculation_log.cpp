@@ -1,0 +1,49 @@
+#include "engine/speculation_log.hpp"
+
+#include <cassert>
+
+#include "engine/event_processor.hpp"
+#include "number/infinity.hpp"
+
+namespace kinesphere {
+
+void EventProcessor::begin(SpeculationLog& log, std::span<const PairCertificate> due,
+                           std::span<const std::uint32_t> unsettled, std::span<const Event> pending) {
+  log_ = &log;
+  time_ = log.batch->begin;
+  epoch_end_ = log.batch->epoch_end;
+  queue_.clear();
+  for (const PairCertificate& pair : due) queue_.add(pair);
+  events_.clear();
+  for (const Event& event : pending) events_.queue(event);
+  dirty_.assign(unsettled);
+  gathering_ = true;
+  work_ = {};
+}
+
+/// Whom the body touches or senses, the island has to have too.
+void EventProcessor::note_linked_conflicts(std::uint32_t number) {
+  const auto set = [this](std::uint32_t other) {
+    if (!log_->is_own(other) && !bodies()[other].is_static()) log_->conflicts.add(other);
+  };
+  for (const std::uint32_t other : contacts().partners_of(number)) set(other);
+  for (const OverlapRecord& overlap : contacts().overlaps_of(number)) set(overlap.partner);
+}
+
+/// With one that is not its own: that one is claimed, if the two have to be looked at in this part.
+void EventProcessor::certify_speculatively(std::uint32_t number, std::uint32_t other) {
+  assert(log_->is_own(number) && !log_->is_own(other));
+  const PairCertifier certifier = this->certifier();
+  // What two in endless windows have to be looked at for is not known of another island's.
+  if (log_->checkpoint_of(other) != nullptr && certifier.earliest_window_end(number, other) == infinity)
+    return log_->conflicts.add(other);
+  const double until = certifier.certify(number, other, found_);
+  if (until == infinity || bodies()[other].is_static()) return;
+  if (log_->batch->is_in_batch(until)) {
+    log_->conflicts.add(other);
+  } else {
+    log_->read_set.add({other, time_});
+  }
+}
+
+}  // namespace kinesphere

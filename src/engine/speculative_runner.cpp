@@ -1,0 +1,388 @@
+#include "engine/speculative_runner.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <exception>
+#include <tuple>
+#include <utility>
+
+#include "number/infinity.hpp"
+
+namespace kinesphere {
+namespace {
+
+constexpr std::size_t clusters_at_once = 8;
+
+}  // namespace
+
+SpeculativeRunner::SpeculativeRunner(WorldState& tables, EventProcessor& main, PoolLease& shift,
+                                     const Probe& probe, ResponseHandler* handler)
+    : state_(tables),
+      main_(main),
+      lease_(shift),
+      handler_(handler),
+      pool_(tables, main, shift.count(), probe, handler) {}
+
+bool SpeculativeRunner::run(double until, std::deque<Event>& events) {
+  const Bodies& bodies = state_.bodies;
+  assert(main_.is_certified());
+  // What these do reaches beyond an island, or asks the caller's own code in the middle of one.
+  if (!bodies.sleep_records.empty() || !bodies.changes.empty() || bodies.filters.has_pair_filter())
+    return false;
+  if (sizer_.skips_epoch()) return false;
+  begin_batch(take_due(until, infinity));
+  const auto all = [](const Cluster&) { return true; };
+  const bool done = is_worthwhile() && execute_all(all);
+  if (done) {
+    for (const EventInRound* one : commit(all)) events.push_back(one->event);
+  } else {
+    rollback();
+  }
+  end_batch();
+  sizer_.pause(done);
+  if (exception_) std::rethrow_exception(std::exchange(exception_, nullptr));
+  return done;
+}
+
+double SpeculativeRunner::take_due(double until, double latest) {
+  batch_.begin = main_.time();
+  batch_.epoch_end = main_.epoch_end();
+  batch_.until = until;
+  due_.clear();
+  return main_.queue().take_until(
+      until, std::min(batch_.epoch_end, latest), sizer_.most_due(state_.bodies.table().live_count()), due_,
+      [facts = main_.certifier()](const PairCertificate& pair) { return facts.is_stale(pair); });
+}
+
+void SpeculativeRunner::begin_batch(double stop) {
+  batch_.stop = stop;
+  // Those that are due later were taken for a longer part.
+  const auto later = std::partition_point(
+      due_.begin(), due_.end(), [=](const PairCertificate& pair) { return pair.failure_time < stop; });
+  std::for_each(later, due_.end(), [this](const PairCertificate& pair) { main_.queue().add(pair); });
+  due_.erase(later, due_.end());
+  sizer_.begin();
+  failure_.reset();
+  pool_.clear();
+  conflicts_.clear();
+  cross_pairs_.clear();
+  clusters_.form(due_, state_.bodies, batch_.slots);
+  batch_.has_checkpoint.clear();
+  // With room for those that are claimed, so that the list rarely has to grow while something is in it.
+  if (batch_.checkpoints.size() < clusters_.checkpoint_count())
+    batch_.checkpoints = std::vector<BodyCheckpoint>(2 * clusters_.checkpoint_count());
+  InitialWork unsettled;
+  for (const std::uint32_t number : main_.dirty().numbers())
+    if (state_.bodies[number].dirty) unsettled.dirty.push_back(number);
+  main_.events().pending().for_each([&](const Event& event) { unsettled.pending.push_back(event); });
+  add(unsettled);
+  state_.contacts.start_side_by_side(state_.bodies.sensors.any());
+}
+
+void SpeculativeRunner::end_batch() {
+  clusters_.clear();
+  state_.contacts.stop_side_by_side();
+}
+
+/// There are enough, and most of the work is not in one of them.
+bool SpeculativeRunner::is_worthwhile() const {
+  constexpr std::size_t few = 16;
+  std::size_t all = 0;
+  std::size_t largest = 0;
+  for (const Cluster& group : clusters_.all()) {
+    all += group.due.size();
+    largest = std::max<std::size_t>(largest, group.due.size());
+  }
+  return clusters_.size() >= few && 2 * largest < all;
+}
+
+void SpeculativeRunner::merge_bodies(std::span<const std::uint32_t> numbers) {
+  Cluster* group = nullptr;
+  for (const std::uint32_t number : numbers) {
+    Cluster* const theirs = cluster_of(number);
+    if (theirs == nullptr || theirs == group) continue;
+    if (group != nullptr) merge(*group, *theirs);
+    group = cluster_of(number);
+  }
+  if (group == nullptr) group = &clusters_.add();
+  for (const std::uint32_t number : numbers)
+    if (cluster_of(number) == nullptr) add_member(*group, number);
+}
+
+void SpeculativeRunner::add(const InitialWork& more) {
+  batch_.slots.resize(state_.bodies.numbers());
+  const auto group_with = [this](std::initializer_list<std::uint32_t> numbers) -> Cluster& {
+    merge_bodies(numbers);
+    Cluster& group = *cluster_of(*numbers.begin());
+    rollback(group);
+    group.needs_run = group.is_unsent = true;
+    return group;
+  };
+  for (const PairCertificate& pair : more.due) {
+    Cluster& group = pair.has_second() ? group_with({pair.first, pair.second}) : group_with({pair.first});
+    clusters_.add_due(group, pair);
+  }
+  for (const std::uint32_t number : more.dirty) group_with({number}).dirty.push_back(number);
+  for (const Event& event : more.pending)
+    group_with({state_.bodies.table().number_of(event.first)}).pending.push_back(event);
+}
+
+/// False when one of them has failed, or so many run again and again that others had better do it.
+bool SpeculativeRunner::execute_found() {
+  if (exception_) return false;
+  if (sizer_.repeats_too_often()) return false;
+  pool_.drop_rolled_back(clusters_, batch_);
+  assert(batch_.slots.size() == state_.bodies.numbers());
+  batch_.has_checkpoint.resize(clusters_.checkpoint_count(), 0);
+  if (batch_.checkpoints.size() < clusters_.checkpoint_count())
+    batch_.checkpoints.resize(clusters_.checkpoint_count());
+  // The large ones first, so that nobody waits for them in the end.
+  constexpr std::size_t large = 16;
+  std::stable_partition(to_run_.begin(), to_run_.end(),
+                        [this](std::uint32_t own) { return clusters_[own].due.size() >= large; });
+  for (const std::uint32_t own : to_run_) {
+    Cluster& group = clusters_[own];
+    sizer_.note_run(group.due.size(), std::exchange(group.has_run, true));
+  }
+  try {
+    lease_.parallel_for(to_run_.size(), clusters_at_once,
+                        [this](std::size_t begin, std::size_t end, std::size_t) {
+                          for (std::size_t k = begin; k < end; ++k) checkpoint(clusters_[to_run_[k]]);
+                        });
+    lease_.parallel_for(to_run_.size(), clusters_at_once,
+                        [this](std::size_t begin, std::size_t end, std::size_t worker) {
+                          for (std::size_t k = begin; k < end; ++k) {
+                            Cluster& group = clusters_[to_run_[k]];
+                            pool_.run(group, due_of(group), batch_, static_cast<std::uint32_t>(worker));
+                          }
+                        });
+  } catch (const std::exception& thrown) {
+    // It comes again where events are answered one by one, if it comes again.
+    failure_ = Error{ErrorCode::callback_threw, "callback", no_body, thrown.what()};
+    return false;
+  } catch (...) {
+    failure_ = Error{ErrorCode::callback_threw, "callback", no_body, "something that is no std::exception"};
+    return false;
+  }
+  conflicts_.note_runs(to_run_);
+  for (const std::uint32_t own : to_run_) {
+    if (!clusters_[own].failed) continue;
+    // None where it had to stop; and where that was not so, it is the first of its worker that failed.
+    failure_ = pool_.failure_of(clusters_[own]);
+    return false;
+  }
+  return true;
+}
+
+/// As the bodies are when the part begins. Others may look at that while the group runs.
+void SpeculativeRunner::checkpoint(const Cluster& group) {
+  for (const std::uint32_t number : clusters_.members_of(group)) {
+    const std::uint32_t place = batch_.slots[number].checkpoint;
+    if (std::exchange(batch_.has_checkpoint[place], std::uint8_t{1}) == 0)
+      batch_.checkpoints[place] = {state_.bodies.checkpoint(number),
+                                   ContactCheckpoint::of(state_.contacts, number)};
+  }
+}
+
+void SpeculativeRunner::rollback() {
+  for (Cluster& group : clusters()) {
+    rollback(group);
+    if (group.is_merged()) continue;
+    const std::span<const PairCertificate> due = due_of(group);
+    deferred_.insert(deferred_.end(), due.begin(), due.end());
+  }
+  main_.queue().add_all(deferred_);
+}
+
+/// As if the group had never been attempted.
+void SpeculativeRunner::rollback(Cluster& group) {
+  if (!group.executed) return;
+  for (const std::uint32_t number : members_of(group)) {
+    if (checkpoint_of(number) == nullptr) continue;
+    BatchState::BodySlot& place = batch_.slots[number];
+    BodyCheckpoint& before = batch_.checkpoints[place.checkpoint];
+    state_.bodies.restore(number, before.body);
+    before.contacts.restore(state_.contacts, number);
+    before.first_change = {};
+    place.update = BatchState::none;
+  }
+  // A body that turned several times set out from where it did before the first.
+  const std::span<const UndoEntry> turned = undo_log_of(group);
+  std::for_each(turned.rbegin(), turned.rend(), [this](const UndoEntry& turn) { restore_origin(turn); });
+  group.executed = false;
+}
+
+/// All others have to go back, too, before anybody learns that this one did not.
+void SpeculativeRunner::restore_origin(const UndoEntry& turn) {
+  try {
+    handler_->set_origin(turn.first, turn.second);
+  } catch (...) {
+    if (exception_) return;
+    exception_ = std::current_exception();
+    failure_ = Error{ErrorCode::callback_threw, "mover", no_body, "run: mover threw as it went back"};
+  }
+}
+
+void SpeculativeRunner::add_member(Cluster& group, std::uint32_t number) {
+  rollback(group);
+  group.needs_run = true;
+  clusters_.add_member(group, number);
+}
+
+/// Needs two that are joined to no other; one that is to be joined with itself runs again.
+void SpeculativeRunner::merge(Cluster& one, Cluster& other) {
+  rollback(one);
+  rollback(other);
+  one.needs_run = true;
+  if (&one != &other) clusters_.merge(one, other);
+}
+
+/// Gives groups the bodies that they claim, and joins those that count on bodies that others have changed too
+/// early. True when some have to run again.
+bool SpeculativeRunner::merge_conflicts() {
+  bool any = false;
+  for (const std::uint32_t own : to_run_) {
+    for (const std::uint32_t number : pool_.conflicts_of(clusters_[own])) {
+      any = true;
+      Cluster* const theirs = cluster_of(number);
+      if (theirs != nullptr) {
+        merge(clusters_.root_of(own), *theirs);
+      } else {
+        add_member(clusters_.root_of(own), number);
+      }
+    }
+  }
+  return merge_read_sets() || any;
+}
+
+bool SpeculativeRunner::merge_read_sets() {
+  constexpr std::size_t groups_at_once = 512;
+  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> found(lease_.count());
+  lease_.parallel_for(clusters_.size(), groups_at_once,
+                      [&](std::size_t begin, std::size_t end, std::size_t worker) {
+                        for (Cluster& group : clusters_.all().subspan(begin, end - begin)) {
+                          if (group.is_merged()) continue;
+                          group.superseded = 0;
+                          for (const auto& [number, time] : read_set_of(group)) {
+                            const BodyCheckpoint* const before = checkpoint_of(number);
+                            if (before == nullptr) continue;
+                            // Its new capsule is held against those of others by itself.
+                            if (before->first_change.invalidated < time && sizer_.may_decline()) {
+                              ++group.superseded;
+                            } else if (before->first_change.changed <= time) {
+                              found[worker].emplace_back(group.index, number);
+                            }
+                          }
+                        }
+                      });
+  bool any = false;
+  for (const auto& some : found) {
+    for (const auto& [own, number] : some) {
+      Cluster& ours = clusters_.root_of(own);
+      Cluster& theirs = *cluster_of(number);
+      if (&ours == &theirs) continue;
+      merge(ours, theirs);
+      any = true;
+    }
+  }
+  return any;
+}
+
+/// Of two bodies as they are after these kicks.
+PairCertificate SpeculativeRunner::certificate_of(const SweptSphereUpdate& update,
+                                                  const SweptSphereUpdate& other, double until) const {
+  const bool in_order = state_.bodies.table().comes_before(update.number, other.number);
+  const auto& [first, second] = in_order ? std::tie(update, other) : std::tie(other, update);
+  return {until, first.number, second.number, first.revision, second.revision};
+}
+
+/// Joins groups of which kicked bodies may meet. True when some have to run again.
+bool SpeculativeRunner::merge_updates() {
+  std::vector<ClusterUpdate> updates;
+  const std::size_t fresh = conflicts_.take(clusters_, pool_, updates);
+  if (fresh == 0) return false;
+  bool any = false;
+  for (const auto& [a, b, until, is_void] : find_conflicts(state_, updates, fresh, batch_.begin, lease_)) {
+    const auto [own, foreign] =
+        updates[a].cluster == BatchState::unassigned ? std::pair(b, a) : std::pair(a, b);
+    if (updates[foreign].cluster == BatchState::unassigned) {
+      // That body stands for its group, which is not here.
+      const std::uint32_t number = updates[foreign].update->number;
+      if (batch_.slots[number].cluster != updates[own].cluster)
+        conflicts_.note_conflict(updates[own].cluster, number);
+      continue;
+    }
+    Cluster& one = clusters_.root_of(updates[a].cluster);
+    Cluster& other = clusters_.root_of(updates[b].cluster);
+    if (&one == &other) continue;
+    // Processes tell each other of what is left of each group, not of what is between two.
+    if (until != Conflict::unknown && !batch_.is_in_batch(until) && sizer_.may_decline()) {
+      if (!is_void)
+        cross_pairs_.note(one, other, certificate_of(*updates[a].update, *updates[b].update, until));
+      continue;
+    }
+    merge(one, other);
+    any = true;
+  }
+  return any;
+}
+
+void SpeculativeRunner::commit(const Cluster& group, bool is_counted,
+                               std::vector<const EventInRound*>& told) {
+  if (is_counted) {
+    const WorkCounters& work = pool_.work_of(group);
+    main_.work().counters += work.counters;
+    main_.work().recertified += {work.recertified.bodies, work.recertified.near - group.superseded};
+    main_.work().counters.hot_pairs -= group.superseded;
+  }
+  const std::span<const PairCertificate> left = late_pairs_of(group);
+  deferred_.insert(deferred_.end(), left.begin(), left.end());
+  for (const EventInRound& one : pool_.events_of(group)) told.push_back(&one);
+  if (!state_.bodies.shapes.any()) return;
+  for (const std::uint32_t number : members_of(group))
+    batch_.checkpoints[batch_.slots[number].checkpoint].contacts.update_static(state_.contacts, number);
+}
+
+void SpeculativeRunner::commit(std::vector<const EventInRound*>& told) {
+  register_updates();
+  // As if one of the two had found the other.
+  cross_pairs_.for_each_standing(clusters_, [this](const PairCertificate& pair) {
+    main_.work().recertified += {0, 1};
+    ++main_.work().counters.hot_pairs;
+    deferred_.push_back(pair);
+  });
+  main_.discard_initial_work();
+  main_.queue().add_all(deferred_);
+  std::sort(told.begin(), told.end(), [](const EventInRound* a, const EventInRound* b) {
+    if (a->event.time != b->event.time) return a->event.time < b->event.time;
+    return a->round != b->round ? a->round < b->round : delivered_before(a->event, b->event);
+  });
+  main_.advance_clock(std::min(batch_.until, batch_.stop));
+  sizer_.adapt(state_.bodies.table().live_count());
+}
+
+/// Bodies have the capsules that they got: also those that start anew when the part is over, since queries
+/// may come before that, where the run is interrupted.
+void SpeculativeRunner::register_updates() {
+  std::vector<BroadPhase::Arrival> arrivals;
+  std::vector<const SweptSphereUpdate*> updates;
+  for (const Cluster& group : clusters_.all()) {
+    if (group.is_merged()) continue;
+    std::uint32_t place = group.record.updates.begin;
+    for (const SweptSphereUpdate& update : updates_of(group)) {
+      if (batch_.slots[update.number].update != place++) continue;
+      arrivals.push_back({update.number, update.time, update.window});
+      updates.push_back(&update);
+    }
+  }
+  state_.broad_phase.enter_all(
+      arrivals,
+      [&](std::size_t k) {
+        const SweptSphereUpdate& update = *updates[k];
+        return margin_for(state_.bodies, update.number, BoundAt(update.bound, update.time));
+      },
+      lease_);
+  state_.broad_phase.tidy(lease_);
+}
+
+}  // namespace kinesphere

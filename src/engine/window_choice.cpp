@@ -1,0 +1,96 @@
+#include "engine/window_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "number/infinity.hpp"
+#include "number/powers.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// What a report costs, in looks at a capsule: with it, all that the caller does for it.
+constexpr double price_of_report = 800.0;
+
+/// How wide the box of a body may be on an axis that repeats, by space/space.hpp (2); a little less, for
+/// rounding.
+double widest_in_period(double period, double position_error, double release_gap) {
+  return (0.5 - 0x1p-10) * period - release_gap - 4.0 * position_error;
+}
+
+}  // namespace
+
+/// How long a window of the body may last, `length` at most, for the box around its way to be as narrow as
+/// space/space.hpp (2) wants it.
+double WindowChoice::longest_in_period(std::uint32_t number, double length, double release_gap) const {
+  const Body& body = bodies()[number];
+  const Space& space = bodies().space();
+  const BoundAt moved(body.bound, time_);
+  const double radius = moved.radius + bodies().sensors.reach(body.sensor_class) +
+                        2.0 * bodies().definition().contact_tolerance;
+  double longest = length;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!space.repeats(axis)) continue;
+    const double speed = std::abs(moved.velocity[axis]) + 2.0 * moved.speed;
+    const double a = norm_one(moved.acceleration) + moved.growth;
+    const double widest = widest_in_period(space.period()[axis], body.position_error, release_gap);
+    const double way = std::max(widest - 2.0 * radius, 0.0);
+    if ((speed + a * longest) * longest <= way) continue;
+    const double divisor = speed + std::sqrt(speed * speed + 4.0 * a * way);
+    if (divisor > 0.0) longest = std::min(longest, 2.0 * way / divisor);
+  }
+  return longest;
+}
+
+/// Of the longest window up to this tier, from now on, that is short enough for a space that repeats.
+int WindowChoice::rung_in_space(std::uint32_t number, int rung) const {
+  if (!bodies().space().repeats()) return rung;
+  rung = Window::at(time_, rung).rung;
+  const double release_gap = state_.contacts.rule().release_gap();
+  while (power_of_two(rung) > longest_in_period(number, power_of_two(rung), release_gap)) {
+    const int shorter = Window::at(time_, rung - 1).rung;
+    if (shorter == rung) break;
+    rung = shorter;
+  }
+  return rung;
+}
+
+Window WindowChoice::next_window(std::uint32_t number, const std::optional<Window>& present) const {
+  const Body& body = bodies()[number];
+  if (body.is_static() || body.stands_still()) return Window::endless();
+  const Window window = window_for(number);
+  if (!present || body.relocated) return window;
+  const bool suits = present->rung >= window.rung - 2 * WindowPolicy::powers_between_rungs &&
+                     present->end <= window.end &&
+                     (present->rung <= window.rung || !bodies().space().repeats());
+  return suits && time_ < present->end ? *present : window;
+}
+
+Window WindowChoice::longer_window(std::uint32_t number, const Window& ended) const {
+  const int suits = state_.window_policy.rung_for(speed_bound_of(BoundAt(bodies()[number].bound, time_)));
+  return Window::at(time_, rung_in_space(number, std::max(suits, ended.rung + 1)));
+}
+
+bool WindowChoice::needs_report(std::uint32_t number) const {
+  const Body& body = bodies()[number];
+  if (body.fresh(time_)) return false;
+  const Bound& bound = body.bound;
+  const SpeedBound speed_bound = speed_bound_of(BoundAt(bound, time_));
+  const Window window = Window::at(time_, rung_for(number, speed_bound));
+  const double s = window.end - bound.time;
+  const auto growth_after = [&bound](double time) {
+    return (bound.growth_speed + 0.5 * bound.growth_acceleration * time) * time;
+  };
+  const double saved = growth_after(s) - growth_after(window.end - time_);
+  if (state_.window_policy.cost_of_width(2.0 * saved) > price_of_report) return true;
+  const double speed = norm(bound.velocity) + bound.growth_speed + body.largest_acceleration() * s;
+  if (!bodies().space().repeats()) return speed * s > longest_way(bodies().definition());
+  if (window.rung < state_.window_policy.rung_for(speed_bound)) return true;
+  const Vec3& period = bodies().space().period();
+  double half = infinity;
+  for (int axis = 0; axis < 3; ++axis)
+    if (bodies().space().repeats(axis)) half = std::min(half, 0.5 * period[axis]);
+  return speed * s > half;
+}
+
+}  // namespace kinesphere

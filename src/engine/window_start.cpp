@@ -1,0 +1,156 @@
+#include "engine/window_start.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace kinesphere {
+namespace {
+
+/// So many are worth the while of a thread.
+constexpr std::size_t bodies_at_once = 256;
+
+/// Window::free_at(), of which most bodies ask for the same one.
+class FreeWindows {
+ public:
+  FreeWindows(std::span<const int> held, double now) : held_(held), now_(now) {}
+
+  const Window& of(int rung) {
+    if (!found_ || rung != asked_) found_ = Window::free_at(now_, rung, held_);
+    asked_ = rung;
+    return *found_;
+  }
+
+ private:
+  std::span<const int> held_;
+  double now_;
+  int asked_ = 0;
+  std::optional<Window> found_;
+};
+
+}  // namespace
+
+MotionStatistics WindowStart::survey(std::span<const std::uint32_t> numbers) const {
+  MotionStatistics statistics;
+  for (const std::uint32_t number : numbers) {
+    const BoundAt moved(bodies()[number].bound, time());
+    statistics.note(moved.centre, speed_bound_of(moved));
+  }
+  return statistics;
+}
+
+void WindowStart::choose_policy(const MotionStatistics& statistics) {
+  const double way = std::max(0.25 * statistics.spacing(), 0x1p8 * bodies().definition().contact_tolerance);
+  state_.window_policy.choose(way, statistics.typical());
+}
+
+Result<void> WindowStart::refresh(std::span<const std::uint32_t> ending) {
+  const WindowChoice pacing(state_, time());
+  std::vector<std::uint8_t> is_asked(ending.size());
+  lease_.parallel_for(ending.size(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+    for (std::size_t k = from; k < to; ++k)
+      is_asked[k] = !bodies()[ending[k]].dirty && pacing.needs_report(ending[k]) ? 1 : 0;
+  });
+  std::vector<std::uint32_t> asked;
+  for (std::size_t k = 0; k < ending.size(); ++k)
+    if (is_asked[k] != 0) asked.push_back(ending[k]);
+  if (asked.empty()) return {};
+  return main_.probe(asked, lease_);
+}
+
+std::vector<BroadPhase::Starter> WindowStart::choose_windows(std::span<const std::uint32_t> numbers,
+                                                             std::span<const int> held,
+                                                             WindowPolicy::Sample& round) {
+  const double now = time();
+  const WindowChoice pacing(state_, now);
+  std::vector<BroadPhase::Starter> starters(numbers.size());
+  const std::size_t parts = (numbers.size() + bodies_at_once - 1) / bodies_at_once;
+  std::vector<WindowPolicy::Sample> rounds(parts, round);
+  lease_.parallel_for(parts, 1, [&](std::size_t from, std::size_t to, std::size_t) {
+    FreeWindows free(held, now);
+    for (std::size_t part = from; part < to; ++part) {
+      const std::size_t end = std::min((part + 1) * bodies_at_once, numbers.size());
+      for (std::size_t k = part * bodies_at_once; k < end; ++k) {
+        const std::uint32_t number = numbers[k];
+        const InflatedBound bound = margin_for(bodies(), number, BoundAt(bodies()[number].bound, now));
+        const SpeedBound speed_bound = speed_bound_of(bound.moved);
+        const Window& window = free.of(pacing.rung_for(number, speed_bound));
+        starters[k] = {number, 0, window};
+        if (window.end == now) continue;
+        if (bodies().space().repeats()) bodies().wrap_to_primary(number, now, window.end - now);
+        starters[k].size_class = SizeClasses::size_class_of(bound, window);
+        rounds[part].note(speed_bound, 2.0 * (bound.moved.radius + bound.margin), window.rung);
+      }
+    }
+  });
+  for (const WindowPolicy::Sample& one : rounds) round += one;
+  std::erase_if(starters, [&](const BroadPhase::Starter& starter) {
+    if (starter.window.end > now) return false;
+    main_.dirty().add(bodies(), starter.number);
+    return true;
+  });
+  return starters;
+}
+
+std::uint64_t WindowStart::start(std::span<const BroadPhase::Starter> starters,
+                                 const std::vector<std::uint8_t>* others) {
+  state_.broad_phase.start(
+      starters, time(), [&](std::uint32_t number) { return inflated_bound(bodies(), number, time()); },
+      lease_);
+  found_.resize(lease_.count());
+  const std::uint64_t near = find_pairs(others);
+  find_links_and_walls(starters);
+  for (SearchResults& found : found_) found.hand_over(main_.queue(), main_.work().counters);
+  return near;
+}
+
+/// The hot pairs that searches find of those that have started.
+std::uint64_t WindowStart::find_pairs(const std::vector<std::uint8_t>* others) {
+  const double now = time();
+  const BroadPhase& windows = state_.broad_phase;
+  const PairCertifier certifier = main_.certifier();
+  const auto is_counted = [&](std::uint32_t a, std::uint32_t b) {
+    return others == nullptr || (*others)[bodies().table().comes_before(a, b) ? a : b] == 0;
+  };
+  std::vector<std::uint64_t> uncounted(lease_.count());
+  lease_.parallel_for(
+      windows.started(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
+        SearchResults& found = found_[worker];
+        const auto bound_of = [&](std::uint32_t number) { return inflated_bound(bodies(), number, now); };
+        found.searches += to - from;
+        for (const auto& [a, b] : found.search.near_started(windows, from, to, now, bound_of)) {
+          const std::uint64_t before = found.near;
+          certifier.certify(a, b, found);
+          if (found.near != before && !is_counted(a, b)) ++uncounted[worker];
+        }
+      });
+  std::uint64_t near = 0;
+  for (const SearchResults& found : found_) near += found.near;
+  for (const std::uint64_t some : uncounted) near -= some;
+  return near;
+}
+
+/// Pairs that touch or sense each other, and walls, of those that have started.
+void WindowStart::find_links_and_walls(std::span<const BroadPhase::Starter> starters) {
+  const PairCertifier certifier = main_.certifier();
+  const auto is_linked = [this](std::uint32_t number) {
+    return !state_.contacts.partners_of(number).empty() || !state_.contacts.overlaps_of(number).empty();
+  };
+  // Of most bodies nothing is read then.
+  const auto mark = [&](bool settled) {
+    lease_.parallel_for(starters.size(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+      for (const BroadPhase::Starter& starter : starters.subspan(from, to - from))
+        if (is_linked(starter.number)) bodies()[starter.number].visited = settled;
+    });
+  };
+  mark(true);
+  lease_.parallel_for(starters.size(), bodies_at_once,
+                      [&](std::size_t from, std::size_t to, std::size_t worker) {
+                        for (std::size_t k = from; k < to; ++k) {
+                          certifier.certify_linked(starters[k].number, found_[worker]);
+                          certifier.certify_walls(starters[k].number, found_[worker]);
+                        }
+                      });
+  mark(false);
+}
+
+}  // namespace kinesphere

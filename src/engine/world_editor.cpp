@@ -1,0 +1,181 @@
+#include "engine/world_editor.hpp"
+
+#include "engine/static_body.hpp"
+
+namespace kinesphere {
+
+void World::WorldEditor::reserve(std::size_t bodies) {
+  state_.bodies.reserve(bodies);
+  state_.contacts.reserve(bodies);
+  state_.broad_phase.reserve(bodies);
+  main_.dirty().reserve(bodies);
+}
+
+BodyId World::WorldEditor::add(const BodyDefinition& definition) {
+  const std::uint32_t number = state_.bodies.add(definition);
+  insert_at(number, bound_now(definition, time()));
+  state_.contacts.add(number, bodies()[number].largest_acceleration());
+  return bodies().id_of(number);
+}
+
+BodyId World::WorldEditor::add_static(const StaticDefinition& definition) {
+  const BodyDefinition at_rest = body_of(definition);
+  const std::uint32_t number = state_.bodies.add(at_rest);
+  state_.bodies.fix(number, definition.shape);
+  state_.contacts.add(number, 0.0);
+  state_.contacts.set_static(number);
+  insert_at(number, bound_now(at_rest, time()));
+  return bodies().id_of(number);
+}
+
+/// The body is where `bound` says. The next advance looks what it meets there.
+void World::WorldEditor::insert_at(std::uint32_t number, const Bound& bound) {
+  Body& body = state_.bodies[number];
+  body.bound = bound;
+  body.relocated = true;
+  BroadPhase& windows = state_.broad_phase;
+  if (windows.contains(number)) windows.leave(number);
+  main_.invalidate(number);
+  if (bodies().definition().allow_overlap) return;
+  // Others that are added before then have to find it.
+  const Window window = body.is_static() ? Window::endless() : Window::at(time(), Window::shortest);
+  if (bodies().space().repeats()) state_.bodies.wrap_to_primary(number, time(), 0.0);
+  windows.enter(number, inflated_bound(bodies(), number, time()), time(), window);
+  windows.tidy();
+}
+
+/// The body's contacts end, and nobody finds it any more.
+void World::WorldEditor::detach(std::uint32_t number) {
+  end_contacts(number, [](const Event&) { return true; });
+  if (state_.broad_phase.contains(number)) state_.broad_phase.leave(number);
+  Body& body = state_.bodies[number];
+  ++body.revision;
+  body.dirty = body.relocated = false;
+}
+
+void World::WorldEditor::end_contacts(std::uint32_t number, const std::function<bool(const Event&)>& ends) {
+  main_.events().end_contacts(
+      state_.contacts, number, time(),
+      [this](std::uint32_t other) { return sphere_at(bodies(), time(), other); }, bodies().walls(), ends);
+}
+
+void World::WorldEditor::remove(BodyId id) {
+  const std::uint32_t number = id.index;
+  if (bodies()[number].is_sleeping()) sleeping().resume(number);
+  sleeping().wake(number);
+  detach(number);
+  state_.bodies.remove(number);
+}
+
+/// Another bound takes the place of the body's. Contacts that it certainly ends are over with the states
+/// before.
+void World::WorldEditor::replace(std::uint32_t number, const Bound& bound) {
+  const double apart = state_.contacts.rule().separation_distance();
+  const auto ends = [&](const Event& end) {
+    if (main_.events().pending().contains(end)) return true;
+    const std::uint32_t partner = end.first.index == number ? end.second.index : end.first.index;
+    const GapLimits gap = end.wall == Wall::none
+                              ? gap_at(bodies(), time(), collision_shape_of(bodies(), number, bound),
+                                       collision_shape_of(bodies(), partner))
+                              : gap_limits(bound, half_space(*bodies().walls(), end.wall), time());
+    return gap.lower >= end.distance + apart;
+  };
+  end_contacts(number, ends);
+  insert_at(number, bound);
+}
+
+void World::WorldEditor::teleport(BodyId id, const State& state) {
+  sleeping().wake(id.index);
+  if (bodies().definition().contacts == ContactMode::impacts) state_.contacts.release_all(id.index);
+  state_.bodies.count_images_anew(id.index);
+  replace(id.index, bound_of(bodies().definition_of(id.index), state, time()));
+  state_.bodies.forget_change(id.index);
+}
+
+void World::WorldEditor::set_radius(BodyId id, double radius) {
+  if (bodies()[id.index].enabled) sleeping().wake(id.index);
+  BodyDefinition changed = bodies().definition_of(id.index);
+  changed.radius = radius;
+  if (bodies()[id.index].enabled) replace(id.index, bound_with(bodies(), id.index, changed, time()));
+  state_.bodies[id.index].radius = radius;
+}
+
+void World::WorldEditor::set_motion_limits(BodyId id, const MotionLimits& promise) {
+  Body& body = state_.bodies[id.index];
+  if (body.is_sleeping()) sleeping().wake(id.index);
+  const BodyDefinition changed = with_motion_limits(bodies().definition_of(id.index), promise);
+  if (body.enabled) replace(id.index, bound_with(bodies(), id.index, changed, time()));
+  body.position_error = promise.position_error;
+  if (!body.enabled || !body.fresh(time())) state_.bodies.change_of(id.index).limits = promise;
+  state_.contacts.set_largest_acceleration(id.index,
+                                           promise.acceleration_limit + norm(promise.planned_acceleration));
+}
+
+void World::WorldEditor::disable(BodyId id) {
+  Body& body = state_.bodies[id.index];
+  // It will come back awake.
+  if (body.is_sleeping()) sleeping().resume(id.index);
+  sleeping().wake(id.index);
+  detach(id.index);
+  body.enabled = false;
+}
+
+void World::WorldEditor::enable(BodyId id, const State& state) {
+  Body& body = state_.bodies[id.index];
+  body.enabled = true;
+  if (body.is_static()) return insert_at(id.index, body.bound);
+  state_.bodies.count_images_anew(id.index);
+  const BodyDefinition definition = bodies().definition_of(id.index);
+  state_.bodies.forget_change(id.index);
+  insert_at(id.index, bound_of(definition, state, time()));
+}
+
+void World::WorldEditor::set_filter(BodyId id, const Filter& filter) {
+  state_.bodies.filters.keep(id.index, filter);
+  refresh_filter(id);
+}
+
+void World::WorldEditor::set_pair_filter(PairFilter filter) {
+  state_.bodies.filters.keep_pair_filter(std::move(filter));
+  for (std::uint32_t number = 0; number < bodies().numbers(); ++number)
+    refresh_filter(bodies().id_of(number));
+}
+
+void World::WorldEditor::set_solid(BodyId id, bool solid) {
+  state_.bodies.set_solid(id.index, solid);
+  refresh_filter(id);
+}
+
+void World::WorldEditor::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
+  state_.bodies.sensors.set(sensor_class, sensor);
+  for (std::uint32_t number = 0; number < bodies().numbers(); ++number)
+    if (bodies()[number].sensor_class == sensor_class) refresh_filter(bodies().id_of(number));
+}
+
+void World::WorldEditor::set_sensor_class(BodyId id, SensorClass sensor_class) {
+  state_.bodies[id.index].sensor_class = sensor_class;
+  refresh_filter(id);
+}
+
+/// Nothing is known any more of who may touch or sense the body.
+void World::WorldEditor::refresh_filter(BodyId id) {
+  const std::uint32_t number = id.index;
+  // Also of one that is disabled: it may be enabled again before they are delivered.
+  main_.events().drop_pending(number, [this](const Event& event) { return may_hold(event); });
+  if (!bodies()[number].present()) return;
+  end_contacts(number, [this](const Event& end) { return !may_hold(end); });
+  state_.bodies[number].relocated = true;
+  main_.invalidate(number);
+}
+
+/// Whether the contact or crossing that an event is about is possible at all.
+bool World::WorldEditor::may_hold(const Event& event) const {
+  if (event.second == no_body) return true;
+  const std::uint32_t a = event.first.index;
+  const std::uint32_t b = event.second.index;
+  if (!is_of_sensor(event.kind)) return bodies().may_touch(a, b);
+  return bodies().may_meet(a, b) &&
+         bodies().sensors.senses(sensing_of(bodies(), a), sensing_of(bodies(), b), event.distance);
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,57 @@
+// Changes that the caller makes: bodies come and go, and their place, shape, promise or filter changes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+
+#include "engine/event_processor.hpp"
+#include "engine/sleeping.hpp"
+#include "engine/world_state.hpp"
+#include "kinesphere/shape.hpp"
+#include "kinesphere/world.hpp"
+
+namespace kinesphere {
+
+/// To be made while nothing else goes on. Their input has been checked (world/check.hpp).
+class World::WorldEditor {
+ public:
+  WorldEditor(WorldState& tables, EventProcessor& main) : state_(tables), main_(main) {}
+
+  void reserve(std::size_t bodies);
+  BodyId add(const BodyDefinition& definition);
+  BodyId add_static(const StaticDefinition& definition);
+  void remove(BodyId id);
+  void set_velocity(BodyId id, const Vec3& velocity) { main_.set_velocity(id.index, velocity); }
+  void teleport(BodyId id, const State& state);
+  void set_radius(BodyId id, double radius);
+  void set_motion_limits(BodyId id, const MotionLimits& promise);
+  void disable(BodyId id);
+  void enable(BodyId id, const State& state);
+  void sleep(BodyId id) { sleeping().sleep(id.index); }
+  void wake_up(BodyId id) {
+    if (bodies()[id.index].is_sleeping()) sleeping().wake(id.index);
+  }
+  void set_filter(BodyId id, const Filter& filter);
+  void set_pair_filter(PairFilter filter);
+  void refresh_filter(BodyId id);
+  void set_solid(BodyId id, bool solid);
+  void set_sensor(SensorClass sensor_class, const Sensor& sensor);
+  void set_sensor_class(BodyId id, SensorClass sensor_class);
+  void set_user_data(BodyId id, std::uint64_t data) { state_.bodies[id.index].user_data = data; }
+
+ private:
+  const Bodies& bodies() const { return state_.bodies; }
+  double time() const { return main_.time(); }
+  Sleeping sleeping() { return {state_, main_}; }
+  void insert_at(std::uint32_t number, const Bound& bound);
+  void detach(std::uint32_t number);
+  void replace(std::uint32_t number, const Bound& bound);
+  void end_contacts(std::uint32_t number, const std::function<bool(const Event&)>& ends);
+  bool may_hold(const Event& event) const;
+
+  WorldState& state_;
+  EventProcessor& main_;
+};
+
+}  // namespace kinesphere

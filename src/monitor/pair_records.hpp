@@ -1,0 +1,91 @@
+// Pairs that are not certainly apart, or were not so in this window, and what is certain of each of their
+// separations.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <tuple>
+#include <unordered_map>
+#include <vector>
+
+#include "kinesphere/monitor/separation.hpp"
+#include "number/infinity.hpp"
+
+namespace kinesphere {
+
+struct LevelState {
+  Verdict verdict = Verdict::apart;
+  double since = -infinity;
+  double until = -infinity;  ///< a certain verdict holds until then, whatever is reported
+
+  template <class Self, class Archive>
+  static void serialize(Self& self, Archive& archive) {
+    auto& [verdict, since, until] = self;
+    archive(verdict, since, until);
+  }
+};
+
+struct PairRecord {
+  std::uint32_t version = 0;  ///< what is in the agenda for another one is void
+  std::vector<LevelState> levels;
+
+  bool is_apart() const {
+    return std::all_of(levels.begin(), levels.end(),
+                       [](const LevelState& state) { return state.verdict == Verdict::apart; });
+  }
+  bool is_undecided() const {
+    return std::any_of(levels.begin(), levels.end(),
+                       [](const LevelState& state) { return state.verdict == Verdict::undecided; });
+  }
+  /// Something that was certain is not so from now on.
+  bool is_expiring(double now) const {
+    return std::any_of(levels.begin(), levels.end(), [now](const LevelState& state) {
+      return state.verdict != Verdict::undecided && state.until <= now;
+    });
+  }
+
+  template <class Self, class Archive>
+  static void serialize(Self& self, Archive& archive) {
+    auto& [version, levels] = self;
+    archive(version, levels);
+  }
+};
+
+/// By the numbers of two tracks, the lesser first.
+class PairRecords {
+ public:
+  PairRecord* find(std::uint32_t a, std::uint32_t b) {
+    const auto at = records_.find(key(a, b));
+    return at == records_.end() ? nullptr : &at->second;
+  }
+  const PairRecord* find(std::uint32_t a, std::uint32_t b) const {
+    const auto at = records_.find(key(a, b));
+    return at == records_.end() ? nullptr : &at->second;
+  }
+  PairRecord& add(std::uint32_t a, std::uint32_t b, std::size_t levels) {
+    PairRecord& record = records_[key(a, b)];
+    record.levels.resize(levels);
+    return record;
+  }
+  void remove(std::uint32_t a, std::uint32_t b) { records_.erase(key(a, b)); }
+  std::uint32_t fresh_version() { return ++last_version_; }
+  std::size_t size() const { return records_.size(); }
+  std::uint32_t last_version() const { return last_version_; }
+  void start_versions_at(std::uint32_t version) { last_version_ = version; }
+  /// Calls visit(a, b, record), in no particular order.
+  template <class Visit>
+  void for_each(Visit visit) const {
+    for (const auto& [pair, record] : records_)
+      visit(static_cast<std::uint32_t>(pair >> 32), static_cast<std::uint32_t>(pair), record);
+  }
+
+ private:
+  static std::uint64_t key(std::uint32_t a, std::uint32_t b) {
+    return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+  }
+
+  std::unordered_map<std::uint64_t, PairRecord> records_;
+  std::uint32_t last_version_ = 0;
+};
+
+}  // namespace kinesphere

@@ -1,0 +1,183 @@
+#include "monitor/separation_forecast.hpp"
+
+#include <algorithm>
+
+#include "bound/rounding.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// A claim as one component sees it: a path without a radius, which grows, and an error that does not.
+struct View {
+  Bound path;
+  double error;
+  double end;
+
+  View(const ReachableSet& set, const Component& component)
+      : path{set.time,
+             component.part(set.position),
+             component.part(set.velocity),
+             component.part(set.acceleration),
+             0.0,
+             component.length(set.speed),
+             component.length(set.growth)},
+        error(component.length(set.radius)),
+        end(set.end) {}
+
+  /// What has been added to the radius.
+  double growth_at(double t) const { return path.radius_at(t); }
+  /// The path alone.
+  Bound centre() const {
+    Bound alone = path;
+    alone.growth_speed = 0.0;
+    alone.growth_acceleration = 0.0;
+    return alone;
+  }
+};
+
+/// Two claims and a component.
+class ReachableSetsMeeting {
+ public:
+  ReachableSetsMeeting(const ReachableSet& a, const ReachableSet& b, const Component& component, double now)
+      : a_(a, component),
+        b_(b, component),
+        now_(now),
+        begin_(std::max(a.time, b.time)),
+        end_(std::min(a.end, b.end)),
+        errors_(rounding::sum_up(a_.error, b_.error)),
+        limit_(component.limit),
+        outer_limit_(rounding::sum_down(component.limit, component.tolerance)),
+        gap_(gap_limits(a_.path, b_.path, now)) {}
+
+  bool holds() const { return begin_ <= now_ && now_ < end_; }
+  double lower() const { return rounding::sum_down(gap_.lower, -errors_); }
+  double upper() const { return rounding::sum_up(gap_.upper, errors_); }
+  bool is_apart() const { return lower() > limit_; }
+  bool is_within() const { return upper() <= outer_limit_; }
+
+  double apart_until(double horizon) const {
+    return std::min(end_,
+                    earliest_meeting(a_.path, b_.path, now_, horizon, rounding::sum_up(limit_, errors_)));
+  }
+  double within_until(double horizon) const {
+    const double margin = rounding::sum_down(outer_limit_, -errors_);
+    return std::min(end_, earliest_separation(a_.path, b_.path, now_, horizon, margin));
+  }
+  /// They cannot be told to be apart, or within, before: with radii that did not grow from now on that would
+  /// take as long.
+  double may_be_apart(double horizon) const {
+    return earliest_separation(a_.centre(), b_.centre(), now_, horizon, limit_ + errors_ + growth());
+  }
+  double may_be_within(double horizon) const {
+    const double margin = outer_limit_ - errors_ - growth();
+    return margin >= 0.0 ? earliest_meeting(a_.centre(), b_.centre(), now_, horizon, margin) : infinity;
+  }
+
+ private:
+  double growth() const { return a_.growth_at(now_) + b_.growth_at(now_); }
+
+  View a_, b_;
+  double now_, begin_, end_;
+  double errors_, limit_, outer_limit_;
+  GapLimits gap_;
+};
+
+/// Calls visit(meeting) for each pair of claims that hold, until it returns false.
+template <class Visit>
+void for_each_meeting(const Hypothesis& a, const Hypothesis& b, const Component& component, double now,
+                      Visit visit) {
+  for (const ReachableSet& one : a.sets)
+    for (const ReachableSet& other : b.sets)
+      if (const ReachableSetsMeeting meeting(one, other, component, now); meeting.holds())
+        if (!visit(meeting)) return;
+}
+
+/// Until when two hypotheses leave no doubt that the two are apart, or within; -infinity if they leave one.
+struct Certain {
+  double apart = -infinity;
+  double within = infinity;
+};
+
+Certain certain_of(const Hypothesis& a, const Hypothesis& b, const Components& components, double now,
+                   double horizon) {
+  Certain certain;
+  for (const Component& component : components) {
+    double within = -infinity;
+    for_each_meeting(a, b, component, now, [&](const ReachableSetsMeeting& meeting) {
+      if (meeting.is_apart()) certain.apart = std::max(certain.apart, meeting.apart_until(horizon));
+      if (meeting.is_within()) within = std::max(within, meeting.within_until(horizon));
+      // No other pair can say more.
+      return certain.apart < infinity && within < infinity;
+    });
+    certain.within = std::min(certain.within, within);
+  }
+  return certain;
+}
+
+/// The first time after `now` from which a claim holds that does not hold yet.
+double next_begin(const Hypothesis& hypothesis, double now) {
+  double next = infinity;
+  for (const ReachableSet& set : hypothesis.sets)
+    if (set.time > now) next = std::min(next, set.time);
+  return next;
+}
+
+/// When passing time may decide what two hypotheses leave open, at the earliest.
+double decided_from(const Hypothesis& a, const Hypothesis& b, const Components& components, double now,
+                    double horizon) {
+  double apart = infinity;
+  double within = -infinity;
+  for (const Component& component : components) {
+    double one_within = infinity;
+    for_each_meeting(a, b, component, now, [&](const ReachableSetsMeeting& meeting) {
+      apart = std::min(apart, meeting.may_be_apart(horizon));
+      one_within = std::min(one_within, meeting.is_within() ? now : meeting.may_be_within(horizon));
+      return true;
+    });
+    within = std::max(within, one_within);
+  }
+  return std::min({apart, within, next_begin(a, now), next_begin(b, now)});
+}
+
+}  // namespace
+
+SeparationForecast forecast_of(const TrackEstimate& a, const TrackEstimate& b, const Components& separation,
+                               double now, double horizon, double least) {
+  Certain all{infinity, infinity};
+  for (const Hypothesis& one : a.hypotheses())
+    for (const Hypothesis& other : b.hypotheses()) {
+      const Certain certain = certain_of(one, other, separation, now, horizon);
+      all.apart = std::min(all.apart, certain.apart);
+      all.within = std::min(all.within, certain.within);
+    }
+  const double enough = now + least;
+  if (all.apart >= enough && all.apart >= all.within) return {Verdict::apart, all.apart};
+  if (all.within >= enough) return {Verdict::within, all.within};
+  double until = enough;
+  // A pair of which a track has several hypotheses is decided again when a report comes, not by time alone.
+  if (a.hypotheses().size() == 1 && b.hypotheses().size() == 1)
+    until = std::max(until,
+                     decided_from(a.hypotheses().front(), b.hypotheses().front(), separation, now, infinity));
+  else
+    until = infinity;
+  return {Verdict::undecided, until};
+}
+
+DistanceBetween distance_between(const TrackEstimate& a, const TrackEstimate& b, const Component& component,
+                                 double now) {
+  DistanceBetween all{infinity, 0.0};
+  for (const Hypothesis& one : a.hypotheses())
+    for (const Hypothesis& other : b.hypotheses()) {
+      DistanceBetween between;
+      for_each_meeting(one, other, component, now, [&](const ReachableSetsMeeting& meeting) {
+        between.lower = std::max(between.lower, meeting.lower());
+        between.upper = std::min(between.upper, meeting.upper());
+        return true;
+      });
+      all.lower = std::min(all.lower, between.lower);
+      all.upper = std::max(all.upper, between.upper);
+    }
+  return all;
+}
+
+}  // namespace kinesphere

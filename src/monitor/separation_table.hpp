@@ -1,0 +1,50 @@
+// Which separations count between tracks of two classes.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "kinesphere/monitor/monitor.hpp"
+#include "monitor/reachable_set.hpp"
+
+namespace kinesphere {
+
+class SeparationTable {
+ public:
+  explicit SeparationTable(const MonitorDefinition& definition)
+      : classes_(definition.classes.size()), of_pairs_(classes_ * classes_), margins_(classes_) {
+    for (const SeparationRule& rule : definition.separations) {
+      const auto [a, b, levels] = rule;
+      std::vector<Components>& components = of_pairs_[std::min(a, b) * classes_ + std::max(a, b)];
+      for (const Separation& level : levels) {
+        components.emplace_back(level, definition.dimensions, definition.tolerance);
+        const double margin = 0.5 * reach_of(level, definition.dimensions) + 2.0 * definition.tolerance;
+        margins_[a] = std::max(margins_[a], margin);
+        margins_[b] = std::max(margins_[b], margin);
+      }
+    }
+  }
+
+  std::span<const Components> between(std::size_t a, std::size_t b) const {
+    return of_pairs_[std::min(a, b) * classes_ + std::max(a, b)];
+  }
+  /// Two tracks that are within any separation, or about the tolerance outside, are no farther apart than
+  /// their rooms together.
+  double margin(std::size_t track_class) const { return margins_[track_class]; }
+
+ private:
+  static double reach_of(const Separation& separation, int dimensions) {
+    const auto& [shape, horizontal, vertical] = separation;
+    if (dimensions == 2) return horizontal;
+    return shape == Separation::Shape::cylinder ? ErrorBound::cylinder(horizontal, vertical).total()
+                                                : std::max(horizontal, vertical);
+  }
+
+  std::size_t classes_;
+  std::vector<std::vector<Components>> of_pairs_;
+  std::vector<double> margins_;
+};
+
+}  // namespace kinesphere

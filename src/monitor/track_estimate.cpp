@@ -1,0 +1,364 @@
+#include "monitor/track_estimate.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "bound/rounding.hpp"
+#include "kinesphere/limits.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// More contradictions at a time are not kept: the oldest hypothesis goes.
+constexpr std::size_t most_hypotheses = TrackEstimate::slots - 1;
+
+/// The error of a stamp, told as errors of the state at the stamp. While a stamp may be wrong, so may be
+/// which plan is in force: accelerations differ from the class's planned one by at most what `plans` say.
+TrackReport with_exact_timestamp(TrackReport report, const TrackClass& promise,
+                                 const PlansBeyondClass& plans) {
+  const double error = report.timestamp_error;
+  if (error == 0.0) return report;
+  const ErrorBound speed =
+      least(lengths_of(report.state.velocity) + report.velocity_error, promise.largest_speed);
+  const ErrorBound turn =
+      plans.limit_from(report.timestamp - error, promise) + lengths_of(promise.planned_acceleration);
+  // A path that turns goes no farther than this, and no farther than the largest speed takes it.
+  const ErrorBound way = least((speed + turn * (0.5 * error)) * error, promise.largest_speed * error);
+  report.position_error = report.position_error + way * (1.0 + rounding::margin);
+  report.velocity_error = report.velocity_error + turn * (error * (1.0 + rounding::margin));
+  report.timestamp_error = 0.0;
+  return report;
+}
+
+bool is_finite(const ErrorBound& error) { return std::isfinite(error.total()); }
+
+/// By an acceleration that differs from `planned` by at most `limit`.
+ReachableSet motion_of(const TrackReport& report, const Vec3& planned, const ErrorBound& limit) {
+  return {.time = report.timestamp,
+          .position = report.state.position,
+          .velocity = report.state.velocity,
+          .acceleration = planned,
+          .radius = report.position_error,
+          .speed = report.velocity_error,
+          .growth = limit};
+}
+
+/// By the class's largest speed alone.
+ReachableSet range_of(const TrackReport& report, const TrackClass& promise) {
+  return {.time = report.timestamp,
+          .position = report.state.position,
+          .radius = report.position_error,
+          .speed = promise.largest_speed};
+}
+
+/// With room for the roundings of what is computed from it.
+void widen(ReachableSet& set) {
+  const double size = norm_one(set.position) * rounding::margin;
+  set.radius = set.radius + ErrorBound(size);
+}
+
+/// From when on the largest speed counts, as it would be exceeded after a time `after` of speeding up: the
+/// track is within the motion's radius then, and goes on from there by its largest speed. Nothing if that is
+/// later than a monitor can come to be.
+std::optional<ReachableSet> range_after(const ReachableSet& motion, double after, const TrackClass& promise) {
+  const double begin = motion.time + after;
+  if (!(after > 0.0 && begin < motion.end && begin <= limits::largest_time)) return std::nullopt;
+  const ReachableSet then = motion.moved_to(begin);
+  return ReachableSet{
+      .time = begin, .position = then.position, .radius = then.radius, .speed = promise.largest_speed};
+}
+
+/// What a report says of its track's motion from `now` on, by the accelerations that the class and plans
+/// leave possible. The first is the tightest.
+std::vector<ReachableSet> motions_of(const TrackReport& report, const TrackClass& promise,
+                                     const PlansBeyondClass& plans, double now) {
+  std::vector<ReachableSet> motions;
+  if (!is_finite(report.velocity_error)) return motions;
+  const bool has_limit = is_finite(promise.acceleration_limit);
+  // Accelerations change from one limit to another at `time`. Monitors end before later times than the
+  // largest, at which lengths would overflow.
+  const auto go_on = [&](const ReachableSet& motion, double time) {
+    if (!(time <= limits::largest_time)) return;
+    ReachableSet rest = motion.moved_to(time);
+    rest.acceleration = promise.planned_acceleration;
+    rest.growth = plans.limit_from(time, promise);
+    rest.end = infinity;
+    motions.push_back(rest);
+  };
+  if (report.plan && now < report.plan->valid_until) {
+    ReachableSet planned = motion_of(report, report.plan->acceleration, report.plan->acceleration_limit);
+    planned.end = report.plan->valid_until;
+    motions.push_back(planned);
+    if (has_limit) go_on(planned, planned.end);
+  }
+  if (!has_limit) return motions;
+  const ReachableSet motion =
+      motion_of(report, promise.planned_acceleration, plans.limit_from(report.timestamp, promise));
+  if (report.timestamp > now) {
+    ReachableSet back = motion;
+    back.growth = plans.limit_from(now, promise);
+    motions.push_back(back.moved_to(now));
+  }
+  motions.push_back(motion);
+  if (report.timestamp < plans.end) go_on(motion, plans.end);
+  return motions;
+}
+
+std::vector<ReachableSet> reachable_sets_of(const TrackReport& report, const TrackClass& promise,
+                                            const PlansBeyondClass& plans, double now) {
+  std::vector<ReachableSet> sets = motions_of(report, promise, plans, now);
+  if (is_finite(promise.largest_speed)) {
+    if (!sets.empty()) {
+      // Ahead the largest speed is reached sooner than on the way back.
+      const ReachableSet motion = sets.front();
+      const double fastest = promise.largest_speed.total();
+      const double limit = motion.growth.total();
+      for (const double speed : {fastest - norm(motion.velocity), fastest})
+        if (const auto range = range_after(motion, speed / limit, promise)) sets.push_back(*range);
+    }
+    const ReachableSet range = range_of(report, promise);
+    if (report.timestamp > now) sets.push_back(range.moved_to(now));
+    sets.push_back(range);
+  }
+  for (ReachableSet& set : sets) widen(set);
+  return sets;
+}
+
+double beyond(const Vec3& way, const ErrorBound& limit, double size) {
+  const double margin = rounding::margin * size;
+  const double flat = std::hypot(way.x, way.y) - limit.horizontal();
+  const double upright = std::abs(way.z) - limit.vertical();
+  const double all = norm(way) - limit.total();
+  return std::max({0.0, flat - margin, upright - margin, all - margin});
+}
+
+/// What `report` has beyond what an earlier or later state leaves possible. `own`: its plan, beyond its
+/// class.
+Excess excess_of(const TrackReport& report, const PlansBeyondClass& own, const Hypothesis& believed,
+                 const TrackClass& promise) {
+  const double way = report.timestamp - believed.timestamp;
+  const double s = std::abs(way);
+  const ReachableSet& from = believed.motion;
+  // A report's plan is in force from its stamp on, so it counts between the two if the report is the older
+  // one.
+  const PlansBeyondClass plans = way < 0.0 ? joined(believed.plans, own) : believed.plans;
+  const ErrorBound& limit = plans.limit_from(std::min(report.timestamp, believed.timestamp), promise);
+  Excess excess;
+  const double size = norm_one(report.state.position) + norm_one(from.position) +
+                      (norm_one(from.velocity) + norm_one(from.acceleration) * s) * s;
+  const ErrorBound both = report.position_error + from.radius;
+  if (is_finite(from.speed) && is_finite(limit)) {
+    const Vec3 centre = from.position + (from.velocity + promise.planned_acceleration * (0.5 * way)) * way;
+    const ErrorBound reach = both + (from.speed + limit * (0.5 * s)) * s;
+    excess.position = beyond(report.state.position - centre, reach, size);
+    if (is_finite(report.velocity_error)) {
+      const Vec3 velocity = from.velocity + promise.planned_acceleration * way;
+      const ErrorBound turn = report.velocity_error + from.speed + limit * s;
+      excess.velocity =
+          beyond(report.state.velocity - velocity, turn,
+                 norm_one(report.state.velocity) + norm_one(from.velocity) + norm_one(from.acceleration) * s);
+    }
+  }
+  if (is_finite(promise.largest_speed))
+    excess.position = std::max(excess.position, beyond(report.state.position - from.position,
+                                                       both + promise.largest_speed * s, size));
+  return excess;
+}
+
+Hypothesis hypothesis_of(const TrackReport& report, const TrackClass& promise, const PlansBeyondClass& plans,
+                         double now) {
+  Hypothesis hypothesis{.timestamp = report.timestamp,
+                        .motion = motion_of(report, promise.planned_acceleration, promise.acceleration_limit),
+                        .state = report.state,
+                        .plans = plans,
+                        .sets = reachable_sets_of(report, promise, plans, now)};
+  hypothesis.latest_sets = hypothesis.sets.size();
+  return hypothesis;
+}
+
+/// The latest report of a hypothesis, without its plan.
+TrackReport report_of(const Hypothesis& hypothesis) {
+  return {.timestamp = hypothesis.timestamp,
+          .state = hypothesis.state,
+          .position_error = hypothesis.motion.radius,
+          .velocity_error = hypothesis.motion.speed};
+}
+
+/// Both hold. What the latest report says stays, and of all else the claim that is tightest at a time soon,
+/// if it tells more then.
+Hypothesis joined(Hypothesis latest, Hypothesis other, double now, double soon) {
+  other.sets.insert(other.sets.end(), latest.sets.begin() + static_cast<std::ptrdiff_t>(latest.latest_sets),
+                    latest.sets.end());
+  latest.sets.resize(latest.latest_sets);
+  const ReachableSet& best = TrackEstimate::tightest(other, now, soon);
+  if (best.radius_at(soon).total() < TrackEstimate::tightest(latest, now, soon).radius_at(soon).total())
+    latest.sets.push_back(best);
+  return latest;
+}
+
+// What a snapshot may hold. Claims of reports and classes within limits come to no larger numbers than these:
+// an acceleration by 2e30 of time makes 1e131 of speed and 1e161 of length. In the longest window, of 2^300,
+// nothing that is computed from them overflows.
+constexpr double most_length = 1e170;
+constexpr double most_speed = 1e140;
+constexpr double most_acceleration = 1e110;
+
+bool is_time(double time) { return std::abs(time) <= limits::largest_time; }
+
+bool is_within(const Vec3& v, double most) {
+  return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most;
+}
+
+/// False for what is not a number.
+bool is_within(const ErrorBound& error, double most) {
+  const auto is_length = [most](double value) { return value >= 0.0 && value <= most; };
+  return is_length(error.horizontal()) && is_length(error.vertical()) && is_length(error.total());
+}
+
+bool is_valid(const ReachableSet& set) {
+  return is_time(set.time) && !std::isnan(set.end) && is_within(set.position, most_length) &&
+         is_within(set.velocity, most_speed) && is_within(set.acceleration, most_acceleration) &&
+         is_within(set.radius, most_length) && is_within(set.speed, most_speed) &&
+         is_within(set.growth, most_acceleration);
+}
+
+/// What the latest report says by itself holds now and for ever: tightest() finds something even when a later
+/// report replaces all other claims.
+bool is_valid(const Hypothesis& hypothesis, double now) {
+  const auto& [stamp, slot, motion, state, plans, claims, latest_claims] = hypothesis;
+  // Neither the velocity nor the acceleration of a report need have a limit.
+  ReachableSet limited = motion;
+  for (ErrorBound* error : {&limited.speed, &limited.growth})
+    if (is_within(*error, infinity)) *error = 0.0;
+  if (!is_time(stamp) || !is_valid(limited) || !is_within(state.position, most_length) ||
+      !is_within(state.velocity, most_speed) || std::isnan(plans.end) || !is_within(plans.limit, infinity) ||
+      latest_claims > claims.size())
+    return false;
+  const auto latest_end = claims.begin() + static_cast<std::ptrdiff_t>(latest_claims);
+  const auto holds = [now](const ReachableSet& set) { return set.time <= now && set.end == infinity; };
+  return std::all_of(claims.begin(), claims.end(), [](const ReachableSet& set) { return is_valid(set); }) &&
+         std::any_of(claims.begin(), latest_end, holds);
+}
+
+}  // namespace
+
+TrackEstimate::Learned TrackEstimate::update(const TrackReport& report, const TrackClass& promise, double now,
+                                             double ahead) {
+  Learned learned;
+  const PlansBeyondClass own = PlansBeyondClass::of(report, promise);
+  PlansBeyondClass all = own;
+  for (const Hypothesis& believed : hypotheses_) all = joined(all, believed.plans);
+  const TrackReport exact = with_exact_timestamp(report, promise, all);
+  const auto next = [&](const PlansBeyondClass& plans) { return hypothesis_of(exact, promise, plans, now); };
+  if (hypotheses_.empty()) {
+    hypotheses_.push_back(next(all));
+    return learned;
+  }
+  learned.late = exact.timestamp < timestamp();
+  std::vector<std::size_t> agreeing;
+  learned.excess = {infinity, infinity};
+  for (std::size_t k = 0; k < hypotheses_.size(); ++k) {
+    const Hypothesis& believed = hypotheses_[k];
+    if (believed.timestamp == exact.timestamp && believed.state == exact.state &&
+        believed.plans.include(own)) {
+      learned = {.outcome = Outcome::repeated};
+      return learned;
+    }
+    const Excess excess = excess_of(exact, own, believed, promise);
+    if (!excess.any()) agreeing.push_back(k);
+    if (excess.position + excess.velocity < learned.excess.position + learned.excess.velocity)
+      learned.excess = excess;
+  }
+  if (agreeing.empty()) {
+    learned.outcome = Outcome::contradicts;
+    learned.ends_certainty = true;
+    Hypothesis other = next(all);
+    other.slot = free_slot();
+    if (hypotheses_.size() == most_hypotheses) hypotheses_.erase(hypotheses_.begin());
+    hypotheses_.push_back(std::move(other));
+    return learned;
+  }
+  if (hypotheses_.size() > 1) learned.outcome = Outcome::resolves;
+  learned.ends_certainty = std::any_of(agreeing.begin(), agreeing.end(),
+                                       [&](std::size_t k) { return !hypotheses_[k].plans.include(own); });
+  if (agreeing.size() > 1 || learned.ends_certainty) {
+    // Where several agree, they contradict each other: one of them rests upon a wrong report, and this one is
+    // right. Where a plan goes beyond what was believed possible, nothing is kept but the latest state.
+    const Hypothesis& believed = hypotheses_[agreeing.front()];
+    Hypothesis only = next(all);
+    if (agreeing.size() == 1 && exact.timestamp < believed.timestamp)
+      only = joined(hypothesis_of(report_of(believed), promise, all, now), std::move(only), now, now + ahead);
+    only.slot = free_slot();
+    hypotheses_ = {std::move(only)};
+    return learned;
+  }
+  Hypothesis believed = std::move(hypotheses_[agreeing.front()]);
+  Hypothesis latest = next(believed.plans);
+  latest.slot = believed.slot;
+  hypotheses_.clear();
+  const bool newer = exact.timestamp >= believed.timestamp;
+  hypotheses_.push_back(newer ? joined(std::move(latest), std::move(believed), now, now + ahead)
+                              : joined(std::move(believed), std::move(latest), now, now + ahead));
+  return learned;
+}
+
+const ReachableSet& TrackEstimate::tightest(const Hypothesis& hypothesis, double from, double until) {
+  const ReachableSet* best = nullptr;
+  double least = infinity;
+  for (const ReachableSet& set : hypothesis.sets) {
+    if (set.time > from || set.end < until) continue;
+    const double radius = set.radius_at(until).total();
+    if (best == nullptr || radius < least) {
+      best = &set;
+      least = radius;
+    }
+  }
+  assert(best != nullptr);
+  return *best;
+}
+
+std::uint32_t TrackEstimate::free_slot() const {
+  std::uint32_t slot = 0;
+  while (std::any_of(hypotheses_.begin(), hypotheses_.end(),
+                     [slot](const Hypothesis& hypothesis) { return hypothesis.slot == slot; }))
+    ++slot;
+  return slot;
+}
+
+Bound TrackEstimate::bound(const Hypothesis& hypothesis, double now, double end) {
+  return tightest(hypothesis, now, end).moved_to(now).bound();
+}
+
+double TrackEstimate::worth_asking(double time) const {
+  double largest = 0.0;
+  for (const Hypothesis& hypothesis : hypotheses_)
+    largest = std::max(largest, tightest(hypothesis, time).radius_at(time).total());
+  return largest * std::max(0.0, time - timestamp());
+}
+
+double TrackEstimate::timestamp() const {
+  double latest = -infinity;
+  for (const Hypothesis& hypothesis : hypotheses_) latest = std::max(latest, hypothesis.timestamp);
+  return latest;
+}
+
+bool TrackEstimate::is_valid(double now) const {
+  std::uint32_t taken = 0;
+  for (const Hypothesis& hypothesis : hypotheses_) {
+    // Two hypotheses with one slot would have one capsule.
+    if (hypothesis.slot >= slots || (taken & 1u << hypothesis.slot) != 0) return false;
+    taken |= 1u << hypothesis.slot;
+    if (!kinesphere::is_valid(hypothesis, now)) return false;
+  }
+  return !hypotheses_.empty() && hypotheses_.size() <= most_hypotheses;
+}
+
+double TrackEstimate::first_end() const {
+  double first = infinity;
+  for (const Hypothesis& hypothesis : hypotheses_)
+    for (const ReachableSet& set : hypothesis.sets) first = std::min(first, set.end);
+  return first;
+}
+
+}  // namespace kinesphere

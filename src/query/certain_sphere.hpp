@@ -1,0 +1,54 @@
+// What is known of a body at the current time, in every state in which a caller may ask.
+#pragma once
+
+#include "bound/rounding.hpp"
+#include "engine/engine.hpp"
+
+namespace kinesphere {
+
+/// A sphere around `centre` with radius `outer` contains the body, and the body contains the one with radius
+/// `inner`, if that is not negative. Rounding is allowed for.
+struct CertainSphere {
+  Vec3 centre;
+  double outer;
+  double inner;
+};
+
+inline CertainSphere certain_sphere_of(const Body& body, double now) {
+  const Bound& bound = body.bound;
+  const double s = now - bound.time;
+  const double outer = bound.radius_at(now);
+  const double size =
+      norm_one(bound.position) + (norm_one(bound.velocity) + norm_one(bound.planned_acceleration) * s) * s;
+  const double deviation = outer - body.radius + rounding::margin * (size + outer);
+  return {bound.centre_at(now), body.radius + deviation, body.radius - deviation};
+}
+
+/// Contains the body from now on. A bound of a report before a kick, or before the body promised something
+/// else, tells only where the body is now and, but for a kick, how fast.
+inline Bound present_bound(const Body& body, const Change* change, double now) {
+  const Bound& last = body.bound;
+  if (!change) return last;
+  const MotionLimits& promise = change->limits;
+  const bool as_promised = last.growth_speed == promise.velocity_error &&
+                           last.growth_acceleration == promise.acceleration_limit &&
+                           last.planned_acceleration == promise.planned_acceleration;
+  if (as_promised && !change->velocity) return last;
+  const CertainSphere place = certain_sphere_of(body, now);
+  Bound bound{.time = now,
+              .position = place.centre,
+              .velocity = change->velocity.value_or(last.velocity_at(now)),
+              .planned_acceleration = promise.planned_acceleration,
+              .radius = place.outer,
+              .growth_speed = promise.velocity_error,
+              .growth_acceleration = promise.acceleration_limit};
+  if (!change->velocity) {
+    const double s = now - last.time;
+    const double speed =
+        norm_one(last.velocity) + (norm_one(last.planned_acceleration) + last.growth_acceleration) * s;
+    bound.growth_speed = last.growth_speed + last.growth_acceleration * s + rounding::margin * speed;
+  }
+  return bound;
+}
+
+}  // namespace kinesphere

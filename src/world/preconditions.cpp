@@ -1,0 +1,167 @@
+#include "world/preconditions.hpp"
+
+#include <string>
+
+#include "engine/static_body.hpp"
+#include "engine/validation.hpp"
+#include "input/input_check.hpp"
+#include "world/run.hpp"
+
+namespace kinesphere {
+
+Error World::Preconditions::error_about(ErrorCode code, BodyId body, std::string_view what) const {
+  return {code, "body", body, std::string(call_) + ": " + std::string(what)};
+}
+
+Result<void> World::Preconditions::exists() const {
+  if (engine_) return {};
+  return moved_from_error(call_);
+}
+
+Result<void> World::Preconditions::idle() const {
+  auto valid = exists();
+  return valid ? check_idle(world_.activity(), call_) : valid;
+}
+
+Result<void> World::Preconditions::all_told() const {
+  auto valid = idle();
+  if (!valid || !world_.untold_ || world_.untold_->empty()) return valid;
+  return Error{ErrorCode::run_in_progress, "world", no_body,
+               std::string(call_) + ": the world must have told all events of an interrupted run first," +
+                   " in another run or by advance"};
+}
+
+Result<void> World::Preconditions::may_ask(const Probe& probe) const {
+  auto valid = idle();
+  if (valid && !probe) {
+    return Error{ErrorCode::null_probe, "probe", no_body,
+                 std::string(call_) + ": probe must be a function, but is empty"};
+  }
+  return valid;
+}
+
+bool World::Preconditions::is_foreign(BodyId body) const {
+  return body.world != engine_->bodies().table().tag() && body.world != 0 &&
+         engine_->bodies().table().tag() != 0;
+}
+
+Result<void> World::Preconditions::known(BodyId body) const {
+  if (auto valid = exists(); !valid) return valid;
+  if (is_known(body)) return {};
+  const std::string name = text_of(body);
+  if (is_foreign(body)) return error_about(ErrorCode::foreign_body, body, name + " is one of another world");
+  const auto& table = engine_->bodies().table();
+  // A free index has the generation that its next body will have.
+  if (body.index < table.numbers() && body.generation < table[body.index].generation)
+    return error_about(ErrorCode::stale_body, body, name + " has been removed");
+  return error_about(ErrorCode::unknown_body, body, name + " was never in this world");
+}
+
+Result<void> World::Preconditions::changeable(BodyId body) const {
+  auto valid = idle();
+  return valid ? known(body) : valid;
+}
+
+Result<void> World::Preconditions::enabled(BodyId body, bool enabled) const {
+  auto valid = changeable(body);
+  return valid ? is_enabled(body, enabled) : valid;
+}
+
+Result<void> World::Preconditions::moving(BodyId body) const {
+  auto valid = changeable(body);
+  return valid ? is_moving(body) : valid;
+}
+
+Result<void> World::Preconditions::mobile(BodyId body) const {
+  auto valid = idle();
+  return valid ? can_turn(body) : valid;
+}
+
+Result<void> World::Preconditions::can_turn(BodyId body) const {
+  auto valid = known(body);
+  if (valid) valid = is_moving(body);
+  return valid ? is_enabled(body, true) : valid;
+}
+
+Result<void> World::Preconditions::is_enabled(BodyId body, bool enabled) const {
+  if (engine_->bodies().table()[body.index].enabled == enabled) return {};
+  return error_about(enabled ? ErrorCode::disabled_body : ErrorCode::enabled_body, body,
+                     std::string("body must be ") + (enabled ? "enabled" : "disabled") + ", but " +
+                         text_of(body) + " is not");
+}
+
+Result<void> World::Preconditions::is_moving(BodyId body) const {
+  if (!engine_->bodies().table()[body.index].is_static()) return {};
+  return error_about(ErrorCode::static_body, body,
+                     "body must be one that can move, but " + text_of(body) + " is fixed");
+}
+
+Result<void> World::Preconditions::pair(BodyId first, BodyId second) const {
+  auto valid = changeable(first);
+  if (valid) valid = known(second);
+  if (!valid || first != second) return valid;
+  return Error{ErrorCode::out_of_range, "second", second,
+               std::string(call_) + ": second must be another body than first, but is " + text_of(second)};
+}
+
+Result<void> World::Preconditions::room(const BodyDefinition& body, BodyId id) const {
+  if (definition().allow_overlap) return {};
+  const auto other = engine_->overlaps().of_body(id, {bound_now(body, engine_->time())}, body);
+  return other ? Result<void>(overlap_error(call_, *other, text_of(*other))) : Result<void>();
+}
+
+Result<void> World::Preconditions::static_room(const StaticDefinition& fixed, BodyId id) const {
+  if (definition().allow_overlap) return {};
+  const Bound bound = bound_now(body_of(fixed), engine_->time());
+  const auto other = engine_->overlaps().of_body(id, collision_shape_of(bound, fixed.shape), body_of(fixed));
+  return other ? Result<void>(overlap_error(call_, *other, text_of(*other), "shape")) : Result<void>();
+}
+
+Result<void> World::Preconditions::moved(BodyId id, const State& state) const {
+  BodyDefinition moved = engine_->bodies().definition_of(id.index);
+  if (auto valid = check_state(state, moved, id, definition(), call_); !valid) return valid;
+  moved.position = state.position;
+  moved.velocity = state.velocity;
+  return room(moved, id);
+}
+
+Result<void> World::Preconditions::growth(const BodyDefinition& changed, BodyId id,
+                                          std::string_view argument) const {
+  if (auto valid = reach(changed, id, argument); !valid) return valid;
+  const Body& body = engine_->bodies().table()[id.index];
+  const Bound bound = bound_with(engine_->bodies(), id.index, changed, engine_->time());
+  if (definition().allow_overlap || !body.enabled || bound.radius <= body.bound.radius) return {};
+  if (const auto wall = engine_->overlaps().of_wall(bound)) {
+    return Error{ErrorCode::outside_domain, std::string(argument), id,
+                 std::string(call_) + ": " + std::string(argument) + " of " + text_of(id) +
+                     " must keep the whole sphere in the box, but it would overlap the wall " +
+                     std::string(name_of(*wall))};
+  }
+  if (const auto other = engine_->overlaps().of_body(id, {bound}, changed))
+    return overlap_error(call_, *other, text_of(*other), argument);
+  return {};
+}
+
+Result<void> World::Preconditions::reach(const BodyDefinition& changed, BodyId id,
+                                         std::string_view argument) const {
+  const double reach = engine_->bodies().sensors.reach(changed.sensor_class);
+  return check_reach(reach, changed, id, argument, definition(), call_);
+}
+
+Result<void> World::Preconditions::new_body(const BodyDefinition& body, BodyId id) const {
+  auto valid = check_body(body, definition(), call_);
+  if (valid) valid = reach(body, no_body, "sensor_class");
+  return valid ? room(body, id) : valid;
+}
+
+Result<StaticDefinition> World::Preconditions::new_static(const StaticDefinition& fixed, BodyId id) const {
+  auto valid = check_shape(fixed.shape, definition(), call_);
+  if (valid) valid = reach(body_of(fixed), no_body, "shape");
+  if (!valid) return valid.error();
+  StaticDefinition checkpoint = fixed;
+  checkpoint.shape = normalized(fixed.shape, engine_->definition());
+  if (auto space = static_room(checkpoint, id); !space) return space.error();
+  return checkpoint;
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,105 @@
+// The contact book: delivery in order, what a kick in between changes, who touches whom.
+#include "contact/pending_events.hpp"
+
+#include <gtest/gtest.h>
+
+namespace kinesphere::contact_graph_test {
+namespace {
+
+/// Unit spheres on the x axis.
+class ContactBookTest : public ::testing::Test {
+ protected:
+  ContactBookTest() {
+    for (std::uint32_t body = 0; body < 3; ++body) book.add(body, 0.0);
+  }
+
+  Sphere sphere(std::uint32_t body) const { return {{body, 0}, 1.0, {{2.0 * body, 0, 0}, velocities[body]}}; }
+
+  Event begin(std::uint32_t a, std::uint32_t b) const {
+    return contact_event(EventKind::contact_begin, 5.0, sphere(a), sphere(b));
+  }
+
+  std::optional<Event> deliver() {
+    return instant.pop(
+        book, [this](BodyId id) { return alive[id.index]; },
+        [this](std::uint32_t body) { return sphere(body); }, Box{{-1, -9, -9}, {9, 9, 9}});
+  }
+
+  WorldDefinition definition{.contacts = ContactMode::impacts, .zeno_interval = 1.0};
+  ContactGraph book{definition};
+  PendingEvents instant;
+  Vec3 velocities[3] = {{1, 0, 0}, {0, 0, 0}, {-1, 0, 0}};
+  bool alive[3] = {true, true, true};
+};
+
+TEST_F(ContactBookTest, DeliversInOrderAndOnce) {
+  instant.queue(begin(2, 1));
+  instant.queue(begin(1, 0));
+  instant.queue(begin(0, 1));
+  const auto first = deliver();
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->first.index, 0u);
+  EXPECT_FALSE(first->repeated);
+  EXPECT_TRUE(book.touch(0, 1) && book.touch(1, 0));
+  EXPECT_FALSE(book.touch(1, 2));
+  const auto second = deliver();
+  ASSERT_TRUE(second);
+  EXPECT_EQ(second->second.index, 2u);
+  EXPECT_TRUE(second->repeated) << "body 1 has just touched body 0";
+  EXPECT_FALSE(deliver());
+  EXPECT_EQ(instant.changed().size(), 2u);
+}
+
+TEST_F(ContactBookTest, DropsWhatAKickHasTurnedApart) {
+  instant.queue(begin(0, 1));
+  velocities[0] = {-1, 0, 0};
+  EXPECT_FALSE(deliver());
+  EXPECT_FALSE(book.touch(0, 1));
+}
+
+TEST_F(ContactBookTest, TellsTheNewestVelocity) {
+  instant.queue(begin(0, 1));
+  velocities[0] = {3, 0, 0};
+  EXPECT_EQ(deliver()->approach_speed, 3.0);
+}
+
+TEST_F(ContactBookTest, KeepsEndsOfTheRemovedButNotTheirBegins) {
+  instant.queue(begin(0, 1));
+  Event end = begin(1, 2);
+  end.kind = EventKind::contact_end;
+  instant.queue(end);
+  alive[1] = false;
+  const auto delivered = deliver();
+  ASSERT_TRUE(delivered);
+  EXPECT_EQ(delivered->kind, EventKind::contact_end);
+  EXPECT_TRUE(instant.changed().empty());
+}
+
+TEST_F(ContactBookTest, TellsAZenoGuardOncePerInstant) {
+  Event guard = begin(0, 1);
+  guard.kind = EventKind::zeno_guard;
+  instant.queue(guard);
+  EXPECT_TRUE(deliver());
+  instant.queue(guard);
+  EXPECT_FALSE(deliver());
+  instant.start();
+  instant.queue(guard);
+  EXPECT_TRUE(deliver());
+}
+
+TEST_F(ContactBookTest, ReleasesBodiesAndWalls) {
+  velocities[0] = {-1, 0, 0};
+  velocities[1] = {-2, 0, 0};
+  instant.queue(wall_event(EventKind::wall_begin, 5.0, sphere(0), {{-1, -9, -9}, {9, 9, 9}}, Wall::x_lower));
+  instant.queue(begin(0, 1));
+  while (deliver()) {
+  }
+  EXPECT_TRUE(book.touches_wall(0, Wall::x_lower));
+  EXPECT_TRUE(book.touch(1, 0));
+  book.release_all(0);
+  EXPECT_EQ(book.walls_of(0), 0);
+  EXPECT_FALSE(book.touch(0, 1) || book.touch(1, 0));
+}
+
+}  // namespace
+}  // namespace kinesphere::contact_graph_test

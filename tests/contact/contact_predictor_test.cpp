@@ -1,0 +1,60 @@
+// Looks at a pair with fresh reports.
+#include "contact/contact_predictor.hpp"
+
+#include <gtest/gtest.h>
+
+#include "contact/contact_event.hpp"
+#include "number/infinity.hpp"
+#include "space/space.hpp"
+
+namespace kinesphere::contact_predictor_test {
+namespace {
+
+constexpr double tolerance = 1e-3;
+
+/// Two balls that come together at this speed.
+struct Pair {
+  WorldDefinition world;
+  Bound first, second;
+
+  Pair(double gap, double speed, double x) {
+    world.contact_tolerance = tolerance;
+    first = {.position = {x, 0, 0}, .velocity = {speed, 0, 0}, .radius = 1.0, .growth_acceleration = 1.0};
+    second = {.position = {x + 2.0 + gap, 0, 0}, .radius = 1.0, .growth_acceleration = 1.0};
+  }
+  Event now() const {
+    const auto sphere = [](std::uint32_t index, const Bound& bound) {
+      return Sphere{{index, 0, 0}, bound.radius, {bound.position, bound.velocity}};
+    };
+    return contact_event(EventKind::zeno_guard, 0.0, sphere(0, first), sphere(1, second), Space(world));
+  }
+  ContactDecision judge(const ContactRule& rule) const {
+    const ContactPredictor<Bound> predictor(rule, {.within = false}, first, second, 0.0,
+                                            {infinity, infinity});
+    return predictor.decide(now(), {0.0, 2.0});
+  }
+};
+
+/// However near to the tolerance it is, and however little of that its coordinates can tell.
+TEST(ContactPredictor, GuardsTheDistanceOfAPairOutsideTheTolerance) {
+  for (const double x : {0.0, 0x1p27, 0x1p34}) {
+    // Steps of the coordinates.
+    const double step = x > 0.0 ? x * 0x1p-52 : 0x1p-52;
+    for (const double steps : {1.0, 2.0, 5.0, 100.0}) {
+      const Pair pair(tolerance + steps * step, 2.0, x);
+      const Event now = pair.now();
+      if (!(now.gap > tolerance)) continue;
+      const ContactDecision verdict = pair.judge(ContactRule(pair.world).with_ends());
+      EXPECT_EQ(verdict.change, ContactRule::Change::none);
+      EXPECT_LE(verdict.next_check, 1.0001 * now.gap / 2.0) << "at " << x << ", " << steps << " steps out";
+    }
+  }
+}
+
+TEST(ContactPredictor, BeginsWithinTheTolerance) {
+  const Pair pair(0.999 * tolerance, 2.0, 0.0);
+  EXPECT_EQ(pair.judge(ContactRule(pair.world).with_ends()).change, ContactRule::Change::begin);
+}
+
+}  // namespace
+}  // namespace kinesphere::contact_predictor_test

@@ -1,0 +1,140 @@
+// Bodies go from one rank to another with their motion, contacts and hot pairs.
+#include "distributed/migration.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "kinesphere/motion/ballistic.hpp"
+
+namespace kinesphere::migration_test {
+namespace {
+
+/// What one rank has, without the others.
+struct Rank {
+  explicit Rank(int rank) : local({}, rank), transit(motion, local) {}
+
+  std::uint32_t add(std::uint32_t name, const State& state) {
+    const std::uint32_t number = local.bodies().add({.radius = 0.5}, name);
+    local.state.contacts.add(number, 0.0);
+    local.directory.add(name, number, 0);
+    local.directory[number].in_motion = motion.add(0.0, state).value();
+    Body& body = local.bodies()[number];
+    body.bound.position = state.position;
+    body.bound.velocity = state.velocity;
+    return number;
+  }
+  void touch(std::uint32_t a, std::uint32_t b) {
+    local.state.contacts.set_touching({.kind = EventKind::contact_begin,
+                                       .first = local.bodies().id_of(a),
+                                       .second = local.bodies().id_of(b)},
+                                      true);
+  }
+  void install(std::vector<BodyMessage> messages) { beginning = transit.install(messages, nullptr).value(); }
+  /// Names of those that it touches and that are known here.
+  std::vector<std::uint32_t> partners_of(std::uint32_t name) const {
+    std::vector<std::uint32_t> names;
+    for (const std::uint32_t number : local.state.contacts.partners_of(*local.directory.find(name)))
+      names.push_back(local.name_of(number));
+    return names;
+  }
+
+  Ballistic motion = Ballistic::create({}).value();
+  RankState local;
+  Migration transit;
+  InitialWork beginning;
+};
+
+TEST(Transit, BringsABodyAndItsMotion) {
+  Rank one(0);
+  Rank other(1);
+  const State state{{1, 2, 3}, {4, 5, 6}};
+  const std::uint32_t number = one.add(70, state);
+  other.install({one.transit.pack(number)});
+  const auto found = other.local.directory.find(70);
+  ASSERT_TRUE(found);
+  EXPECT_FALSE(other.local.directory.is_own(*found));
+  EXPECT_EQ(other.local.directory[*found].owner, 0);
+  EXPECT_EQ(other.local.bodies()[*found].bound.velocity, state.velocity);
+  EXPECT_EQ(other.motion.state(other.local.directory[*found].in_motion, 2.0).position, (Vec3{9, 12, 15}));
+}
+
+TEST(Transit, KeepsLinksToBodiesThatAreNotThereYet) {
+  Rank one(0);
+  Rank other(1);
+  const std::uint32_t a = one.add(70, {});
+  const std::uint32_t b = one.add(60, {{1, 0, 0}, {}});
+  one.touch(a, b);
+  other.install({one.transit.pack(a)});
+  EXPECT_TRUE(other.partners_of(70).empty());
+  EXPECT_EQ(other.transit.pack(*other.local.directory.find(70)).contacts.partners.all().size(), 1u)
+      << "a copy of a copy has the link, too";
+  other.install({one.transit.pack(b)});
+  EXPECT_EQ(other.partners_of(70), std::vector<std::uint32_t>{60});
+  EXPECT_EQ(other.partners_of(60), std::vector<std::uint32_t>{70});
+  EXPECT_EQ(other.transit.pack(*other.local.directory.find(70)).contacts.partners.all().size(), 1u)
+      << "the link dangles no longer";
+  other.transit.drop(*other.local.directory.find(70));
+  EXPECT_FALSE(other.local.directory.find(70));
+  EXPECT_TRUE(other.partners_of(60).empty());
+  other.install({one.transit.pack(a)});
+  EXPECT_EQ(other.partners_of(60), std::vector<std::uint32_t>{70});
+}
+
+TEST(Transit, BringsHotPairsOfKnownBodiesOnce) {
+  Rank one(0);
+  Rank other(1);
+  const std::vector<std::uint32_t> numbers{one.add(70, {}), one.add(60, {}), one.add(50, {})};
+  const PairCertifier certifier = one.local.main.certifier();
+  one.local.main.queue().add(certifier.certificate(1.5, numbers[0], numbers[1]));
+  one.local.main.queue().add(certifier.certificate(2.5, numbers[0], numbers[2]));
+  std::vector<BodyMessage> messages{one.transit.pack(numbers[0]), one.transit.pack(numbers[1])};
+  one.transit.add_due(messages, std::span(numbers).first(2), nullptr);
+  EXPECT_EQ(messages[0].due.size(), 2u);
+  EXPECT_EQ(messages[1].due.size(), 1u);
+  other.install(messages);
+  ASSERT_EQ(other.beginning.due.size(), 1u) << "that with an unknown body is left out";
+  EXPECT_EQ(other.beginning.due[0].failure_time, 1.5);
+  EXPECT_FALSE(other.local.main.certifier().is_stale(other.beginning.due[0]));
+}
+
+TEST(Transit, RenewedCopyKeepsHotPairsUnlessTheyAreVoid) {
+  Rank one(0);
+  Rank other(1);
+  const std::uint32_t a = one.add(70, {});
+  other.install({one.transit.pack(a), one.transit.pack(one.add(60, {}))});
+  const PairCertificate pair = other.local.main.certifier().certificate(1.5, *other.local.directory.find(70),
+                                                                        *other.local.directory.find(60));
+  BodyMessage renewed = one.transit.pack(a);
+  renewed.body.revision = 30;  // stamps are a rank's own
+  other.install({renewed});
+  EXPECT_FALSE(other.local.main.certifier().is_stale(pair));
+  renewed.is_void = true;
+  other.install({renewed});
+  EXPECT_TRUE(other.local.main.certifier().is_stale(pair));
+}
+
+/// As a checkpoint is read: the third body comes later, from another rank, and needs to hear of the pair.
+TEST(Transit, KeepsLoosePairs) {
+  Rank one(0);
+  Rank other(1);
+  const std::vector<std::uint32_t> numbers{one.add(70, {}), one.add(60, {})};
+  one.local.main.queue().add(one.local.main.certifier().certificate(1.5, numbers[0], numbers[1]));
+  std::vector<BodyMessage> messages{one.transit.pack(numbers[0])};
+  one.transit.add_due(messages, std::span(numbers).first(1), nullptr);
+  other.transit.keep_loose_pairs();
+  other.install(messages);
+  const std::vector<std::uint32_t> there{*other.local.directory.find(70)};
+  std::vector<BodyMessage> onward{other.transit.pack(there[0])};
+  other.transit.add_due(onward, there, nullptr);
+  ASSERT_EQ(onward[0].due.size(), 1u);
+  EXPECT_EQ(onward[0].due[0].other, 60u);
+  other.transit.forget_loose_pairs();
+  onward[0].due.clear();
+  other.transit.add_due(onward, there, nullptr);
+  EXPECT_TRUE(onward[0].due.empty());
+}
+
+}  // namespace
+}  // namespace kinesphere::migration_test

@@ -1,0 +1,247 @@
+// World::run by several threads: the same events as a loop over advance(), to the last bit.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "kinesphere/kinesphere.hpp"
+#include "kinesphere/workers.hpp"
+#include "support/playground.hpp"
+#include "world/bouncing_world.hpp"
+
+namespace kinesphere::speculation_test {
+namespace {
+
+struct Kind {
+  std::string name;
+  int side = 12;  ///< so many bodies along each axis
+  double spacing = 2.4;
+  double faster = 1.0;  ///< one in a hundred starts so many times as fast
+  ContactMode contacts = ContactMode::begin_and_end;
+  bool periodic = false;
+  bool sensors = false;
+  bool fixed = false;
+  bool passes = false;  ///< nobody answers
+  bool lies = false;    ///< one in three accelerates more than it promises
+  double end = 3.0;
+};
+
+/// Bodies of some sizes that bounce in a box.
+struct Hall : BouncingWorld<RandomForces> {
+  explicit Hall(const Kind& hall) : BouncingWorld(motion_in(hall), world_of(hall), 0.98), kind(hall) {
+    passes = kind.passes;
+    for (std::uint32_t number = 0; number < motion.size(); ++number) {
+      BodyDefinition body = next();
+      body.radius = number % 7 == 0 ? 0.7 : number % 3 == 0 ? 0.5 : 0.2;
+      if (kind.sensors && number % 5 == 0) body.sensor_class = 1;
+      if (kind.lies && number % 3 == 0) body.acceleration_limit *= 0.25;
+      add(body, body.radius * body.radius * body.radius);
+    }
+    if (kind.sensors) world.set_sensor(1, {.distances = {0.3, 0.6}}).value();
+    if (!kind.fixed) return;
+    // Between the rows.
+    const double lower = 0.5 * kind.spacing * 2.0;
+    for (int k = 0; k < 3; ++k)
+      world.add_static({.shape = Ball{{lower + k * 2 * kind.spacing, lower, lower}, 0.3}}).value();
+    world.add_zone(Box{{5, 5, 5}, {12, 12, 12}}).value();
+  }
+
+  Kind kind;
+
+ private:
+  static RandomForces motion_in(const Kind& kind) {
+    Random random(7);
+    const auto side = static_cast<std::size_t>(kind.side);
+    std::vector<State> states;
+    for (std::size_t k = 0; k < side * side * side; ++k) {
+      const auto at = [&](std::size_t place) { return kind.spacing * (double(place % side) + 0.5); };
+      states.push_back({{at(k), at(k / side), at(k / side / side)}, 3.0 * random.point_in_ball()});
+      if (k % 100 == 50) states.back().velocity *= kind.faster;
+    }
+    return RandomForces::create({.start = states, .acceleration_limits = std::vector(states.size(), 6.0)})
+        .value();
+  }
+  static World world_of(const Kind& kind) {
+    const double size = kind.side * kind.spacing;
+    WorldDefinition definition{.box = Box{{0, 0, 0}, {size, size, size}}, .contacts = kind.contacts};
+    if (kind.periodic) definition.periodic = {true, true, true};
+    return World::create(definition).value();
+  }
+};
+
+class SpeculativeRunner : public ::testing::TestWithParam<Kind> {};
+
+TEST_P(SpeculativeRunner, AreAsOneLoop) {
+  Hall looped(GetParam());
+  looped.loop(looped.kind.end);
+  EXPECT_GT(looped.told, 300u);
+  for (const int threads : {1, 2, 3, 8}) {
+    SCOPED_TRACE(threads);
+    Workers workers = Workers::create(threads).value();
+    Hall run(GetParam());
+    for (const double part : {0.01, 0.3, 0.3, 1.0}) run.run(part * run.kind.end, &workers).value();
+    expect_same_course(run, looped);
+    // What islands have done in vain does not count.
+    const Counters& counters = run.world.counters();
+    EXPECT_EQ(counters.searches, counters.starts + counters.restarts);
+    EXPECT_TRUE(is_clean(run.world));
+  }
+}
+
+/// A large ball that nobody is about to meet, in each of many places far from each other. On one side a body
+/// is hit that then passes by it, so that the ball is asked where it is; on the other side, later, one that
+/// comes to it after the first run. When that will be follows from the ball's last report, the one of the
+/// other island.
+struct LargeBalls : BouncingWorld<Ballistic> {
+  LargeBalls()
+      : BouncingWorld(Ballistic::create({.start = start()}).value(), World::create({}).value(), 1.0) {
+    for (std::uint32_t number = 0; number < motion.size(); ++number) {
+      const bool large = number % 5 == 0;
+      BodyDefinition body = next();
+      body.radius = large ? radius : 0.1;
+      body.acceleration_limit = large ? 0.2 : 0.01;
+      add(body, 1.0);
+    }
+  }
+
+ private:
+  static constexpr double radius = 200.0;
+
+  static std::vector<State> start() {
+    std::vector<State> states;
+    for (int k = 0; k < 27; ++k) {
+      const Vec3 centre = Vec3{double(k % 3), double(k / 3 % 3), double(k / 9)} * 1600.0;
+      const Vec3 passing = centre - Vec3{radius + 0.16, 20, 0};
+      const Vec3 coming = centre + Vec3{radius + 1.6, 0, 0};
+      const auto hitting = [](const Vec3& place, const Vec3& velocity, double time) {
+        return State{place - velocity * time, velocity};
+      };
+      states.push_back({centre, {}});
+      states.push_back({passing, {}});
+      states.push_back(hitting(passing - Vec3{0, 0.2, 0}, {0, 20, 20}, 0.3));
+      states.push_back({coming, {}});
+      states.push_back(hitting(coming + Vec3{0.2, 0, 0}, {-1, 0, 1}, 1.4));
+    }
+    return states;
+  }
+};
+
+TEST(IslandsThatCountOnABody, AreJoinedToTheOneThatHasIt) {
+  LargeBalls looped, run;
+  looped.loop(6.0);
+  EXPECT_EQ(looped.world.counters().count(EventKind::contact_begin), 3u * 27u);
+  Workers workers = Workers::create(2).value();
+  for (const double until : {1e-9, 1.6, 6.0}) run.run(until, &workers).value();
+  expect_same_course(run, looped);
+}
+
+/// Throws at the events from a time on, until it is told not to.
+TEST(IslandsThatFail, LeaveAWorldThatGoesOnAsIfNothingHadHappened) {
+  const Kind kind{.name = "failing", .sensors = true, .fixed = true};
+  Hall looped(kind);
+  looped.loop(kind.end);
+  Workers workers = Workers::create(3).value();
+  Hall run(kind);
+  SingleMotionSource source(run.motion);
+  std::atomic<double> fails_from = 1.0;
+  const auto respond = [&](const Event& event) {
+    if (event.time >= fails_from) throw std::runtime_error("no answer");
+    return run.answer(event);
+  };
+  const auto sink = [&](const Event& event) { run.tell(event); };
+  for (const double next : {1.5, 2.2, std::numeric_limits<double>::infinity()}) {
+    EXPECT_THROW((void)run.world.run(kind.end, source, respond, sink, &workers), std::runtime_error);
+    EXPECT_LE(run.last, fails_from);
+    fails_from = next;
+  }
+  EXPECT_TRUE(run.world.run(kind.end, source, respond, sink, &workers));
+  EXPECT_EQ(run.told, looped.told);
+  EXPECT_EQ(run.hash.value(), looped.hash.value());
+  EXPECT_TRUE(is_clean(run.world));
+}
+
+/// An answer that is refused once is asked for again.
+TEST(IslandsThatFail, GoOnWhenTheyFailNoMore) {
+  const Kind kind{.name = "failing once"};
+  Hall looped(kind);
+  looped.loop(kind.end);
+  Workers workers = Workers::create(2).value();
+  Hall run(kind);
+  SingleMotionSource source(run.motion);
+  std::atomic<int> asked = 0;
+  const auto respond = [&](const Event& event) {
+    Response answer = run.answer(event);
+    if (++asked % 400 == 0) answer.first_velocity = Vec3{0.0, std::numeric_limits<double>::quiet_NaN(), 0.0};
+    return answer;
+  };
+  const auto sink = [&](const Event& event) { run.tell(event); };
+  int refused = 0;
+  for (;;) {
+    const auto result = run.world.run(kind.end, source, respond, sink, &workers);
+    if (result) break;
+    EXPECT_EQ(result.error().code, ErrorCode::not_finite);
+    ASSERT_LT(++refused, 100);
+  }
+  EXPECT_EQ(run.told, looped.told);
+  EXPECT_EQ(run.hash.value(), looped.hash.value());
+}
+
+/// Of some body, at this instant.
+bool windows_end(const World& world) {
+  const auto bodies = world.bodies();
+  return std::any_of(bodies.begin(), bodies.end(),
+                     [&](BodyId id) { return world.body(id).value().box_end == world.time(); });
+}
+
+/// Where the sink throws, the world may stand at the end of a phase: there queries find bodies where they
+/// are, also those that have been kicked since their windows started.
+TEST(IslandsThatWereInterrupted, LeaveBodiesWhereQueriesFindThem) {
+  Workers workers = Workers::create(2).value();
+  Hall run({.name = "interrupted"});
+  SingleMotionSource source(run.motion);
+  const auto respond = [&](const Event& event) { return run.answer(event); };
+  const auto sink = [&](const Event& event) {
+    run.tell(event);
+    throw std::runtime_error("no more");
+  };
+  std::size_t interrupted = 0;
+  std::size_t not_found = 0;
+  double last = -1.0;
+  for (bool done = false; !done;) {
+    try {
+      done = static_cast<bool>(run.world.run(run.kind.end, source, respond, sink, &workers));
+    } catch (const std::runtime_error&) {
+    }
+    if (run.world.time() == last) continue;
+    last = run.world.time();
+    ++interrupted;
+    EXPECT_TRUE(!windows_end(run.world) || is_clean(run.world));
+    for (const BodyId id : run.world.bodies()) {
+      const Vec3 centre = run.world.body(id).value().bound.centre_at(last);
+      const auto found = run.world.overlapping(centre, 0.0).value();
+      if (std::none_of(found.begin(), found.end(), [&](const auto& one) { return one.body == id; }))
+        ++not_found;
+    }
+  }
+  EXPECT_GT(interrupted, 10u);
+  EXPECT_EQ(not_found, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, SpeculativeRunner,
+    ::testing::Values(Kind{.name = "bouncing"}, Kind{.name = "impacts", .contacts = ContactMode::impacts},
+                      Kind{.name = "dense", .side = 9, .spacing = 1.45, .end = 1.0},
+                      Kind{.name = "bullets", .faster = 60.0}, Kind{.name = "periodic", .periodic = true},
+                      Kind{.name = "sensors", .sensors = true},
+                      Kind{.name = "fixed", .sensors = true, .fixed = true},
+                      Kind{.name = "passing", .sensors = true, .passes = true},
+                      Kind{.name = "lying", .passes = true, .lies = true, .end = 8.0},
+                      Kind{.name = "lying_impacts", .contacts = ContactMode::impacts, .lies = true}),
+    [](const auto& kind) { return kind.param.name; });
+
+}  // namespace
+}  // namespace kinesphere::speculation_test
