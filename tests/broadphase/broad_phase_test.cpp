@@ -421,7 +421,7 @@ INSTANTIATE_TEST_SUITE_P(Windows, WindowsOf, testing::ValuesIn(kinds), kind_name
 
 /// One that is already in the windows that would suit others makes theirs shorter; where there are no shorter
 /// ones, there is none.
-TEST(Windows, AreFreeWhereNobodyIs) {
+TEST(BroadPhase, AreFreeWhereNobodyIs) {
   const double now = 3.0;
   BroadPhase windows{Space{WorldDefinition{}}};
   const InflatedBound bound{BoundAt(Bound{.time = now, .radius = 1.0}, now), 0.0};
@@ -440,7 +440,7 @@ TEST(Windows, AreFreeWhereNobodyIs) {
   EXPECT_LE(rung, shortest.rung);
 }
 
-TEST(Windows, SearchesLookAtFewOfMany) {
+TEST(BroadPhase, SearchesLookAtFewOfMany) {
   for (const bool mixed : {false, true}) {
     Random random(seed);
     BroadPhase windows{Space{}};
@@ -547,7 +547,7 @@ class KickedBodies {
   std::vector<Bound> bounds_;
 };
 
-TEST(Windows, StartAlikeInWhateverOrderBodiesWereKicked) {
+TEST(BroadPhase, StartAlikeInWhateverOrderBodiesWereKicked) {
   KickedBodies forward, backward;
   Random random(seed);
   for (int window = 1; window <= 16; ++window) {

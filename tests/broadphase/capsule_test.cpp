@@ -78,7 +78,7 @@ Case draw(Random& random, const Kind& kind) {
   return c;
 }
 
-TEST(Capsule, ContainsTheBallAllTheTime) {
+TEST(SweptSphere, ContainsTheBallAllTheTime) {
   // Where even the squares of such lengths underflow, a search takes everything for near.
   constexpr Extended negligible = 0x1p-120L;
   for (const Kind& kind : kinds) {
@@ -106,7 +106,7 @@ TEST(Capsule, ContainsTheBallAllTheTime) {
   }
 }
 
-TEST(Capsule, IsHardlyLargerThanItsBall) {
+TEST(SweptSphere, IsHardlyLargerThanItsBall) {
   for (const Kind& kind : kinds) {
     for (std::uint64_t k = 0; k < 500; ++k) {
       Random random = Random::at(seed, k, 0);
@@ -123,7 +123,7 @@ TEST(Capsule, IsHardlyLargerThanItsBall) {
   }
 }
 
-TEST(Capsule, IsEverywhereWhereASearchCouldNotComputeWithItsNumbers) {
+TEST(SweptSphere, IsEverywhereWhereASearchCouldNotComputeWithItsNumbers) {
   const auto of = [](double distance, double speed, double radius) {
     const Bound bound{.position = {1, 2, -distance}, .velocity = {0, -speed, 0}, .radius = radius};
     return swept_sphere_of(BoundAt(bound, 0.0), 0.0, speed > 1.0 ? 1.0 / speed : 1.0, 0.0, {});

@@ -161,9 +161,9 @@ void act(Mirrored& mirrored, Random& random, const Times& times) {
   }
 }
 
-class AgendaOrder : public testing::TestWithParam<Times> {};
+class QueueOrder : public testing::TestWithParam<Times> {};
 
-TEST_P(AgendaOrder, IsThatOfASortedList) {
+TEST_P(QueueOrder, IsThatOfASortedList) {
   for (std::uint64_t stream = 0; stream < 3; ++stream) {
     Random random = Random::at(seed, stream, 0);
     Mirrored mirrored;
@@ -181,7 +181,7 @@ TEST_P(AgendaOrder, IsThatOfASortedList) {
 }
 
 std::string times_name(const testing::TestParamInfo<Times>& info) { return info.param.name; }
-INSTANTIATE_TEST_SUITE_P(CertificateQueue, AgendaOrder, testing::ValuesIn(all_times), times_name);
+INSTANTIATE_TEST_SUITE_P(CertificateQueue, QueueOrder, testing::ValuesIn(all_times), times_name);
 
 /// As a snapshot has it.
 std::vector<PairCertificate> pairs_that_hold(const Mirrored& mirrored) {

@@ -328,9 +328,9 @@ void act(Mirrored& mirrored, Random& random, const Crowd& crowd, bool growing) {
   }
 }
 
-class LayerSearch : public testing::TestWithParam<Crowd> {};
+class GridSearch : public testing::TestWithParam<Crowd> {};
 
-TEST_P(LayerSearch, FindsAllThatTouchWhateverHappenedBefore) {
+TEST_P(GridSearch, FindsAllThatTouchWhateverHappenedBefore) {
   std::size_t touching = 0;
   for (std::uint64_t stream = 0; stream < 4; ++stream) {
     Random random = Random::at(seed, stream, 0);
@@ -355,7 +355,7 @@ TEST_P(LayerSearch, FindsAllThatTouchWhateverHappenedBefore) {
   }
 }
 
-TEST_P(LayerSearch, FindsEachPairOnce) {
+TEST_P(GridSearch, FindsEachPairOnce) {
   for (const int bodies : {1, 2, 31, 33, 100, 400}) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", " << bodies << " bodies");
     Random random = Random::at(seed, static_cast<std::uint64_t>(bodies), 1);
@@ -374,7 +374,7 @@ TEST_P(LayerSearch, FindsEachPairOnce) {
   }
 }
 
-TEST_P(LayerSearch, GoesOnAsBeforeAfterItWasBytes) {
+TEST_P(GridSearch, GoesOnAsBeforeAfterItWasBytes) {
   Random random = Random::at(seed, 0, 2);
   Mirrored mirrored(draw_frame(random));
   for (int action = 0; action < 300; ++action) {
@@ -408,9 +408,9 @@ TEST_P(LayerSearch, GoesOnAsBeforeAfterItWasBytes) {
 }
 
 std::string crowd_name(const testing::TestParamInfo<Crowd>& info) { return info.param.name; }
-INSTANTIATE_TEST_SUITE_P(Layer, LayerSearch, testing::ValuesIn(crowds), crowd_name);
+INSTANTIATE_TEST_SUITE_P(Layer, GridSearch, testing::ValuesIn(crowds), crowd_name);
 
-TEST(Layer, LooksAtFewOfMany) {
+TEST(SweptSphereGrid, LooksAtFewOfMany) {
   constexpr int bodies = 3000;
   const auto looked_at = [](std::uint64_t crowd, const Bound& outlier) {
     Random random = Random::at(seed, crowd, 3);
@@ -443,7 +443,7 @@ SweptSphereGrid sorted_crowd(std::uint32_t bodies) {
   return layer;
 }
 
-TEST(Layer, RefusesACapsuleThatWouldMakeSearchesSlow) {
+TEST(SweptSphereGrid, RefusesACapsuleThatWouldMakeSearchesSlow) {
   SweptSphereGrid layer = sorted_crowd(1000);
   const SweptSphere before = layer.table().swept_sphere_at(5);
   for (const SweptSphere& sphere :
@@ -456,7 +456,7 @@ TEST(Layer, RefusesACapsuleThatWouldMakeSearchesSlow) {
   EXPECT_TRUE(layer.looseness_at(5, {before.centre, before.velocity, 0.25f * before.radius}, 0.0f));
 }
 
-TEST(Layer, IsEmptyAfterClear) {
+TEST(SweptSphereGrid, IsEmptyAfterClear) {
   SweptSphereGrid layer = sorted_crowd(100);
   layer.remove(3);
   layer.clear({.per_length = 4.0});
@@ -476,7 +476,7 @@ TEST(Layer, IsEmptyAfterClear) {
   searches.for_each_found([](std::uint32_t, std::uint32_t) { FAIL(); });
 }
 
-TEST(Layer, GetsUntidyWhereManyHaveEnteredOrLeft) {
+TEST(SweptSphereGrid, GetsUntidyWhereManyHaveEnteredOrLeft) {
   SweptSphereGrid layer;
   for (std::uint32_t number = 0; number < 1000; ++number)
     layer.add(number, {{static_cast<float>(number), 0.0f, 0.0f}, {}, 1.0f}, 0.0f);

@@ -152,7 +152,7 @@ class OnlyTarget {
   ~OnlyTarget() { hwy::SetSupportedTargetsForTest(0); }
 };
 
-TEST(CapsuleSearch, IsThatOfItsPlainTwinOnEveryTarget) {
+TEST(SweptSphereSearch, IsThatOfItsPlainTwinOnEveryTarget) {
   std::vector<Question> questions;
   std::vector<std::vector<std::uint64_t>> expected;
   std::size_t all = 0, near = 0;
@@ -174,7 +174,7 @@ TEST(CapsuleSearch, IsThatOfItsPlainTwinOnEveryTarget) {
   }
 }
 
-TEST(CapsuleSearch, EveryLengthOfARunIsReadToItsEndAndNoFurther) {
+TEST(SweptSphereSearch, EveryLengthOfARunIsReadToItsEndAndNoFurther) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     const OnlyTarget only(target);
     for (std::uint32_t length = 0; length <= 200; ++length) {
@@ -242,7 +242,7 @@ void expect_truth(std::uint64_t stream, double error, double fastest, double rad
   EXPECT_GT(apart, 20u) << stream;
 }
 
-TEST(CapsuleSearch, FindsAllThatTouchAndNoneThatAreClearlyApart) {
+TEST(SweptSphereSearch, FindsAllThatTouchAndNoneThatAreClearlyApart) {
   expect_truth(1, 10.0, 1.0, 2.0);
   expect_truth(2, 10.0, 20.0, 1.0);
   expect_truth(3, 1e3, 3e3, 90.0);
@@ -253,7 +253,7 @@ TEST(CapsuleSearch, FindsAllThatTouchAndNoneThatAreClearlyApart) {
 }
 
 /// Also where the frame of the table is one for slow bodies, and its window far longer than the query's.
-TEST(CapsuleSearch, FindsThoseThatAFastOneMeets) {
+TEST(SweptSphereSearch, FindsThoseThatAFastOneMeets) {
   for (int power = 0; power <= 200; ++power) {
     const double speed = std::ldexp(1.0, power);
     const Bound slow{.position = {0.5, 0, 0}, .radius = 0.1};

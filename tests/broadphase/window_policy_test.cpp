@@ -497,7 +497,7 @@ TEST(WindowPolicy, RoundsHaveOneSum) {
   }
 }
 
-TEST(Survey, TellsTheDistanceOfNeighbours) {
+TEST(MotionStatistics, TellsTheDistanceOfNeighbours) {
   const auto spacing = [](int x, int y, int z) {
     MotionStatistics statistics;
     for (int k = 0; k < x * y * z; ++k)
@@ -513,7 +513,7 @@ TEST(Survey, TellsTheDistanceOfNeighbours) {
   EXPECT_EQ(alone.spacing(), 0.0);
 }
 
-TEST(Survey, TellsTheTypicalPace) {
+TEST(MotionStatistics, TellsTheTypicalPace) {
   Random random(seed + 6);
   for (int k = 0; k < 1000; ++k) {
     MotionStatistics statistics;

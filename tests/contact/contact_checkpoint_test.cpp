@@ -7,9 +7,9 @@ namespace kinesphere::contact_checkpoint_test {
 namespace {
 
 /// Body 3 is fixed.
-class KeptContactsTest : public ::testing::Test {
+class ContactCheckpointTest : public ::testing::Test {
  protected:
-  KeptContactsTest() {
+  ContactCheckpointTest() {
     for (std::uint32_t body = 0; body < 4; ++body) book.add(body, 0.0);
     book.set_static(3);
   }
@@ -35,7 +35,7 @@ class KeptContactsTest : public ::testing::Test {
   ContactGraph book{definition};
 };
 
-TEST_F(KeptContactsTest, PutBackWhatTheBodyTouchedAndSensed) {
+TEST_F(ContactCheckpointTest, PutBackWhatTheBodyTouchedAndSensed) {
   const Event wall{.kind = EventKind::wall_begin, .first = {0, 0}, .wall = Wall::x_lower};
   touch(0, 1, true);
   sense(0, 2, true);
@@ -55,7 +55,7 @@ TEST_F(KeptContactsTest, PutBackWhatTheBodyTouchedAndSensed) {
   EXPECT_TRUE(book.is_valid(4, Box{{-1, -1, -1}, {1, 1, 1}}));
 }
 
-TEST_F(KeptContactsTest, PutBackAloneLeavesLinks) {
+TEST_F(ContactCheckpointTest, PutBackAloneLeavesLinks) {
   touch(0, 1, true);
   const ContactCheckpoint checkpoint = ContactCheckpoint::of(book, 0);
   touch(0, 1, false);
@@ -63,7 +63,7 @@ TEST_F(KeptContactsTest, PutBackAloneLeavesLinks) {
   EXPECT_TRUE(partners_of(0).empty());
 }
 
-TEST_F(KeptContactsTest, TellFixedBodiesWhatHasChangedSideBySide) {
+TEST_F(ContactCheckpointTest, TellFixedBodiesWhatHasChangedSideBySide) {
   touch(0, 3, true);
   sense(1, 3, true);
   book.start_side_by_side(true);

@@ -7,9 +7,9 @@ namespace kinesphere::contact_graph_test {
 namespace {
 
 /// Unit spheres on the x axis.
-class ContactBookTest : public ::testing::Test {
+class ContactGraphTest : public ::testing::Test {
  protected:
-  ContactBookTest() {
+  ContactGraphTest() {
     for (std::uint32_t body = 0; body < 3; ++body) book.add(body, 0.0);
   }
 
@@ -32,7 +32,7 @@ class ContactBookTest : public ::testing::Test {
   bool alive[3] = {true, true, true};
 };
 
-TEST_F(ContactBookTest, DeliversInOrderAndOnce) {
+TEST_F(ContactGraphTest, DeliversInOrderAndOnce) {
   instant.queue(begin(2, 1));
   instant.queue(begin(1, 0));
   instant.queue(begin(0, 1));
@@ -50,20 +50,20 @@ TEST_F(ContactBookTest, DeliversInOrderAndOnce) {
   EXPECT_EQ(instant.changed().size(), 2u);
 }
 
-TEST_F(ContactBookTest, DropsWhatAKickHasTurnedApart) {
+TEST_F(ContactGraphTest, DropsWhatAKickHasTurnedApart) {
   instant.queue(begin(0, 1));
   velocities[0] = {-1, 0, 0};
   EXPECT_FALSE(deliver());
   EXPECT_FALSE(book.touch(0, 1));
 }
 
-TEST_F(ContactBookTest, TellsTheNewestVelocity) {
+TEST_F(ContactGraphTest, TellsTheNewestVelocity) {
   instant.queue(begin(0, 1));
   velocities[0] = {3, 0, 0};
   EXPECT_EQ(deliver()->approach_speed, 3.0);
 }
 
-TEST_F(ContactBookTest, KeepsEndsOfTheRemovedButNotTheirBegins) {
+TEST_F(ContactGraphTest, KeepsEndsOfTheRemovedButNotTheirBegins) {
   instant.queue(begin(0, 1));
   Event end = begin(1, 2);
   end.kind = EventKind::contact_end;
@@ -75,7 +75,7 @@ TEST_F(ContactBookTest, KeepsEndsOfTheRemovedButNotTheirBegins) {
   EXPECT_TRUE(instant.changed().empty());
 }
 
-TEST_F(ContactBookTest, TellsAZenoGuardOncePerInstant) {
+TEST_F(ContactGraphTest, TellsAZenoGuardOncePerInstant) {
   Event guard = begin(0, 1);
   guard.kind = EventKind::zeno_guard;
   instant.queue(guard);
@@ -87,7 +87,7 @@ TEST_F(ContactBookTest, TellsAZenoGuardOncePerInstant) {
   EXPECT_TRUE(deliver());
 }
 
-TEST_F(ContactBookTest, ReleasesBodiesAndWalls) {
+TEST_F(ContactGraphTest, ReleasesBodiesAndWalls) {
   velocities[0] = {-1, 0, 0};
   velocities[1] = {-2, 0, 0};
   instant.queue(wall_event(EventKind::wall_begin, 5.0, sphere(0), {{-1, -9, -9}, {9, 9, 9}}, Wall::x_lower));

@@ -10,9 +10,9 @@
 namespace kinesphere::contact_rate_test {
 namespace {
 
-class RecentContactsTest : public ::testing::Test {
+class ContactRateTest : public ::testing::Test {
  protected:
-  RecentContactsTest() {
+  ContactRateTest() {
     recent.add(0, 1.0);
     recent.add(1, 0.0);
     recent.add(2, 1.0);
@@ -24,7 +24,7 @@ class RecentContactsTest : public ::testing::Test {
   const std::array<std::uint32_t, 1> alone{0};
 };
 
-TEST_F(RecentContactsTest, RepeatWithinTheIntervalOfOneOfTheTwo) {
+TEST_F(ContactRateTest, RepeatWithinTheIntervalOfOneOfTheTwo) {
   EXPECT_FALSE(recent.note(both, 5.0).repeated) << "the first one";
   EXPECT_FALSE(recent.note(others, 5.5).repeated) << "the interval of the one that has just touched is zero";
   EXPECT_TRUE(recent.note(alone, 5.75).repeated);
@@ -33,7 +33,7 @@ TEST_F(RecentContactsTest, RepeatWithinTheIntervalOfOneOfTheTwo) {
   EXPECT_TRUE(recent.note(both, 16.0).repeated);
 }
 
-TEST_F(RecentContactsTest, JamWhereEachHasHadManyAtOneInstant) {
+TEST_F(ContactRateTest, JamWhereEachHasHadManyAtOneInstant) {
   int unmarked = 0;
   for (; !recent.note(both, 5.0).jammed; ++unmarked) ASSERT_LT(unmarked, 1000);
   EXPECT_EQ(unmarked, 64);
@@ -47,7 +47,7 @@ TEST_F(RecentContactsTest, JamWhereEachHasHadManyAtOneInstant) {
   EXPECT_FALSE(recent.is_jammed(both, 5.0)) << "at an instant that is over";
 }
 
-TEST_F(RecentContactsTest, GoOnAsBeforeWhenPutBackOrRead) {
+TEST_F(ContactRateTest, GoOnAsBeforeWhenPutBackOrRead) {
   recent.note(both, 5.0);
   const ContactRate::Body checkpoint = recent.of(0);
   ContactRate back;

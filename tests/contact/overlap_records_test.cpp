@@ -15,7 +15,7 @@ constexpr std::uint64_t seed = 1405;
 
 std::vector<OverlapRecord> content(OverlapRecords::List list) { return {list.begin(), list.end()}; }
 
-TEST(Crossings, AreSortedByPartnerAndFromTheOutermostInward) {
+TEST(OverlapRecords, AreSortedByPartnerAndFromTheOutermostInward) {
   OverlapRecords overlaps;
   for (const OverlapRecord& one : {OverlapRecord{7, 2.0}, {3, 5.0}, {7, 9.0}, {3, 0.0}, {7, 4.0}})
     overlaps.add(2, one);
@@ -27,7 +27,7 @@ TEST(Crossings, AreSortedByPartnerAndFromTheOutermostInward) {
   EXPECT_TRUE(overlaps.of(100, 3).empty());
 }
 
-TEST(Crossings, AreWhatWasAddedAndNotErased) {
+TEST(OverlapRecords, AreWhatWasAddedAndNotErased) {
   Random random(seed);
   OverlapRecords overlaps;
   std::vector<std::set<OverlapRecord>> mirror(5);
@@ -51,7 +51,7 @@ TEST(Crossings, AreWhatWasAddedAndNotErased) {
   }
 }
 
-TEST(Crossings, OfADamagedSnapshotAreSortedAllTheSame) {
+TEST(OverlapRecords, OfADamagedSnapshotAreSortedAllTheSame) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   std::vector<OverlapRecord> list;
   list.reserve(100);

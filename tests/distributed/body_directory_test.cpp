@@ -22,7 +22,7 @@ std::vector<std::uint32_t> sorted_copies(const BodyDirectory& directory) {
   return copies;
 }
 
-TEST(Roster, FindsBodiesByName) {
+TEST(BodyDirectory, FindsBodiesByName) {
   BodyDirectory directory(here);
   EXPECT_TRUE(directory.empty());
   directory.add(700, 0, here);
@@ -39,7 +39,7 @@ TEST(Roster, FindsBodiesByName) {
   EXPECT_EQ(directory.own_count(), 0u);
 }
 
-TEST(Roster, TakesEachHolderOnce) {
+TEST(BodyDirectory, TakesEachHolderOnce) {
   BodyDirectory directory(here);
   directory.add(5, 0, here);
   EXPECT_TRUE(directory.add_holder(0, 4));
@@ -49,7 +49,7 @@ TEST(Roster, TakesEachHolderOnce) {
 }
 
 /// A number that is given back goes to another body, which has nothing of the one before.
-TEST(Roster, ForgetsWhatItRemoves) {
+TEST(BodyDirectory, ForgetsWhatItRemoves) {
   BodyDirectory directory(here);
   directory.add(5, 0, here);
   directory.add_holder(0, 4);
@@ -61,7 +61,7 @@ TEST(Roster, ForgetsWhatItRemoves) {
   EXPECT_FALSE(directory.is_own(0));
 }
 
-TEST(Roster, KeepsListOfCopies) {
+TEST(BodyDirectory, KeepsListOfCopies) {
   Random random = Random::at(1, 0, 0);
   BodyDirectory directory(here);
   std::set<std::uint32_t> known;

@@ -15,7 +15,7 @@ Error error_of(int rank) {
   return {ErrorCode::not_finite, "velocity", {7, 0, 0}, "says " + std::to_string(rank)};
 }
 
-TEST(Agreement, TellsTheFirstErrorOfAll) {
+TEST(ErrorConsensus, TellsTheFirstErrorOfAll) {
   Communicator communicator;
   ErrorConsensus agreement(communicator);
   const int last = communicator.ranks() - 1;
@@ -33,7 +33,7 @@ TEST(Agreement, TellsTheFirstErrorOfAll) {
   EXPECT_TRUE(agreement.check("run")) << "the world goes on";
 }
 
-TEST(Agreement, EndsAfterAnError) {
+TEST(ErrorConsensus, EndsAfterAnError) {
   Communicator communicator;
   ErrorConsensus agreement(communicator);
   EXPECT_TRUE(agreement.agree({}));
@@ -46,7 +46,7 @@ TEST(Agreement, EndsAfterAnError) {
   EXPECT_EQ(refused.error().message.rfind("run: ", 0), 0u);
 }
 
-TEST(Agreement, NotesTheFirstErrorForLater) {
+TEST(ErrorConsensus, NotesTheFirstErrorForLater) {
   Communicator communicator;
   ErrorConsensus agreement(communicator);
   EXPECT_TRUE(agreement.agree_on_noted());

@@ -46,7 +46,7 @@ struct Rank {
   InitialWork beginning;
 };
 
-TEST(Transit, BringsABodyAndItsMotion) {
+TEST(Migration, BringsABodyAndItsMotion) {
   Rank one(0);
   Rank other(1);
   const State state{{1, 2, 3}, {4, 5, 6}};
@@ -60,7 +60,7 @@ TEST(Transit, BringsABodyAndItsMotion) {
   EXPECT_EQ(other.motion.state(other.local.directory[*found].in_motion, 2.0).position, (Vec3{9, 12, 15}));
 }
 
-TEST(Transit, KeepsLinksToBodiesThatAreNotThereYet) {
+TEST(Migration, KeepsLinksToBodiesThatAreNotThereYet) {
   Rank one(0);
   Rank other(1);
   const std::uint32_t a = one.add(70, {});
@@ -82,7 +82,7 @@ TEST(Transit, KeepsLinksToBodiesThatAreNotThereYet) {
   EXPECT_EQ(other.partners_of(60), std::vector<std::uint32_t>{70});
 }
 
-TEST(Transit, BringsHotPairsOfKnownBodiesOnce) {
+TEST(Migration, BringsHotPairsOfKnownBodiesOnce) {
   Rank one(0);
   Rank other(1);
   const std::vector<std::uint32_t> numbers{one.add(70, {}), one.add(60, {}), one.add(50, {})};
@@ -99,7 +99,7 @@ TEST(Transit, BringsHotPairsOfKnownBodiesOnce) {
   EXPECT_FALSE(other.local.main.certifier().is_stale(other.beginning.due[0]));
 }
 
-TEST(Transit, RenewedCopyKeepsHotPairsUnlessTheyAreVoid) {
+TEST(Migration, RenewedCopyKeepsHotPairsUnlessTheyAreVoid) {
   Rank one(0);
   Rank other(1);
   const std::uint32_t a = one.add(70, {});
@@ -116,7 +116,7 @@ TEST(Transit, RenewedCopyKeepsHotPairsUnlessTheyAreVoid) {
 }
 
 /// As a checkpoint is read: the third body comes later, from another rank, and needs to hear of the pair.
-TEST(Transit, KeepsLoosePairs) {
+TEST(Migration, KeepsLoosePairs) {
   Rank one(0);
   Rank other(1);
   const std::vector<std::uint32_t> numbers{one.add(70, {}), one.add(60, {})};

@@ -88,7 +88,7 @@ void expect_same(Clusters& groups, const PlainGroups& plain,
   ASSERT_EQ(groups.checkpoint_count(), bodies);
 }
 
-TEST(Groups, AreThoseOfAPlainListOfSets) {
+TEST(Clusters, AreThoseOfAPlainListOfSets) {
   SCOPED_TRACE(seed);
   const Bodies bodies = some_bodies();
   Clusters groups;
@@ -146,7 +146,7 @@ TEST(Groups, AreThoseOfAPlainListOfSets) {
   }
 }
 
-TEST(Groups, AFixedBodyJoinsNobody) {
+TEST(Clusters, AFixedBodyJoinsNobody) {
   Bodies bodies = some_bodies();
   bodies.fix(7, Ball{{}, 1.0});
   Clusters groups;

@@ -76,7 +76,7 @@ bool may_meet_before(double last, const SweptSphereUpdate& a, const SweptSphereU
   return false;
 }
 
-TEST(Meetings, AreThoseOfEachPairAlone) {
+TEST(Conflicts, AreThoseOfEachPairAlone) {
   SCOPED_TRACE(seed);
   Workers workers = Workers::create(3).value();
   std::size_t known = 0;
@@ -127,7 +127,7 @@ TEST(Meetings, AreThoseOfEachPairAlone) {
   EXPECT_GT(void_ones, 20u);
 }
 
-TEST(Meetings, AreUnknownOfKicksAtOneInstantAndInEndlessWindows) {
+TEST(Conflicts, AreUnknownOfKicksAtOneInstantAndInEndlessWindows) {
   WorldState tables(WorldDefinition{.start_time = begin});
   for (int body = 0; body < 2; ++body) tables.bodies.add({.radius = 1.0});
   PoolLease alone;
@@ -151,7 +151,7 @@ TEST(Meetings, AreUnknownOfKicksAtOneInstantAndInEndlessWindows) {
   EXPECT_EQ(meeting_of(begin + 0.1, Window::endless())[0].until, Conflict::unknown);
 }
 
-TEST(Meetings, NobodyMeetsWhereNobodyIsKicked) {
+TEST(Conflicts, NobodyMeetsWhereNobodyIsKicked) {
   const WorldState tables(WorldDefinition{});
   PoolLease alone;
   EXPECT_TRUE(find_conflicts(tables, {}, 0, 0.0, alone).empty());

@@ -6,7 +6,7 @@
 namespace kinesphere::speculation_log_test {
 namespace {
 
-TEST(Beside, TellsReportsAndRenewalsFromKicks) {
+TEST(SpeculationLog, TellsReportsAndRenewalsFromKicks) {
   BatchState batch;
   batch.slots = {{.cluster = 0, .checkpoint = 0}};
   batch.checkpoints.resize(1);
@@ -37,7 +37,7 @@ TEST(Beside, TellsReportsAndRenewalsFromKicks) {
   EXPECT_EQ(since_kick(1).invalidated, infinity);
 }
 
-TEST(Beside, SeesBodiesOfOtherIslandsAsThePartBegan) {
+TEST(SpeculationLog, SeesBodiesOfOtherIslandsAsThePartBegan) {
   BatchState batch;
   batch.slots = {
       {.cluster = 0, .checkpoint = 0}, {.cluster = 1, .checkpoint = 1}, {.cluster = 2, .checkpoint = 2}, {}};

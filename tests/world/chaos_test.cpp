@@ -256,7 +256,7 @@ TEST(Chaos, BoxesAndOpenSpaceOfAllScales) { expect_nothing_wrong(500, all, false
 
 /// The middle of the box around such a ball is on the border by rounding, and the border is in the next
 /// image.
-TEST(FixedBall, OnTheBorderOfAPeriodicBoxStaysInItsImage) {
+TEST(StaticBall, OnTheBorderOfAPeriodicBoxStaysInItsImage) {
   for (const double y : {0.0, -1e-300, -1e-20, -1e-17, -6e-17, -1e-16}) {
     World world =
         World::create({.box = Box{{-1, -1, -1}, {0, 0, 0}}, .periodic = {true, true, true}}).value();

@@ -70,7 +70,7 @@ struct Rows : BouncingWorld<Ballistic> {
   }
 };
 
-TEST(IslandsOfRows, AreLeftToALoopWhereTheyRunAgainAndAgain) {
+TEST(ClustersOfRows, AreLeftToALoopWhereTheyRunAgainAndAgain) {
   constexpr int rows = 48;
   Rows looped(rows, 60, 0), run(rows, 60, 0);
   looped.loop(2.0);
@@ -81,7 +81,7 @@ TEST(IslandsOfRows, AreLeftToALoopWhereTheyRunAgainAndAgain) {
 }
 
 /// Where most islands are others.
-TEST(IslandsOfRows, ForgetWhatTheyHaveDoneInVain) {
+TEST(ClustersOfRows, ForgetWhatTheyHaveDoneInVain) {
   for (const int threads : {2, 3}) {
     Rows looped(8, 70, 700), run(8, 70, 700);
     looped.loop(2.0);
@@ -116,7 +116,7 @@ class ThrowsGoingBack final : public MotionSource {
   std::atomic<int> times_ = 0;
 };
 
-TEST(IslandsOfRows, GoOnAfterAMoverThrewAsItWentBack) {
+TEST(ClustersOfRows, GoOnAfterAMoverThrewAsItWentBack) {
   Rows looped(32, 40, 400), run(32, 40, 400);
   looped.loop(2.0);
   Workers workers = Workers::create(2).value();

@@ -71,7 +71,7 @@ class TwoBalls final : public MotionSource {
   bool turning = false;
 };
 
-TEST(GlitchingMover, IsRefusedWhileAnAnswerTurnsABody) {
+TEST(GlitchingSource, IsRefusedWhileAnAnswerTurnsABody) {
   for (std::uint64_t kind = 0; kind < 7; ++kind) {
     for (const std::uint32_t body : {0u, 1u}) {
       TwoBalls balls;
@@ -141,7 +141,7 @@ class Glitching final : public MotionSource {
   std::atomic<std::uint64_t> calls_ = 0;
 };
 
-TEST(GlitchingMover, ChangesNothingThatIsTold) {
+TEST(GlitchingSource, ChangesNothingThatIsTold) {
   Bouncing expected;
   expected.loop(3.0);
   EXPECT_GT(expected.told, 1000u);

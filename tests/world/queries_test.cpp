@@ -196,7 +196,7 @@ TEST_P(Queries, AgreeWithBruteForce) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Queries, crowd_kinds());
 
-TEST(QueryOfABrokenPromise, FindsTheBodyWhereItIsNow) {
+TEST(QueryOfAViolatedBound, FindsTheBodyWhereItIsNow) {
   Playground p;
   const BodyId a = p.add({.radius = 1, .position = {0, 0, 0}});
   p.add({.radius = 1, .position = {20, 0, 0}});

@@ -50,7 +50,7 @@ constexpr Box room{{-10, -10, 0}, {10, 10, 100}};
 
 /// Dropped from height h it falls for t0 = sqrt(2 h / g), then flies for 2 v / g with v = e v0, e^2 v0, ... :
 /// it comes to rest at t0 (1 + e) / (1 - e).
-TEST(Resting, DroppedBallBouncesAsTheSeriesSays) {
+TEST(Sleeping, DroppedBallBouncesAsTheSeriesSays) {
   for (const double e : {0.3, 0.5, 0.8}) {
     const double h = 1.25, tolerance = 1e-6;
     Heap p(room, tolerance, e);
@@ -85,7 +85,7 @@ TEST(Resting, DroppedBallBouncesAsTheSeriesSays) {
   }
 }
 
-TEST(Resting, StackOfTenInATube) {
+TEST(Sleeping, StackOfTenInATube) {
   for (const double e : {0.0, 0.5, 0.9}) {
     const double tolerance = 1e-4;
     Heap p({{-0.501, -0.501, 0}, {0.501, 0.501, 20}}, tolerance, e, 0.1);
@@ -106,7 +106,7 @@ TEST(Resting, StackOfTenInATube) {
 }
 
 /// Two heavy bodies are driven onto a light one between them, for ever.
-TEST(Resting, JammedBallDoesNotStopTime) {
+TEST(Sleeping, JammedBallDoesNotStopTime) {
   for (const double e : {0.0, 0.5, 1.0}) {
     const double tolerance = 1e-4;
     Heap p(room, tolerance, e, 0.05);
@@ -132,7 +132,7 @@ TEST(Resting, JammedBallDoesNotStopTime) {
 
 /// A ball slides down a smooth dome of which it has lost its balance: it leaves where cos = 2/3 + v^2 / (3 g
 /// R).
-TEST(Resting, BallGrindsOverADomeAndLeavesWhereItMust) {
+TEST(Sleeping, BallGrindsOverADomeAndLeavesWhereItMust) {
   const double tolerance = 1e-7;  // near the end hops take ever longer, the shorter the finer they are
   Heap p({{-100, -100, -100}, {100, 100, 100}}, tolerance, 0.0);
   p.masses = {1e12, 1.0};
@@ -156,7 +156,7 @@ TEST(Resting, BallGrindsOverADomeAndLeavesWhereItMust) {
 
 /// With begin and end, a contact that lasts is one contact: who stops its body at the begin hears no more of
 /// it.
-TEST(Resting, HeldByTheCallerIsOneLastingContact) {
+TEST(Sleeping, HeldByTheCallerIsOneLastingContact) {
   for (const bool wall : {true, false}) {
     Playground p({.box = room});
     const BodyId ball =

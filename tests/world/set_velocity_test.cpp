@@ -6,7 +6,7 @@
 namespace kinesphere::set_velocity_test {
 namespace {
 
-TEST(Kick, OfABodyNotProbedForLongAsksFirst) {
+TEST(VelocityChange, OfABodyNotProbedForLongAsksFirst) {
   Playground p;
   const BodyId a = p.add({.radius = 1, .acceleration_limit = 1, .velocity = {1, 0, 0}}, Vec3{0, 0.9, 0});
   p.run(0.13);
@@ -23,7 +23,7 @@ TEST(Kick, OfABodyNotProbedForLongAsksFirst) {
   EXPECT_NEAR(events[0].time, 0.13 + 0.48, 1e-6);
 }
 
-TEST(Kick, DoesNotTrustTheVelocityOfTheKickForAStaleBody) {
+TEST(VelocityChange, DoesNotTrustTheVelocityOfTheKickForAStaleBody) {
   // The probe is right and the velocity handed to set_velocity() wrong: the report counts, and the caller is
   // told.
   Playground p;
@@ -39,7 +39,7 @@ TEST(Kick, DoesNotTrustTheVelocityOfTheKickForAStaleBody) {
   EXPECT_NEAR(events[1].time, 0.5 + 1.8, 1e-6);
 }
 
-TEST(Kick, LastOfSeveralAtOneStopCounts) {
+TEST(VelocityChange, LastOfSeveralAtOneStopCounts) {
   Playground p;
   const BodyId a = p.add({.radius = 1});
   p.add({.radius = 1, .position = {10, 0, 0}});
@@ -54,7 +54,7 @@ TEST(Kick, LastOfSeveralAtOneStopCounts) {
   EXPECT_EQ(events[0].second.index, 1u);
 }
 
-TEST(Kick, WaitsForTheReportWhileOthersThatWereKickedGo) {
+TEST(VelocityChange, WaitsForTheReportWhileOthersThatWereKickedGo) {
   Playground p;
   std::vector<BodyId> bodies;
   for (int k = 0; k < 6; ++k) bodies.push_back(p.add({.radius = 1, .position = {10.0 * k, 0, 0}}));
@@ -81,7 +81,7 @@ TEST(Kick, WaitsForTheReportWhileOthersThatWereKickedGo) {
   }
 }
 
-TEST(Kick, OfABodyFarFromTheEventCounts) {
+TEST(VelocityChange, OfABodyFarFromTheEventCounts) {
   Playground p;
   const BodyId idle = p.add({.radius = 1, .acceleration_limit = 0.1, .position = {500, 0, 0}}, Vec3{});
   const BodyId target = p.add({.radius = 1, .acceleration_limit = 0.1, .position = {500, 50, 0}}, Vec3{});
@@ -98,7 +98,7 @@ TEST(Kick, OfABodyFarFromTheEventCounts) {
   EXPECT_NEAR(hits[0].time, 2.048, 1e-6);
 }
 
-TEST(Kick, InContactKeepsTheContactUntilTheyAreApart) {
+TEST(VelocityChange, InContactKeepsTheContactUntilTheyAreApart) {
   Playground p;
   const BodyId a = p.add({.radius = 1, .position = {-2, 0, 0}, .velocity = {1, 0, 0}});
   const BodyId b = p.add({.radius = 1, .position = {1, 0, 0}});
@@ -113,7 +113,7 @@ TEST(Kick, InContactKeepsTheContactUntilTheyAreApart) {
   EXPECT_LE(p.gap(a, b, events[1].time), 5e-6 + 1e-12);
 }
 
-TEST(Kick, BackAndForthInContactIsOneContact) {
+TEST(VelocityChange, BackAndForthInContactIsOneContact) {
   Playground p;
   const BodyId a = p.add({.radius = 1});
   const BodyId b = p.add({.radius = 1, .position = {1, 0, 0}});
@@ -126,7 +126,7 @@ TEST(Kick, BackAndForthInContactIsOneContact) {
   EXPECT_TRUE(is_clean(p.world));
 }
 
-TEST(Kick, AtTheStartBeforeAnyAdvanceCounts) {
+TEST(VelocityChange, AtTheStartBeforeAnyAdvanceCounts) {
   Playground p({.start_time = 100.0});
   const BodyId a = p.add({.radius = 1, .velocity = {-5, 0, 0}});
   p.add({.radius = 1, .position = {10, 0, 0}});
@@ -136,7 +136,7 @@ TEST(Kick, AtTheStartBeforeAnyAdvanceCounts) {
   EXPECT_NEAR(event->time, 101.0, 1e-6);
 }
 
-TEST(Kick, EveryStopWithoutTimeGoingOnTerminates) {
+TEST(VelocityChange, EveryStopWithoutTimeGoingOnTerminates) {
   // A caller that kicks at every stop, with nothing else to do.
   Playground p;
   const BodyId a = p.add({.radius = 1, .acceleration_limit = 1}, Vec3{});
@@ -147,7 +147,7 @@ TEST(Kick, EveryStopWithoutTimeGoingOnTerminates) {
   EXPECT_LE(p.world.counters().probes, 100u);
 }
 
-TEST(Kick, IsExemptFromTheVelocityPromise) {
+TEST(VelocityChange, IsExemptFromTheVelocityPromise) {
   Playground p;
   const BodyId a = p.add({.radius = 1, .acceleration_limit = 0.5, .velocity = {1, 2, 3}}, Vec3{});
   for (int k = 1; k < 20; ++k) {

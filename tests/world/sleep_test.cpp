@@ -144,7 +144,7 @@ struct RestedUponOneThatIsAwake : Rested {
   BodyId above = ball({0, 0, 2});
 };
 
-TEST(Rest, EndsWhenABodyThatIsAwakeLeavesAContact) {
+TEST(Sleep, EndsWhenABodyThatIsAwakeLeavesAContact) {
   RestedUponOneThatIsAwake p;
   p.set_velocity(p.below, {0, 0, -1});
   const auto events = p.run(2.0);
@@ -152,7 +152,7 @@ TEST(Rest, EndsWhenABodyThatIsAwakeLeavesAContact) {
   EXPECT_EQ(of_kind(events, EventKind::contact_end).size(), 1u);
 }
 
-TEST(Rest, IsSeenInTheViewWithTheLimitsOfTheBody) {
+TEST(Sleep, IsSeenInTheViewWithTheLimitsOfTheBody) {
   Rested p;
   const BodyId id = p.ball({1, 2, 3});
   p.rest(id);
@@ -171,14 +171,14 @@ TEST(Rest, IsSeenInTheViewWithTheLimitsOfTheBody) {
   EXPECT_EQ(p.run(12.0).size(), 1u);
 }
 
-TEST(Rest, GoesOnBesideABodyThatIsAwakeAndIsWoken) {
+TEST(Sleep, GoesOnBesideABodyThatIsAwakeAndIsWoken) {
   RestedUponOneThatIsAwake p;
   p.world.wake(p.below).value();
   EXPECT_TRUE(p.resting(p.above));
   EXPECT_TRUE(p.run(2.0).empty());
 }
 
-TEST(Rest, AsksOnceWhereABodyIsWhoseReportIsOld) {
+TEST(Sleep, AsksOnceWhereABodyIsWhoseReportIsOld) {
   Rested p;
   const BodyId id = p.ball({}, {1, 0, 0});
   p.run(1.0);
@@ -192,7 +192,7 @@ TEST(Rest, AsksOnceWhereABodyIsWhoseReportIsOld) {
   EXPECT_EQ(p.world.body(id).value().bound.time, 1.5);
 }
 
-TEST(Rest, OfABodyThatMovesIsABrokenPromise) {
+TEST(Sleep, OfABodyThatMovesIsABrokenPromise) {
   Rested p;
   const BodyId id = p.ball({}, {1, 0, 0});
   p.run(1.01);
@@ -203,7 +203,7 @@ TEST(Rest, OfABodyThatMovesIsABrokenPromise) {
   EXPECT_NEAR(events[0].velocity_excess, 1.0, 1e-9);
 }
 
-TEST(Rest, RefusesWhatCannotRest) {
+TEST(Sleep, RefusesWhatCannotRest) {
   Rested p;
   const BodyId id = p.ball({});
   const BodyId fixed = p.world.add_static({.shape = Ball{{9, 0, 0}, 1}}).value();
@@ -364,7 +364,7 @@ class RandomScene {
   int woken_ = 0, rests_ = 0, probes_ = 0;
 };
 
-TEST(Rest, InAThousandScenesIsWhatTheExactGapsTell) {
+TEST(Sleep, InAThousandScenesIsWhatTheExactGapsTell) {
   int woken = 0;
   int rests = 0;
   for (std::uint64_t seed = 0; seed < 1000 && !HasFailure(); ++seed) {

@@ -130,7 +130,7 @@ struct LargeBalls : BouncingWorld<Ballistic> {
   }
 };
 
-TEST(IslandsThatCountOnABody, AreJoinedToTheOneThatHasIt) {
+TEST(ClustersThatReadABody, AreJoinedToTheOneThatHasIt) {
   LargeBalls looped, run;
   looped.loop(6.0);
   EXPECT_EQ(looped.world.counters().count(EventKind::contact_begin), 3u * 27u);
@@ -140,7 +140,7 @@ TEST(IslandsThatCountOnABody, AreJoinedToTheOneThatHasIt) {
 }
 
 /// Throws at the events from a time on, until it is told not to.
-TEST(IslandsThatFail, LeaveAWorldThatGoesOnAsIfNothingHadHappened) {
+TEST(ClustersThatFail, LeaveAWorldThatGoesOnAsIfNothingHadHappened) {
   const Kind kind{.name = "failing", .sensors = true, .fixed = true};
   Hall looped(kind);
   looped.loop(kind.end);
@@ -165,7 +165,7 @@ TEST(IslandsThatFail, LeaveAWorldThatGoesOnAsIfNothingHadHappened) {
 }
 
 /// An answer that is refused once is asked for again.
-TEST(IslandsThatFail, GoOnWhenTheyFailNoMore) {
+TEST(ClustersThatFail, GoOnWhenTheyFailNoMore) {
   const Kind kind{.name = "failing once"};
   Hall looped(kind);
   looped.loop(kind.end);
@@ -199,7 +199,7 @@ bool windows_end(const World& world) {
 
 /// Where the sink throws, the world may stand at the end of a phase: there queries find bodies where they
 /// are, also those that have been kicked since their windows started.
-TEST(IslandsThatWereInterrupted, LeaveBodiesWhereQueriesFindThem) {
+TEST(ClustersThatWereInterrupted, LeaveBodiesWhereQueriesFindThem) {
   Workers workers = Workers::create(2).value();
   Hall run({.name = "interrupted"});
   SingleMotionSource source(run.motion);

@@ -166,7 +166,7 @@ TEST(Surroundings, FixedBodiesDoNotConcernEachOther) {
 }
 
 /// Six half-spaces and twelve triangles for the walls of a box: what happens inside is the same.
-class RoomOf : public testing::TestWithParam<const char*> {
+class MarginOf : public testing::TestWithParam<const char*> {
  protected:
   static constexpr double size = 10.0;
 
@@ -211,7 +211,7 @@ class RoomOf : public testing::TestWithParam<const char*> {
   }
 };
 
-TEST_P(RoomOf, BouncesAsWallsDo) {
+TEST_P(MarginOf, BouncesAsWallsDo) {
   const std::string kind = GetParam();
   std::vector<std::size_t> counts;
   std::vector<State> last;
@@ -249,7 +249,7 @@ TEST_P(RoomOf, BouncesAsWallsDo) {
   EXPECT_NEAR(norm(last[0].position - last[1].position), 0.0, 1e-2);
 }
 
-INSTANTIATE_TEST_SUITE_P(, RoomOf, testing::Values("half_spaces", "boxes", "triangles"),
+INSTANTIATE_TEST_SUITE_P(, MarginOf, testing::Values("half_spaces", "boxes", "triangles"),
                          [](const auto& room) { return std::string(room.param); });
 
 TEST(Surroundings, OneBounceOnASharedEdge) {

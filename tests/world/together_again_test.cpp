@@ -45,7 +45,7 @@ TEST(AnswersAfterALooserPromise, AreNotLaterThanTheContact) {
   for (const double answer : {of_world, of_body, of_pair, of_first}) EXPECT_LE(answer, contact->time);
 }
 
-TEST(AuditOfAFixedBody, KnowsItsSensor) {
+TEST(AuditOfAStaticBody, KnowsItsSensor) {
   Playground p;
   p.world.set_sensor(1, {.distances = {2.0}}).value();
   p.world.add_static({.shape = Ball{}, .sensor_class = 1}).value();
@@ -53,7 +53,7 @@ TEST(AuditOfAFixedBody, KnowsItsSensor) {
   EXPECT_TRUE(is_clean(p.world));
 }
 
-TEST(AuditOfAFixedBody, KnowsThePlane) {
+TEST(AuditOfAStaticBody, KnowsThePlane) {
   Playground p({.dimensions = 2});
   p.world.add_static({.shape = Ball{}}).value();
   p.world.add_static({.shape = Box{{3, 0, 0}, {4, 1, 1}}}).value();

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-TEST(WrongIdOfAFixedBody, IsStaleEverywhere) {
+TEST(WrongIdOfAStaticBody, IsStaleEverywhere) {
   World world = World::create({}).value();
   const BodyId gone = world.add_static({.shape = Ball{}}).value();
   world.remove(gone).value();
@@ -31,7 +31,7 @@ TEST(WrongIdOfAFixedBody, IsStaleEverywhere) {
   stale(world.enable(gone, {}), "enable");
 }
 
-TEST(WrongFixedBody, HasToFitWhereSpaceRepeats) {
+TEST(WrongStaticBody, HasToFitWhereSpaceRepeats) {
   World world = World::create({.box = Box{{0, 0, 0}, {10, 10, 10}}, .periodic = {true, true, true}}).value();
   for (const Shape& shape : {Shape(HalfSpace{{0, 0, 1}, 0}), Shape(Box{{1, 1, 1}, {2, 2, 2}}),
                              Shape(Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})})
@@ -63,7 +63,7 @@ TEST(WrongSensor, HasToFitWhereSpaceRepeats) {
   EXPECT_TRUE(is_clean(world));
 }
 
-TEST(WrongFixedBody, HasToLieInThePlane) {
+TEST(WrongStaticBody, HasToLieInThePlane) {
   World world = World::create({.dimensions = 2}).value();
   expect_error(world.add_static({.shape = Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}), ErrorCode::unsupported,
                "shape", "add_fixed");
