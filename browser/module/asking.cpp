@@ -31,7 +31,7 @@ void ask_javascript(std::span<const BodyId> ids, double time, std::span<State> s
 /// Bodies of a motion whose number there is the index of their id. A body whose state the motion does not
 /// have gets NaN, which the world refuses; so does an answer to an event where bodies cannot be changed.
 /// refused() is the motion's own reason then.
-class MotionByIndex final : public Mover {
+class MotionByIndex final : public MotionSource {
  public:
   explicit MotionByIndex(Motion& motion) : motion_(motion) {}
   void states(std::span<const BodyId> ids, double time, std::span<State> states) override {
@@ -45,13 +45,13 @@ class MotionByIndex final : public Mover {
       }
     }
   }
-  Departure departure(BodyId body) const override { return motion_.departure(body.index); }
-  void depart(BodyId body, const Departure& departure) override {
-    (void)motion_.depart(body.index, departure);
+  MotionOrigin origin(BodyId body) const override { return motion_.origin(body.index); }
+  void set_origin(BodyId body, const MotionOrigin& departure) override {
+    (void)motion_.set_origin(body.index, departure);
   }
 
   /// What may be done to the motion of what is to be done.
-  Answer possible(const Answer& answer) {
+  Response possible(const Response& answer) {
     if ((!answer.first_velocity && !answer.second_velocity) || can_be_changed(motion_)) return answer;
     refused_ = {ErrorCode::unsupported, "respond", no_body,
                 "run: respond: the bodies of this motion go their own way, and cannot be given velocities"};
@@ -70,7 +70,7 @@ std::optional<Vec3> velocity_at(const double* numbers) {
   return vector_at(numbers);
 }
 
-Answer ask_javascript(const Event& event) {
+Response ask_javascript(const Event& event) {
   double numbers[event_numbers];
   put(event, numbers);
   // Of each of the two a velocity, and whether there is one.
@@ -81,8 +81,8 @@ Answer ask_javascript(const Event& event) {
 }
 
 /// With a mass by index; what the motion does not move stands still, such as fixed shapes.
-Answer bounce_off(const Event& event, const Motion& motion, std::span<const double> masses,
-                  double restitution, double resting_speed) {
+Response bounce_off(const Event& event, const Motion& motion, std::span<const double> masses,
+                    double restitution, double resting_speed) {
   const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
   if (!begins || event.approach_speed <= 0.0) return {};
   const auto mass = [&](BodyId body) {
@@ -126,7 +126,7 @@ bool world_run(World* world, double until, MotionHandle* handle, Responding resp
   // Functions of JavaScript's may ask for other answers meanwhile.
   std::vector<double> told;
   MotionByIndex mover(*handle->motion);
-  const auto answered = [&](const Event& event) -> Answer {
+  const auto answered = [&](const Event& event) -> Response {
     switch (responding) {
       case Responding::nothing:
         return {};

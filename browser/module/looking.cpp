@@ -15,7 +15,7 @@ KINESPHERE_EXPORT(world_views) bool world_views(const World* world, std::size_t 
     if (!is_good(view)) return false;
     double* const at = numbers.data() + k * view_numbers;
     put(view->bound.centre_at(world->time()), at);
-    at[3] = view->fixed ? view->definition.radius : view->bound.radius_at(world->time());
+    at[3] = view->is_static ? view->definition.radius : view->bound.radius_at(world->time());
     at[4] = view->definition.radius;
     at[5] = view->bound.time;
     put({view->definition.position, view->definition.velocity}, at + 6);
@@ -23,8 +23,8 @@ KINESPHERE_EXPORT(world_views) bool world_views(const World* world, std::size_t 
     put(view->box.upper, at + 15);
     at[18] = view->box_end;
     at[19] = view->enabled ? 1.0 : 0.0;
-    at[20] = view->fixed ? 1.0 : 0.0;
-    at[21] = view->resting ? 1.0 : 0.0;
+    at[20] = view->is_static ? 1.0 : 0.0;
+    at[21] = view->sleeping ? 1.0 : 0.0;
     at[22] = view->definition.acceleration_limit;
     at[23] = static_cast<double>(view->definition.sensor_class);
     at[24] = static_cast<double>(view->definition.user_data);
@@ -123,7 +123,7 @@ bool world_overlapping(const World* world, const double* centre, double radius) 
   const auto results = world->overlapping(vector_at(centre), radius);
   if (!is_good(results)) return false;
   answer().clear();
-  for (const Found& found : *results)
+  for (const OverlapHit& found : *results)
     answer().insert(answer().end(),
                     {number_of(found.body), found.certainty == Certainty::certainly ? 1.0 : 0.0});
   return true;

@@ -59,8 +59,8 @@ struct Span {
 Span known_span(const Motion& motion, std::uint32_t body) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (!can_be_changed(motion)) return {-infinity, infinity};
-  const auto* const frames = dynamic_cast<const Frames*>(&motion);
-  return {motion.departure(body).time, frames != nullptr ? frames->latest_time() : infinity};
+  const auto* const frames = dynamic_cast<const FrameMotion*>(&motion);
+  return {motion.origin(body).time, frames != nullptr ? frames->latest_time() : infinity};
 }
 
 double clamped(double time, const Span& span) { return std::min(std::max(time, span.begin), span.end); }
@@ -99,24 +99,24 @@ MotionHandle* motion_random_forces(std::size_t count, const double* states, cons
 
 KINESPHERE_EXPORT(motion_steered)
 MotionHandle* motion_steered(std::size_t count, const double* states, const double* limits, double start) {
-  return handle_of(Steered::create({.start = states_at(states, count),
-                                    .acceleration_limits = {limits, limits + count},
-                                    .start_time = start}));
+  return handle_of(SteeredMotion::create({.start = states_at(states, count),
+                                          .acceleration_limits = {limits, limits + count},
+                                          .start_time = start}));
 }
 
 KINESPHERE_EXPORT(motion_frames)
 MotionHandle* motion_frames(std::size_t count, const double* states, const double* limits, double interval,
                             double position_error, double start) {
   FrameMotionDefinition definition{.start = {},
-                              .acceleration_limits = {limits, limits + count},
-                              .interval = interval,
-                              .position_error = position_error,
-                              .start_time = start};
+                                   .acceleration_limits = {limits, limits + count},
+                                   .interval = interval,
+                                   .position_error = position_error,
+                                   .start_time = start};
   for (const State& state : states_at(states, count)) {
     definition.start.push_back(state.position);
     definition.velocities.push_back(state.velocity);
   }
-  return handle_of(Frames::create(std::move(definition)));
+  return handle_of(FrameMotion::create(std::move(definition)));
 }
 
 /// Four numbers for each sample: its time and position. `lengths` says how many samples each track has.
@@ -197,23 +197,23 @@ double motion_add(MotionHandle* handle, double time, const double* state, double
     added = ballistic->add(time, state_at(state));
   if (auto* const forces = dynamic_cast<RandomForces*>(handle->motion.get()))
     added = forces->add(time, state_at(state), limit);
-  if (auto* const steered = dynamic_cast<Steered*>(handle->motion.get()))
+  if (auto* const steered = dynamic_cast<SteeredMotion*>(handle->motion.get()))
     added = steered->add(time, state_at(state), limit);
-  if (auto* const frames = dynamic_cast<Frames*>(handle->motion.get()))
+  if (auto* const frames = dynamic_cast<FrameMotion*>(handle->motion.get()))
     added = frames->add(time, state_at(state), limit);
   return is_good(added) ? *added : no_id;
 }
 
 KINESPHERE_EXPORT(motion_steer)
 bool motion_steer(MotionHandle* handle, double body, double time, const double* acceleration) {
-  auto* const steered = as<Steered>(*handle, "steer: this motion cannot be steered");
+  auto* const steered = as<SteeredMotion>(*handle, "steer: this motion cannot be steered");
   return steered != nullptr && knows(*handle, body) &&
          is_good(steered->steer(static_cast<std::uint32_t>(body), time, vector_at(acceleration)));
 }
 
 KINESPHERE_EXPORT(frames_push)
 bool frames_push(MotionHandle* handle, std::size_t count, const double* positions) {
-  auto* const frames = as<Frames>(*handle, "push: this motion has no frames");
+  auto* const frames = as<FrameMotion>(*handle, "push: this motion has no frames");
   if (frames == nullptr) return false;
   std::vector<Vec3> next;
   for (std::size_t k = 0; k < count; ++k) next.push_back(vector_at(positions + 3 * k));
@@ -223,7 +223,7 @@ bool frames_push(MotionHandle* handle, std::size_t count, const double* position
 /// The times of the last frame but one and of the last, then three numbers for each body: where it is at the
 /// last.
 KINESPHERE_EXPORT(frames_latest) bool frames_latest(const MotionHandle* handle) {
-  const auto* const frames = as<const Frames>(*handle, "latest: this motion has no frames");
+  const auto* const frames = as<const FrameMotion>(*handle, "latest: this motion has no frames");
   if (frames == nullptr) return false;
   answer() = {frames->previous_time(), frames->latest_time()};
   for (const Vec3& position : frames->latest())
@@ -233,7 +233,7 @@ KINESPHERE_EXPORT(frames_latest) bool frames_latest(const MotionHandle* handle) 
 
 /// Six numbers for each: body, excess, acceleration, velocity.
 KINESPHERE_EXPORT(frames_violations) bool frames_violations(const MotionHandle* handle) {
-  const auto* const frames = as<const Frames>(*handle, "violations: this motion has no frames");
+  const auto* const frames = as<const FrameMotion>(*handle, "violations: this motion has no frames");
   if (frames == nullptr) return false;
   answer().clear();
   for (const FrameViolation& violation : frames->violations()) {

@@ -113,10 +113,10 @@ double world_add_fixed(World* world, int kind, const double* shape, bool is_zone
                        int sensor_class, double user_data) {
   const auto data = static_cast<std::uint64_t>(user_data);
   const auto id = is_zone ? world->add_zone(shape_at(kind, shape), data)
-                          : world->add_fixed({.shape = shape_at(kind, shape),
-                                              .solid = solid,
-                                              .sensor_class = static_cast<SensorClass>(sensor_class),
-                                              .user_data = data});
+                          : world->add_static({.shape = shape_at(kind, shape),
+                                               .solid = solid,
+                                               .sensor_class = static_cast<SensorClass>(sensor_class),
+                                               .user_data = data});
   return is_good(id) ? number_of(*id) : no_id;
 }
 
@@ -144,8 +144,8 @@ KINESPHERE_EXPORT(world_disable) bool world_disable(World* world, double body) {
 KINESPHERE_EXPORT(world_enable) bool world_enable(World* world, double body, const double* state) {
   return is_good(world->enable(body_of(body), state_at(state)));
 }
-KINESPHERE_EXPORT(world_rest) bool world_rest(World* world, double body) {
-  return is_good(world->rest(body_of(body)));
+KINESPHERE_EXPORT(world_sleep) bool world_sleep(World* world, double body) {
+  return is_good(world->sleep(body_of(body)));
 }
 KINESPHERE_EXPORT(world_wake) bool world_wake(World* world, double body) {
   return is_good(world->wake(body_of(body)));

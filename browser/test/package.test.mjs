@@ -139,7 +139,7 @@ test("wrong input is named", () => {
   assert.throws(() => world.add({ position: [1, 2, 3], userData: -4 }), /userData must be a whole number/);
   assert.throws(() => world.advance(1, null), /probe must be a function or a Motion/);
   assert.throws(() => world.run(1, {}), /run: motion must be a Motion/);
-  assert.throws(() => world.addFixed({}), /shape must be/);
+  assert.throws(() => world.addStatic({}), /shape must be/);
   assert.throws(() => new Scene("nonsense"), /must be one of paper1/);
   assert.throws(() => new Scene("paper1", { bodies: 1.5 }), /bodies must be a whole number/);
   refuses(() => new Scene("paper1", { bodies: 1e6 }), "out_of_range", "bodies");
@@ -197,7 +197,7 @@ test("zones, fixed shapes and sensors tell", () => {
   const motion = new Ballistic({ positions: [0, 0, 0], velocities: [10, 0, 0] });
   const [ball] = world.addMotion(motion, 0.5, { sensorClass: 1 });
   const zone = world.addZone({ box: { lower: [5, -1, -1], upper: [5.001, 1, 1] } });
-  const wall = world.addFixed({ halfSpace: { normal: [-1, 0, 0], offset: -20 } });
+  const wall = world.addStatic({ halfSpace: { normal: [-1, 0, 0], offset: -20 } });
   world.setSensor(1, [2]);
   const seen = [];
   for (const event of world.events(3, motion)) {
@@ -213,8 +213,8 @@ test("bodies bounce off what is fixed", () => {
   const world = new World();
   const motion = new Ballistic({ positions: [0, 0, 5], velocities: [0, 0, -1] });
   const [ball] = world.addMotion(motion, 1);
-  const floor = world.addFixed({ halfSpace: { normal: [0, 0, 1], offset: 0 } });
-  const table = world.addFixed({ box: { lower: [-5, -5, 8], upper: [5, 5, 9] } });
+  const floor = world.addStatic({ halfSpace: { normal: [0, 0, 1], offset: 0 } });
+  const table = world.addStatic({ box: { lower: [-5, -5, 8], upper: [5, 5, 9] } });
   const events = [...world.run(20, { motion, respond: { restitution: 1 } })].filter(({ kind }) => kind === "contact_begin");
   assert.deepEqual(events.map(({ second }) => second), [floor, table, floor]);
   assert.ok(Math.abs(motion.state(ball, 20).velocity[2] - 1) < 1e-12);

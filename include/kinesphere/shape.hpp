@@ -1,8 +1,8 @@
 // Shapes of bodies that never move, and when a moving body can meet them.
 //
-//   const BodyId floor = world.add_fixed({.shape = HalfSpace{{0, 0, 1}, 0.0}}).value();
-//   const BodyId step = world.add_fixed({.shape = Box{{0, 0, 0}, {2, 1, 0.2}}}).value();
-//   const auto hill = world.add_fixed_all(mesh(vertices, corners).value()).value();
+//   const BodyId floor = world.add_static({.shape = HalfSpace{{0, 0, 1}, 0.0}}).value();
+//   const BodyId step = world.add_static({.shape = Box{{0, 0, 0}, {2, 1, 0.2}}}).value();
+//   const auto hill = world.add_static_all(mesh(vertices, corners).value()).value();
 //
 // All of them are convex and at rest. Of a convex shape and any direction two things are certain, however
 // the direction came about: the shape lies behind its supporting plane in that direction, so what stays

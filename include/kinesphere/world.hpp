@@ -143,7 +143,7 @@ class World {
   /// Adds a zone: a fixed body that touches nobody and tells who comes in and goes, by sensor_enter and
   /// sensor_leave at distance 0. It belongs to the sensor class zone_class (255), which gets that distance
   /// with the first zone if it has none; set_sensor(zone_class, ...) gives all zones other distances or
-  /// another mask, set_filter one of them another filter. Errors and cost: as add_fixed().
+  /// another mask, set_filter one of them another filter. Errors and cost: as add_static().
   Result<BodyId> add_zone(const Shape& shape, std::uint64_t user_data = 0);
   /// Adds all of them or, on an error (as above, naming the one), none.
   Result<std::vector<BodyId>> add_static_all(std::span<const StaticDefinition> bodies);
@@ -161,7 +161,7 @@ class World {
   /// Tells the world that the velocity of this body is `velocity` from the current time on; the probe
   /// must answer accordingly, or a bound_violation says by how much it does not. Everything certified about
   /// the body so far is void. If it has not been probed at this very time (both bodies of a contact have) the
-  /// next advance does so first. Errors: disabled_body; fixed_body; not_finite; out_of_range (beyond
+  /// next advance does so first. Errors: disabled_body; static_body; not_finite; out_of_range (beyond
   /// limits.hpp, or z other than 0 in two dimensions); probe_in_progress. Cost: O(1) here, a search at
   /// the next advance.
   Result<void> set_velocity(BodyId body, const Vec3& velocity);
@@ -174,11 +174,11 @@ class World {
   // probe_in_progress, and as add() for what they set.
 
   /// The body is in another state from the current time on. ContactMode::impacts: its next approach to
-  /// anything is a new contact, as after set_velocity(). Errors: disabled_body, fixed_body.
+  /// anything is a new contact, as after set_velocity(). Errors: disabled_body, static_body.
   Result<void> teleport(BodyId body, const State& state);
-  /// Errors: fixed_body.
+  /// Errors: static_body.
   Result<void> set_radius(BodyId body, double radius);
-  /// From the current time on the body moves within these limits. Errors: fixed_body.
+  /// From the current time on the body moves within these limits. Errors: static_body.
   Result<void> set_motion_limits(BodyId body, const MotionLimits& limits);
 
   /// A disabled body touches nobody and is never probed. It keeps its id, and all but its state may be set.
@@ -199,10 +199,10 @@ class World {
   ///   gap
   ///     to it is at most the separation distance and the tolerance: so a whole island wakes together.
   /// ContactMode::impacts has no contact_end: a body that rests upon one that is awake is not told when that
-  /// one leaves. A body that rests already goes on resting. Errors: disabled_body, fixed_body.
+  /// one leaves. A body that rests already goes on resting. Errors: disabled_body, static_body.
   Result<void> sleep(BodyId body);
   /// Wakes the body and its island. One that is awake stays so, and nothing happens. Errors: disabled_body,
-  /// fixed_body.
+  /// static_body.
   Result<void> wake(BodyId body);
 
   /// Contacts that the filter does not let pass end; overlaps that it newly lets pass begin at once, also

@@ -1,7 +1,7 @@
 """What going through Python costs, measured against the program `kinesphere`: python -m kinesphere.bench
 [--program PATH]
 
-Each scene is run by the program, by World.run() with the ready-made motion, and by World.run() with a Mover
+Each scene is run by the program, by World.run() with the ready-made motion, and by World.run() with a MotionSource
 that is a function of NumPy's arrays. They take turns. Times are medians, without making the scene; hashes
 of what was computed are compared.
 """
@@ -17,7 +17,7 @@ import sys
 import time
 from typing import Any
 
-from . import EventHash, Mover, Scene, World, __version__
+from . import EventHash, MotionSource, Scene, World, __version__
 
 _scenes = [("paper1", 0.05, 1.0), ("gas", 0.05, 2.0), ("rain", 0.05, 1.0)]
 """Name, packing, seconds. In those that fly freely a probe is two lines of NumPy."""
@@ -62,7 +62,7 @@ def _by_mover(scene: Scene) -> tuple[float, str]:
     assert plan.tolist() == [gx, gy, gz]
     world = World(**scene.definition)
     world.add(**start, radii=scene.radii)
-    mover = Mover(falling if gz != 0.0 else straight, start["positions"], start["velocities"])
+    mover = MotionSource(falling if gz != 0.0 else straight, start["positions"], start["velocities"])
     return _by_run(scene, world, mover)
 
 

@@ -30,7 +30,7 @@ class EventKind(_Named):
     """The gap of two bodies has come down to a sensor distance."""
     sensor_leave = 7
     """The gap of two bodies that were within a sensor distance has grown beyond it."""
-    woken = 8
+    woke = 8
     """A body that rested is awake again."""
 
 

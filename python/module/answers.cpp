@@ -94,7 +94,7 @@ NewArray new_found(std::size_t count, bool with_limits) {
       {count}, row_type(with_limits ? fields : fields.first(2), sizeof(FoundRecord)), sizeof(FoundRecord)};
 }
 
-py::object found_table(const std::vector<Found>& found) {
+py::object found_table(const std::vector<OverlapHit>& found) {
   NewArray table = new_found(found.size(), false);
   for (std::size_t k = 0; k < found.size(); ++k)
     table.data<FoundRecord>()[k] = {number_of(found[k].body), 0.0, 0.0,

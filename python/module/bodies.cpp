@@ -142,17 +142,17 @@ py::object add_motion(WorldHandle& handle, MotionHandle& moved, const py::object
   return array_of(ids);
 }
 
-py::object add_fixed(WorldHandle& handle, const py::object& shape, std::uint64_t category, std::uint64_t mask,
-                     const py::object& group, bool solid, std::uint64_t sensor_class,
-                     std::uint64_t user_data) {
-  const auto turn = handle.take("add_fixed");
+py::object add_static(WorldHandle& handle, const py::object& shape, std::uint64_t category,
+                      std::uint64_t mask, const py::object& group, bool solid, std::uint64_t sensor_class,
+                      std::uint64_t user_data) {
+  const auto turn = handle.take("add_static");
   const BodyId id =
       handle.world
-          .add_fixed({.shape = shape_of(shape, {"add_fixed", "shape"}),
-                      .filter = {category, mask, group_of(group, {"add_fixed", "group"})},
-                      .solid = solid,
-                      .sensor_class = sensor_class_of(sensor_class, {"add_fixed", "sensor_class"}),
-                      .user_data = user_data})
+          .add_static({.shape = shape_of(shape, {"add_static", "shape"}),
+                       .filter = {category, mask, group_of(group, {"add_static", "group"})},
+                       .solid = solid,
+                       .sensor_class = sensor_class_of(sensor_class, {"add_static", "sensor_class"}),
+                       .user_data = user_data})
           .value();
   handle.fixed.insert(id.pack());
   end_call(handle);
@@ -181,7 +181,7 @@ py::object add_mesh(WorldHandle& handle, const py::object& vertices, const py::o
   }
   const auto triangles =
       mesh(places, triples, {category, mask, group_of(group, {"add_mesh", "group"})}).value();
-  const std::vector<BodyId> ids = handle.world.add_fixed_all(triangles).value();
+  const std::vector<BodyId> ids = handle.world.add_static_all(triangles).value();
   for (const BodyId id : ids) handle.fixed.insert(id.pack());
   end_call(handle);
   return array_of(ids);
@@ -316,7 +316,7 @@ names the argument and the body. Cost: O(1) each, and a search when the world go
 
 radii (length) is one number, or one of each body. Returns the ids, 0 to n - 1. States and promises are the
 motion's at world.time.)")
-      .def("add_fixed", add_fixed, py::arg("shape"), py::kw_only(), py::arg("category") = 1,
+      .def("add_static", add_static, py::arg("shape"), py::kw_only(), py::arg("category") = 1,
            py::arg("mask") = all_categories, py::arg("group") = 0, py::arg("solid") = true,
            py::arg("sensor_class") = 0, py::arg("user_data") = 0,
            R"(Adds a body that never moves: a Ball, Box, HalfSpace or Triangle. Returns its BodyId.
@@ -373,7 +373,8 @@ bodies.)")
           },
           py::arg("bodies"), py::arg("positions"), py::arg("velocities") = py::none(),
           "These bodies are back, in these states.")
-      .def("rest", changing("rest", [](World& of, BodyId body) { return of.rest(body); }), py::arg("bodies"),
+      .def("sleep", changing("sleep", [](World& of, BodyId body) { return of.sleep(body); }),
+           py::arg("bodies"),
            "These bodies stay exactly where they are until they are woken, and cost nothing meanwhile.")
       .def("wake", changing("wake", [](World& of, BodyId body) { return of.wake(body); }), py::arg("bodies"),
            "Wakes these bodies, and all resting ones in touch with them.")
@@ -384,9 +385,10 @@ non-zero group, if it is positive.)")
       .def("set_pair_filter", set_pair_filter, py::arg("function"),
            R"(A function of two ids that says whether these bodies may touch, or None.
 
-It must be symmetric, and its answers must not change but before refilter(). What it raises comes out of the
+It must be symmetric, and its answers must not change but before refresh_filter(). What it raises comes out of the
 call of the world that asked it, and counts as True.)")
-      .def("refilter", changing("refilter", [](World& of, BodyId body) { return of.refilter(body); }),
+      .def("refresh_filter",
+           changing("refresh_filter", [](World& of, BodyId body) { return of.refresh_filter(body); }),
            py::arg("bodies"),
            "Tells the world that the pair filter's answers about these bodies have changed.")
       .def(

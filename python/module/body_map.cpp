@@ -123,13 +123,14 @@ a world.)")
           },
           py::arg("world"), py::arg("body"))
       .def(
-          "tell_violations",
-          [](BodyMapHandle& map, WorldHandle& world, const HandleOf<Frames>& frames) {
-            change(map, world, "tell_violations",
-                   [&](BodyMap& known, World& of) { return known.tell_violations(of, frames.get()); });
+          "report_violations",
+          [](BodyMapHandle& map, WorldHandle& world, const HandleOf<FrameMotion>& frames) {
+            change(map, world, "report_violations",
+                   [&](BodyMap& known, World& of) { return known.report_violations(of, frames.get()); });
           },
           py::arg("world"), py::arg("frames"),
-          "After each Frames.push(): tells the world the velocities of bodies that broke their promise in "
+          "After each FrameMotion.push(): tells the world the velocities of bodies that broke their promise "
+          "in "
           "that frame.")
       .def(
           "find",

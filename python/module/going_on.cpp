@@ -65,7 +65,7 @@ class Responding {
   explicit operator bool() const { return !given_.is_none(); }
 
   /// Needs no GIL.
-  Answer operator()(const Event& event) const {
+  Response operator()(const Event& event) const {
     if (bouncing_ != nullptr)
       return bouncing_->answer(event, [this](BodyId body) { return fixed_.contains(body.pack()); });
     if (scene_ != nullptr) {
@@ -116,7 +116,8 @@ py::object run(WorldHandle& handle, double until, const py::object& motion, cons
   const Responding responding(respond, handle, asked.interruptions());
   if (responding && asked.mover() == nullptr) {
     throw py::type_error(
-        "run: motion must be a Motion, a BodyMap or a Mover where there is a respond, as bodies are given "
+        "run: motion must be a Motion, a BodyMap or a MotionSource where there is a respond, as bodies are "
+        "given "
         "velocities, "
         "but is a "
         "function; loop over world.events() instead");
@@ -127,7 +128,7 @@ py::object run(WorldHandle& handle, double until, const py::object& motion, cons
     asked.interruptions().look();
   };
   const auto tell = [&](const Event& event) { asked.interruptions().call([&] { sink(event); }); };
-  const Sink told = sink.is_none() ? Sink(note) : Sink(tell);
+  const EventFn told = sink.is_none() ? EventFn(note) : EventFn(tell);
   const Result<void> done = without_gil(handle, [&] {
     if (!responding) return handle.world.run(until, asked.probe(), told, shared.workers());
     return handle.world.run(
@@ -172,7 +173,7 @@ it is left early, the world stands at the last event. Each step is an advance().
            py::arg("sink") = py::none(), py::arg("threads") = 1,
            R"(Goes on to time `until` by itself and returns all Events, in order.
 
-motion: a Motion or BodyMap, and then no Python is called for states; a Mover; without respond any probe.
+motion: a Motion or BodyMap, and then no Python is called for states; a MotionSource; without respond any probe.
 respond: what gives bodies new velocities at an event: a Bouncing, a Scene, or a function of the Event that
 returns None or (first velocity or None, second velocity or None). It must depend on the event alone, and
 may not call the world.

@@ -22,10 +22,11 @@ py::tuple bounds(WorldHandle& handle, const py::object& bodies) {
   NewArray centres = new_doubles({ids.size(), 3}), radii = new_doubles({ids.size()});
   for (std::size_t k = 0; k < ids.size(); ++k) {
     const BodyView view = handle.world.body(ids[k]).value();
-    const Vec3 centre = view.fixed ? view.definition.position : view.bound.centre_at(handle.world.time());
+    const Vec3 centre = view.is_static ? view.definition.position : view.bound.centre_at(handle.world.time());
     for (int axis = 0; axis < 3; ++axis)
       centres.data<double>()[3 * k + static_cast<std::size_t>(axis)] = centre[axis];
-    radii.data<double>()[k] = view.fixed ? view.definition.radius : view.bound.radius_at(handle.world.time());
+    radii.data<double>()[k] =
+        view.is_static ? view.definition.radius : view.bound.radius_at(handle.world.time());
   }
   return py::make_tuple(centres.take(), radii.take());
 }
@@ -36,9 +37,10 @@ py::object touching(WorldHandle& handle, const py::object& body) {
 }
 
 py::list sensed(WorldHandle& handle, const py::object& body) {
-  const auto turn = handle.take("sensed");
+  const auto turn = handle.take("sensor_overlaps");
   py::list found;
-  for (const Sensed& one : handle.world.sensed(id_of(body, {"sensed", "body"})).value())
+  for (const SensorOverlap& one :
+       handle.world.sensor_overlaps(id_of(body, {"sensor_overlaps", "body"})).value())
     found.append(py::make_tuple(object_of(one.body), one.distance));
   return found;
 }
@@ -111,8 +113,8 @@ void bind_views(py::module_& module) {
           [](const BodyView& view) { return py::make_tuple(view.image[0], view.image[1], view.image[2]); },
           "Where space repeats: how many boxes the body has gone beyond the first one.")
       .def_readonly("enabled", &BodyView::enabled)
-      .def_readonly("fixed", &BodyView::is_static)
-      .def_readonly("resting", &BodyView::sleeping);
+      .def_readonly("is_static", &BodyView::is_static)
+      .def_readonly("sleeping", &BodyView::sleeping);
 
   py::class_<Counters>(module, "Counters", "What a world has done so far; a copy.")
       .def_readonly("probes", &Counters::probes, "States asked for, one per body and call.")
@@ -165,10 +167,10 @@ py::tuple read_all(const py::object& recording) {
   std::vector<double> times;
   std::vector<BodyId> bodies;
   std::vector<State> states;
-  for (const Report& report : run.reports) {
-    times.push_back(report.time);
-    bodies.push_back(report.body);
-    states.push_back(report.state);
+  for (const ProbedState& state : run.probed_states) {
+    times.push_back(state.time);
+    bodies.push_back(state.body);
+    states.push_back(state.state);
   }
   const py::tuple arrays = arrays_of(states);
   return py::make_tuple(run.start_time, run.end_time, table_of(events), array_of(times), array_of(bodies),
@@ -229,7 +231,8 @@ radii, shape (n,).)")
           py::arg("body"))
       .def("touching", touching, py::arg("body"),
            "Whom the body touches, in the order in which the contacts began.")
-      .def("sensed", sensed, py::arg("body"), "Pairs of partner and sensor distance that the body is within.")
+      .def("sensor_overlaps", sensed, py::arg("body"),
+           "Pairs of partner and sensor distance that the body is within.")
       .def("sensor", sensor, py::arg("sensor_class"), "The distances and the mask of a class.")
       .def_property_readonly("counters", reading("counters", [](const World& now) { return now.counters(); }))
       .def("memory",
@@ -250,10 +253,10 @@ radii, shape (n,).)")
       .def("certificates", certificates,
            "Triples of two ids and until when it is certain that nothing changes between them.")
       .def(
-          "set_timing",
+          "set_profiling",
           [](WorldHandle& handle, bool on) {
-            const auto turn = handle.take("set_timing");
-            require(handle.world.set_timing(on));
+            const auto turn = handle.take("set_profiling");
+            require(handle.world.set_profiling(on));
           },
           py::arg("on"), "Switched on it begins from zero.")
       .def("timings",

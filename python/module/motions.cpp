@@ -143,10 +143,10 @@ The arguments of World.add(): world.add(**motion.definitions(0.0), radii=0.5).)"
           },
           py::arg("number"), "The next body that is added takes its number.")
       .def(
-          "departure",
+          "origin",
           [](MotionHandle& handle, long long number) {
-            const auto turn = handle.in_use.take_alone("departure", "motion");
-            const Departure from = handle.motion->departure(number_in_motion(number));
+            const auto turn = handle.in_use.take_alone("origin", "motion");
+            const MotionOrigin from = handle.motion->origin(number_in_motion(number));
             return py::make_tuple(from.time, array_of(from.state.position), array_of(from.state.velocity));
           },
           py::arg("number"), "The last change of a body, or its start: time, position and velocity.")
@@ -251,20 +251,21 @@ number, or one of each body. The draw depends on seed, body and interval alone.)
       py::kw_only(), py::arg("interval") = 0.2, py::arg("seed") = 1, py::arg("start_time") = 0.0);
   bind_add_with_limit(random_forces);
 
-  auto steered = bind_kind<Steered>(
-      module, "Steered",
+  auto steered = bind_kind<SteeredMotion>(
+      module, "SteeredMotion",
       R"(Bodies steered by hand: each keeps its acceleration, at first zero, until it is steered again.)");
   steered
       .def(py::init([](const py::object& positions, const py::object& velocities, const py::object& limits,
                        double start_time) {
-             return std::make_shared<HandleOf<Steered>>(Steered::create(
-                 with_limits<SteeredMotionDefinition>("Steered", positions, velocities, limits, start_time)));
+             return std::make_shared<HandleOf<SteeredMotion>>(
+                 SteeredMotion::create(with_limits<SteeredMotionDefinition>("SteeredMotion", positions,
+                                                                            velocities, limits, start_time)));
            }),
            py::arg("positions"), py::arg("velocities") = py::none(), py::arg("acceleration_limits") = 1.0,
            py::kw_only(), py::arg("start_time") = 0.0)
       .def(
           "steer",
-          [](HandleOf<Steered>& handle, long long number, double t, const py::object& acceleration) {
+          [](HandleOf<SteeredMotion>& handle, long long number, double t, const py::object& acceleration) {
             const auto turn = handle.in_use.take_alone("steer", "motion");
             require(handle.get().steer(number_in_motion(number), t,
                                        vector_of(acceleration, {"steer", "acceleration"}, any_dimension)));
@@ -339,8 +340,8 @@ the last sample it goes straight on. Bodies can be removed, but not be changed.)
            }),
            py::arg("tracks"));
 
-  auto frames = bind_kind<Frames>(
-      module, "Frames",
+  auto frames = bind_kind<FrameMotion>(
+      module, "FrameMotion",
       R"(Bodies of a program that moves them in fixed steps: straight lines between its last two frames.
 
 acceleration_limits (length / time^2, gravity included) is one number, or one of each body: positions of
@@ -349,7 +350,7 @@ positions may be off. States can be asked for from previous_time to latest_time.
   frames
       .def(py::init([](const py::object& positions, const py::object& velocities, const py::object& limits,
                        double interval, double position_error, double start_time, bool refuse_violations) {
-             const std::string_view call = "Frames";
+             const std::string_view call = "FrameMotion";
              FrameMotionDefinition definition;
              definition.start = vectors_of(positions, {call, "positions"}, any_dimension);
              const std::size_t count = definition.start.size();
@@ -360,21 +361,21 @@ positions may be off. States can be asked for from previous_time to latest_time.
              definition.position_error = position_error;
              definition.start_time = start_time;
              definition.refuse_violations = refuse_violations;
-             return std::make_shared<HandleOf<Frames>>(Frames::create(std::move(definition)));
+             return std::make_shared<HandleOf<FrameMotion>>(FrameMotion::create(std::move(definition)));
            }),
            py::arg("positions"), py::arg("velocities") = py::none(), py::arg("acceleration_limits") = 1.0,
            py::kw_only(), py::arg("interval") = 1.0 / 60.0, py::arg("position_error") = 0.0,
            py::arg("start_time") = 0.0, py::arg("refuse_violations") = false)
       .def(
           "push",
-          [](HandleOf<Frames>& handle, const py::object& positions) {
+          [](HandleOf<FrameMotion>& handle, const py::object& positions) {
             const auto turn = handle.in_use.take_alone("push", "frames");
             require(handle.get().push(vectors_of(positions, {"push", "positions"}, any_dimension)));
           },
           py::arg("positions"), "The next frame: the position of every body, shape (n, 3) or (n, 2).")
       .def(
           "latest",
-          [](const HandleOf<Frames>& handle) {
+          [](const HandleOf<FrameMotion>& handle) {
             const std::vector<Vec3>& latest = handle.get().latest();
             NewArray array = new_doubles({latest.size(), 3});
             if (!latest.empty())
@@ -383,14 +384,15 @@ positions may be off. States can be asked for from previous_time to latest_time.
           },
           "Where the bodies are at latest_time, changes included: shape (n, 3).")
       .def_property_readonly("previous_time",
-                             [](const HandleOf<Frames>& handle) { return handle.get().previous_time(); })
+                             [](const HandleOf<FrameMotion>& handle) { return handle.get().previous_time(); })
       .def_property_readonly("latest_time",
-                             [](const HandleOf<Frames>& handle) { return handle.get().latest_time(); })
-      .def_property_readonly("violation_count",
-                             [](const HandleOf<Frames>& handle) { return handle.get().violation_count(); })
+                             [](const HandleOf<FrameMotion>& handle) { return handle.get().latest_time(); })
+      .def_property_readonly(
+          "violation_count",
+          [](const HandleOf<FrameMotion>& handle) { return handle.get().violation_count(); })
       .def(
           "violations",
-          [](const HandleOf<Frames>& handle) {
+          [](const HandleOf<FrameMotion>& handle) {
             py::list violations;
             for (const FrameViolation& found : handle.get().violations())
               violations.append(

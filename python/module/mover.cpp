@@ -13,7 +13,7 @@ namespace kinesphere::python {
 namespace {
 
 /// Nobody has said where this body set out.
-constexpr Departure unknown_departure{.time = std::numeric_limits<double>::quiet_NaN()};
+constexpr MotionOrigin unknown_departure{.time = std::numeric_limits<double>::quiet_NaN()};
 
 /// Worlds of two dimensions and of three alike may have these bodies.
 constexpr bool plane_or_space = true;
@@ -22,32 +22,32 @@ std::shared_ptr<MoverHandle> create_mover(const py::object& function, const py::
                                           const py::object& velocities, double start_time) {
   if (PyCallable_Check(function.ptr()) == 0)
     throw py::type_error(
-        "Mover: function must be a function of (ids, t, since, positions, velocities), but is " +
+        "MotionSource: function must be a function of (ids, t, since, positions, velocities), but is " +
         py::repr(function).cast<std::string>());
   auto handle = std::make_shared<MoverHandle>(MoverHandle{function, {}});
-  for (const State& state : states_of(positions, velocities, "Mover", plane_or_space))
+  for (const State& state : states_of(positions, velocities, "MotionSource", plane_or_space))
     handle->departures.push_back({start_time, state});
   return handle;
 }
 
-void depart(MoverHandle& handle, const py::object& bodies, double t, const py::object& positions,
-            const py::object& velocities) {
-  const auto turn = handle.in_use.take_alone("depart", "mover");
-  const Ids named = ids_of(bodies, {"depart", "bodies"});
+void set_origin(MoverHandle& handle, const py::object& bodies, double t, const py::object& positions,
+                const py::object& velocities) {
+  const auto turn = handle.in_use.take_alone("set_origin", "mover");
+  const Ids named = ids_of(bodies, {"set_origin", "bodies"});
   std::vector<State> states;
   if (named.is_single) {
-    states = {{vector_of(positions, {"depart", "positions"}, plane_or_space),
-               vector_of(velocities, {"depart", "velocities"}, plane_or_space)}};
+    states = {{vector_of(positions, {"set_origin", "positions"}, plane_or_space),
+               vector_of(velocities, {"set_origin", "velocities"}, plane_or_space)}};
   } else {
-    states = states_of(positions, velocities, "depart", plane_or_space);
+    states = states_of(positions, velocities, "set_origin", plane_or_space);
   }
   if (states.size() != named.ids.size())
-    refuse({"depart", "positions"}, "must have n = " + std::to_string(named.ids.size()) + " as bodies",
+    refuse({"set_origin", "positions"}, "must have n = " + std::to_string(named.ids.size()) + " as bodies",
            "has " + std::to_string(states.size()));
   constexpr std::uint32_t most = 1u << 28;
   for (const BodyId body : named.ids)
     if (body.index >= most)
-      refuse({"depart", "bodies"}, "must be ids of a world", "one is " + to_string(body));
+      refuse({"set_origin", "bodies"}, "must be ids of a world", "one is " + to_string(body));
   for (std::size_t k = 0; k < states.size(); ++k) {
     const std::uint32_t index = named.ids[k].index;
     if (index >= handle.departures.size())
@@ -66,12 +66,12 @@ py::tuple states_now(MoverHandle& handle, const py::object& ids, double t) {
 
 }  // namespace
 
-const Departure& MoverHandle::departure(BodyId body) const {
+const MotionOrigin& MoverHandle::origin(BodyId body) const {
   if (body.index < departures.size() && !std::isnan(departures[body.index].time))
     return departures[body.index];
   throw BadResult({ErrorCode::unknown_body, "motion", body,
                    "run: motion must know where all bodies set out, but does not of body " + to_string(body) +
-                       " (Mover.depart)"});
+                       " (MotionSource.set_origin)"});
 }
 
 void ask(const MoverHandle& handle, std::span<const BodyId> ids, double time, std::span<State> states,
@@ -79,7 +79,7 @@ void ask(const MoverHandle& handle, std::span<const BodyId> ids, double time, st
   NewArray since = new_doubles({ids.size(), 1}), positions = new_doubles({ids.size(), 3}),
            velocities = new_doubles({ids.size(), 3});
   for (std::size_t k = 0; k < ids.size(); ++k) {
-    const Departure& from = handle.departure(ids[k]);
+    const MotionOrigin& from = handle.origin(ids[k]);
     since.data<double>()[k] = from.time;
     std::memcpy(positions.data<double>() + 3 * k, &from.state.position, sizeof(Vec3));
     std::memcpy(velocities.data<double>() + 3 * k, &from.state.velocity, sizeof(Vec3));
@@ -96,21 +96,22 @@ void ask(const MoverHandle& handle, std::span<const BodyId> ids, double time, st
 
 void bind_mover(py::module_& module) {
   py::class_<MoverHandle, std::shared_ptr<MoverHandle>>(
-      module, "Mover",
+      module, "MotionSource",
       R"(A motion of your own, whose bodies World.run() can give velocities.
 
 function(ids, t, since, positions, velocities) -> (positions, velocities) says where bodies are at time t
 that set out at `since` from these positions with these velocities: since has shape (n, 1), the others (n,
 3), so that
 
-    Mover(lambda ids, t, since, places, speeds: (places + speeds * (t - since), speeds), positions)
+    MotionSource(lambda ids, t, since, places, speeds: (places + speeds * (t - since), speeds), positions)
 
 moves them straight on. It must depend on nothing else but the bodies, and is asked for times in any order.
 From start_time on they set out from positions and velocities (shape (n, 3) or (n, 2)), those of the ids 0
 to n - 1; what a run answers is kept here. mover(ids, t) tells states.)")
       .def(py::init(&create_mover), py::arg("function"), py::arg("positions"),
            py::arg("velocities") = py::none(), py::kw_only(), py::arg("start_time") = 0.0)
-      .def("depart", depart, py::arg("bodies"), py::arg("t"), py::arg("positions"), py::arg("velocities"),
+      .def("set_origin", set_origin, py::arg("bodies"), py::arg("t"), py::arg("positions"),
+           py::arg("velocities"),
            R"(Bodies set out anew at time t, as the world has been told (add, set_velocity, teleport).
 
 One id and vectors of shape (3,), or n ids and shape (n, 3).)")

@@ -17,11 +17,11 @@ namespace py = pybind11;
 /// Says where bodies are from where they set out last, which is kept here, by the index of their ids.
 struct MoverHandle {
   py::object function;
-  std::vector<Departure> departures;
+  std::vector<MotionOrigin> departures;
   InUse in_use{};
 
   /// Throws BadResult with unknown_body.
-  const Departure& departure(BodyId body) const;
+  const MotionOrigin& origin(BodyId body) const;
 };
 
 /// Asks the function: under the GIL.
@@ -29,15 +29,15 @@ void ask(const MoverHandle& handle, std::span<const BodyId> ids, double time, st
          std::string_view call, bool plane);
 
 /// Within one call of a world.
-class FunctionMover final : public Mover {
+class FunctionMover final : public MotionSource {
  public:
   FunctionMover(MoverHandle& handle, Interruptions& interruptions, std::string call, bool plane)
       : handle_(handle), interruptions_(interruptions), call_(std::move(call)), plane_(plane) {}
   void states(std::span<const BodyId> ids, double time, std::span<State> states) override {
     interruptions_.call([&] { ask(handle_, ids, time, states, call_, plane_); });
   }
-  Departure departure(BodyId body) const override { return handle_.departure(body); }
-  void depart(BodyId body, const Departure& departure) override {
+  MotionOrigin origin(BodyId body) const override { return handle_.origin(body); }
+  void set_origin(BodyId body, const MotionOrigin& departure) override {
     handle_.departures.at(body.index) = departure;
   }
 

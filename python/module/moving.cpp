@@ -11,7 +11,7 @@ namespace {
 
 /// A mover through which Ctrl-C comes.
 template <class Moving>
-class Interruptible final : public Mover {
+class Interruptible final : public MotionSource {
  public:
   Interruptible(Moving moving, Interruptions& interruptions)
       : moving_(std::move(moving)), interruptions_(interruptions) {}
@@ -19,8 +19,10 @@ class Interruptible final : public Mover {
     interruptions_.look();
     moving_.states(ids, time, states);
   }
-  Departure departure(BodyId body) const override { return moving_.departure(body); }
-  void depart(BodyId body, const Departure& departure) override { moving_.depart(body, departure); }
+  MotionOrigin origin(BodyId body) const override { return moving_.origin(body); }
+  void set_origin(BodyId body, const MotionOrigin& departure) override {
+    moving_.set_origin(body, departure);
+  }
 
  private:
   Moving moving_;
@@ -28,7 +30,7 @@ class Interruptible final : public Mover {
 };
 
 template <class Moving>
-std::unique_ptr<Mover> interruptible(Moving moving, Interruptions& interruptions) {
+std::unique_ptr<MotionSource> interruptible(Moving moving, Interruptions& interruptions) {
   return std::make_unique<Interruptible<Moving>>(std::move(moving), interruptions);
 }
 
@@ -47,7 +49,7 @@ Asked::Asked(const py::object& given, std::string_view call, bool plane)
     keep_to_itself(handle.in_use, "body map");
     for (const py::object& motion : handle.motions)
       keep_to_itself(motion.cast<MotionHandle&>().in_use, "motion");
-    mover_ = interruptible(handle.map.mover(), interruptions_);
+    mover_ = interruptible(handle.map.source(), interruptions_);
   } else if (py::isinstance<MoverHandle>(given)) {
     auto& handle = given.cast<MoverHandle&>();
     keep_to_itself(handle.in_use, "mover");
@@ -100,7 +102,7 @@ double Bouncing::mass(BodyId body) const {
                        std::to_string(masses_.size()) + ", and none for body " + to_string(body)});
 }
 
-Answer answer_of(const py::object& returned, bool plane) {
+Response answer_of(const py::object& returned, bool plane) {
   if (returned.is_none()) return {};
   const bool is_pair = (PyTuple_Check(returned.ptr()) != 0 || PyList_Check(returned.ptr()) != 0) &&
                        PySequence_Fast_GET_SIZE(returned.ptr()) == 2;

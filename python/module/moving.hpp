@@ -28,7 +28,7 @@ class Asked {
 
   Probe probe();
   /// Nothing for a function of Python's.
-  Mover* mover() { return mover_.get(); }
+  MotionSource* mover() { return mover_.get(); }
   /// For the other callbacks of the same call.
   Interruptions& interruptions() { return interruptions_; }
 
@@ -41,7 +41,7 @@ class Asked {
   std::string call_;
   bool plane_;
   py::object given_;
-  std::unique_ptr<Mover> mover_;
+  std::unique_ptr<MotionSource> mover_;
   std::vector<InUse::Turn> turns_;
   Interruptions interruptions_;
 };
@@ -52,7 +52,7 @@ class Bouncing {
   Bouncing(const py::object& masses, double restitution, double resting_speed);
   /// is_fixed: whether a body is a fixed one, whose mass counts as infinite.
   template <class IsFixed>
-  Answer answer(const Event& event, const IsFixed& is_fixed) const;
+  Response answer(const Event& event, const IsFixed& is_fixed) const;
 
  private:
   double mass(BodyId body) const;
@@ -64,7 +64,7 @@ class Bouncing {
 };
 
 template <class IsFixed>
-Answer Bouncing::answer(const Event& event, const IsFixed& is_fixed) const {
+Response Bouncing::answer(const Event& event, const IsFixed& is_fixed) const {
   const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
   if (!begins || event.approach_speed <= 0.0) return {};
   const bool is_pair = event.second != no_body;
@@ -73,14 +73,14 @@ Answer Bouncing::answer(const Event& event, const IsFixed& is_fixed) const {
   const double second = !is_pair ? first : is_fixed(event.second) ? infinite : mass(event.second);
   const Bounce after = resting_speed_ > 0.0 ? settle(event, first, second, restitution_, resting_speed_)
                                             : bounce(event, first, second, restitution_);
-  Answer answer;
+  Response answer;
   if (first < infinite) answer.first_velocity = after.first_velocity;
   if (is_pair && second < infinite) answer.second_velocity = after.second_velocity;
   return answer;
 }
 
 /// What a function of Python's returned for an event: None, or a velocity or None for each of the two.
-Answer answer_of(const py::object& returned, bool plane);
+Response answer_of(const py::object& returned, bool plane);
 
 void bind_moving(py::module_& module);
 

@@ -133,7 +133,7 @@ std::shared_ptr<WorldHandle> restored(const py::object& snapshot, const py::obje
   handle->filter_trouble = trouble;
   end_call(*handle);
   for (const BodyId body : handle->world.bodies())
-    if (handle->world.body(body).value().fixed) handle->fixed.insert(body.pack());
+    if (handle->world.body(body).value().is_static) handle->fixed.insert(body.pack());
   return handle;
 }
 

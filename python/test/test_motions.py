@@ -21,7 +21,7 @@ box = ((0, 0, 0), (50, 50, 50))
     [
         lambda: ks.Ballistic(positions, velocities, gravity=(0, 0, -1)),
         lambda: ks.RandomForces(positions, velocities, 5.0, seed=3),
-        lambda: ks.Steered(positions, velocities, np.full(40, 2.0)),
+        lambda: ks.SteeredMotion(positions, velocities, np.full(40, 2.0)),
         lambda: ks.VelocityField(ks.Circulation(ks.Box(*box), 4.0), positions, velocities, 6.0),
     ],
     ids=["ballistic", "random forces", "steered", "velocity field"],
@@ -47,17 +47,17 @@ def test_copies_go_their_own_way() -> None:
     other = copy.copy(motion)
     assert isinstance(other, ks.RandomForces)
     motion.set_velocity(0, 1.0, (0, 0, 0))
-    assert motion.departure(0)[0] == 1.0 and other.departure(0)[0] == 0.0
+    assert motion.origin(0)[0] == 1.0 and other.origin(0)[0] == 0.0
     assert not np.array_equal(motion.states(2.0)[0], other.states(2.0)[0])
 
 
 def test_bodies_come_go_and_move_to_another_motion() -> None:
-    motion = ks.Steered(positions, velocities, 2.0)
+    motion = ks.SteeredMotion(positions, velocities, 2.0)
     number = motion.add(1.0, (0, 0, 0), (1, 0, 0), 3.0)
     motion.steer(number, 1.0, (0, 3, 0))
     motion.teleport(0, 1.0, (9, 9, 9), (0, 0, 0))
     assert motion.states(1.0, 0)[0].tolist() == [[9, 9, 9]]
-    other = ks.Steered([], start_time=0.0)
+    other = ks.SteeredMotion([], start_time=0.0)
     arrived = other.read_body(motion.write_body(number))
     assert arrived == 0 and np.array_equal(other.states(5.0)[0][0], motion.states(5.0, number)[0][0])
     motion.remove(number)
@@ -77,13 +77,13 @@ def test_wrong_bodies_and_times_of_a_motion_are_named() -> None:
     with pytest.raises(ks.InvalidValue):
         motion.states(float("nan"))
     with pytest.raises(ks.InvalidValue, match="acceleration"):
-        ks.Steered(positions, acceleration_limits=1.0).steer(0, 0.0, (5, 0, 0))
+        ks.SteeredMotion(positions, acceleration_limits=1.0).steer(0, 0.0, (5, 0, 0))
     with pytest.raises(ks.InvalidValue, match="acceleration_limit"):
         ks.RandomForces(positions, acceleration_limits=-1.0)
 
 
 def test_a_map_has_several_motions() -> None:
-    targets = ks.Steered([(30, 0, 0), (60, 0, 0)])
+    targets = ks.SteeredMotion([(30, 0, 0), (60, 0, 0)])
     bullets = ks.Ballistic([])
     world, bodies = ks.World(contacts="impacts"), ks.BodyMap()
     ids = bodies.add_all(world, targets, radii=[1.0, 2.0])
@@ -106,10 +106,10 @@ def test_a_map_has_several_motions() -> None:
 def test_frames_of_a_game() -> None:
     places = np.array([[0.0, 0, 10], [0.0, 0, 30]])
     speeds, gravity, dt = np.zeros((2, 3)), np.array([0, 0, -10.0]), 1 / 60
-    frames = ks.Frames(places, speeds, 10.2, interval=dt)
+    frames = ks.FrameMotion(places, speeds, 10.2, interval=dt)
     world = ks.World(contacts="impacts")
     world.add(**frames.definitions(0.0), radii=0.5)
-    floor = world.add_fixed(ks.HalfSpace((0, 0, 1), 0))
+    floor = world.add_static(ks.HalfSpace((0, 0, 1), 0))
     hits = []
     for _ in range(120):
         speeds = speeds + gravity * dt
@@ -175,7 +175,7 @@ def test_a_mover_of_numpy_is_answered_as_a_motion_is(threads: int) -> None:
     start = scene.motion().definitions(0.0)
     world = ks.World(**scene.definition)
     world.add(**start, radii=scene.radii)
-    mover = ks.Mover(straight_on, start["positions"], start["velocities"])
+    mover = ks.MotionSource(straight_on, start["positions"], start["velocities"])
     probed = copy.copy(mover)
     assert hash_of(world.run(2.0, mover, scene, threads=threads)) == expected
     assert np.array_equal(mover(np.arange(200), 2.0)[0], motion.states(2.0)[0])
@@ -187,10 +187,10 @@ def test_a_mover_of_numpy_is_answered_as_a_motion_is(threads: int) -> None:
         hash.add(event)
         one, other = event.first, event.second
         first, second = ks.bounce(event, scene.masses[one], scene.masses[other] if other is not None else 1.0)
-        probed.depart(one, event.time, event.first_position, first)
+        probed.set_origin(one, event.time, event.first_position, first)
         world.set_velocity(one, first)
         if other is not None and second is not None:
-            probed.depart([other], event.time, [event.second_position], [second])
+            probed.set_origin([other], event.time, [event.second_position], [second])
             world.set_velocity(other, second)
     again, motion = ks.World(**scene.definition), scene.motion()
     again.add_motion(motion, scene.radii)
@@ -199,23 +199,25 @@ def test_a_mover_of_numpy_is_answered_as_a_motion_is(threads: int) -> None:
 
 def test_wrong_movers_are_named() -> None:
     with pytest.raises(TypeError, match="function must be a function"):
-        ks.Mover(5, positions)  # type: ignore[arg-type]
+        ks.MotionSource(5, positions)  # type: ignore[arg-type]
     with pytest.raises(ks.InvalidValue, match="velocities must have shape"):
-        ks.Mover(straight_on, positions, velocities[1:])
-    mover = ks.Mover(straight_on, positions, velocities)
+        ks.MotionSource(straight_on, positions, velocities[1:])
+    mover = ks.MotionSource(straight_on, positions, velocities)
     world = ks.World()
     world.add(positions, velocities)
     newcomer = world.add((60, 0, 0), (-1, 0, 0), acceleration_limits=50.0)
     with pytest.raises(ks.BodyError, match="does not of body 40"):
         world.run(1.0, mover, ks.Bouncing())
-    mover.depart(newcomer, 0.0, (60, 0, 0), (-1, 0, 0))
+    mover.set_origin(newcomer, 0.0, (60, 0, 0), (-1, 0, 0))
     world.run(1.0, mover, ks.Bouncing())
     assert len(mover) == 41
     with pytest.raises(ks.InvalidValue, match="bodies"):
-        mover.depart(2**31, 0.0, (0, 0, 0), (0, 0, 0))
+        mover.set_origin(2**31, 0.0, (0, 0, 0), (0, 0, 0))
     with pytest.raises(ks.InvalidValue):
-        mover.depart([1, 2], 0.0, [(0, 0, 0)], [(0, 0, 0)])
-    broken = ks.Mover(lambda ids, t, since, places, speeds: (places, speeds[:, :1]), positions, velocities)
+        mover.set_origin([1, 2], 0.0, [(0, 0, 0)], [(0, 0, 0)])
+    broken = ks.MotionSource(
+        lambda ids, t, since, places, speeds: (places, speeds[:, :1]), positions, velocities
+    )
     world = ks.World()
     world.add(positions, velocities, acceleration_limits=1.0)
     with pytest.raises(ks.InvalidValue, match="velocities of the probe must have shape"):

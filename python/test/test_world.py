@@ -93,8 +93,8 @@ def test_a_response_turns_fixed_bodies_into_walls() -> None:
     motion = ks.Ballistic([[0.0, 0, 0]], [[1.0, 0, 0]])
     world = ks.World(contacts="impacts")
     world.add_motion(motion, radii=1.0)
-    post = world.add_fixed(ks.Ball((5, 0, 0), 1))
-    floor = world.add_fixed(ks.HalfSpace((1, 0, 0), -4))
+    post = world.add_static(ks.Ball((5, 0, 0), 1))
+    floor = world.add_static(ks.HalfSpace((1, 0, 0), -4))
     events = world.run(30.0, motion, ks.Bouncing(masses=[2.0]))
     assert events["second"].tolist()[:3] == [post, floor, post]
 
@@ -145,8 +145,8 @@ def test_many_bodies_are_changed_at_once() -> None:
     world.disable(ids[:5])
     assert not world.body(0).enabled
     world.enable(ids[:5], np.zeros((5, 3)) + [[0], [20], [40], [60], [80]], np.zeros((5, 3)))
-    world.rest(ids[5])
-    assert world.body(5).resting
+    world.sleep(ids[5])
+    assert world.body(5).sleeping
     world.wake(ids[5])
     world.remove(ids[[1, 2]])
     assert len(world) == 8 and world.bodies().tolist() == [0, 3, 4, 5, 6, 7, 8, 9]
@@ -163,7 +163,7 @@ def test_sensors_and_zones() -> None:
         (zone, 0, 0.0), (1, 0, 3.0), (1, 0, 1.0)]  # fmt: skip
     assert entered[0].second_user_data == 7 and entered[0].senses == ks.Senses.second
     assert len(events.of_kind(EventKind.sensor_leave)) == 3
-    assert world.sensed(1) == [] and world.sensor(1)[0].tolist() == [3.0, 1.0]
+    assert world.sensor_overlaps(1) == [] and world.sensor(1)[0].tolist() == [3.0, 1.0]
     assert world.shape_of(zone) == ks.Box((3, -1, -1), (5, 1, 1))
 
 
@@ -220,7 +220,7 @@ def test_certificates_and_queries() -> None:
 
 def test_inspection() -> None:
     world, motion = pair()
-    world.set_timing(True)
+    world.set_profiling(True)
     world.run(4.2, motion)
     assert world.touching(0).tolist() == [1]
     centres, radii = world.bounds()

@@ -33,7 +33,7 @@ class Things:
         definitions = [self.motion.definitions(0.0, k) for k in range(3)]
         self.a, self.b, self.gone = (self.w.add(**each)[0] for each in definitions)
         self.foreign = self.another.add((0.0, 0.0, 0.0))
-        self.post = self.w.add_fixed(ks.Ball((50, 0, 0), 1))
+        self.post = self.w.add_static(ks.Ball((50, 0, 0), 1))
         self.w.remove(self.gone)
         self.tight.add((0.0, 0.0, 0.0))
         self.half = self.w.save()[: len(self.w.save()) // 2]
@@ -60,7 +60,7 @@ ways: list[Way] = [
     (lambda o: o.w.add((0, 0, 0), (0, nan, 0)), "not_finite", "velocity", None),
     (lambda o: o.w.add((0, 0, 0), radii=-0.5), "out_of_range", "radius", None),
     (lambda o: o.w.set_radius(o.a, nan), "not_finite", "radius", "0"),
-    (lambda o: o.w.rest(o.post), "fixed_body", "body", "3"),
+    (lambda o: o.w.sleep(o.post), "static_body", "body", "3"),
     (lambda o: o.w.set_motion_limits(o.a, -1), "out_of_range", "acceleration_limit", "0"),
     (lambda o: o.w.set_velocity(o.a, (nan, 0, 0)), "not_finite", "velocity", "0"),
     (lambda o: o.w.add((500, 0, 0)), "outside_domain", "position", None),
@@ -73,10 +73,10 @@ ways: list[Way] = [
     (lambda o: ks.World(periodic="x"), "out_of_range", "periodic", None),
     (lambda o: o.plane.add((0, 0, 1)), "out_of_range", "position", None),
     (lambda o: o.plane.add_zone(ks.Triangle((0, 0, 0), (1, 0, 0), (0, 1, 0))), "unsupported", "shape", None),
-    (lambda o: o.w.add_fixed(ks.Box((1, 1, 1), (0, 2, 2))), "out_of_range", "shape", None),
+    (lambda o: o.w.add_static(ks.Box((1, 1, 1), (0, 2, 2))), "out_of_range", "shape", None),
     (lambda o: o.w.add_zone(ks.Triangle((0, 0, 0), (1, 0, 0), (2, 0, 0))), "out_of_range", "shape", None),
     (lambda o: o.w.set_sensor(1, [5.0, -1.0]), "out_of_range", "sensor", None),
-    (lambda o: o.w.set_velocity(o.post, (0, 0, 0)), "fixed_body", "body", "3"),
+    (lambda o: o.w.set_velocity(o.post, (0, 0, 0)), "static_body", "body", "3"),
     (lambda o: o.w.enable(o.a, (0, 0, 0)), "enabled_body", "body", "0"),
     (lambda o: o.w.ray_cast((0, 0, 0), (0, 0, 0), 1.0), "out_of_range", "direction", None),
     (lambda o: o.w.nearest((nan, 0, 0), 1), "not_finite", "point", None),
@@ -234,7 +234,7 @@ def test_wrong_kinds_of_things_are_named() -> None:
         (lambda: things.w.run(1, things.motion, 5), TypeError, "respond must be"),  # type: ignore[arg-type]
         (lambda: things.w.run(1, things.probe_that_saves, ks.Bouncing()), TypeError, "loop over world.events"),
         (lambda: things.w.run(1, things.motion, threads=-3), ks.InvalidValue, "threads"),
-        (lambda: things.w.add_fixed((0, 0, 0)), TypeError, "shape must be a Ball, Box, HalfSpace or Triangle"),  # type: ignore[arg-type]
+        (lambda: things.w.add_static((0, 0, 0)), TypeError, "shape must be a Ball, Box, HalfSpace or Triangle"),  # type: ignore[arg-type]
         (lambda: things.w.add((0, 0, 0), sensor_classes=300), ks.InvalidValue, r"\[0, 255\]"),
         (lambda: things.w.add((0, 0, 0), masks=-1), ks.InvalidValue, "2\\^64"),
         (lambda: things.w.add((0, 0, 0), group=2**40), ks.InvalidValue, "32 bits"),
@@ -249,7 +249,7 @@ def test_wrong_kinds_of_things_are_named() -> None:
         (lambda: ks.World(box=(1, 2, 3)), ks.InvalidValue, "box"),
         (lambda: ks.World.restore("text"), TypeError, "snapshot must be bytes"),  # type: ignore[arg-type]
         (lambda: ks.World.restore(b""), ks.InvalidValue, "snapshot"),
-        (lambda: ks.Steered([(0, 0, 0)]).read_body(b"junk"), ks.InvalidValue, "read_body"),
+        (lambda: ks.SteeredMotion([(0, 0, 0)]).read_body(b"junk"), ks.InvalidValue, "read_body"),
         (lambda: ks.read_recording(things.another.save()), ks.InvalidValue, "recording"),
     ]  # fmt: skip
     for call, kind, message in wrong:

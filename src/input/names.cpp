@@ -29,7 +29,7 @@ std::string_view name_of(ErrorCode code) {
     case ErrorCode::enabled_body:
       return "enabled_body";
     case ErrorCode::static_body:
-      return "fixed_body";
+      return "static_body";
     case ErrorCode::outside_domain:
       return "outside_domain";
     case ErrorCode::overlapping:

@@ -21,9 +21,9 @@ Result<void> check_monitor(const MonitorDefinition& definition) {
                    definition.tolerance <= limits::largest_contact_tolerance,
                ErrorCode::out_of_range, {"tolerance"}, "must lie within the limits of a contact tolerance",
                definition.tolerance)
-      .require(definition.stale_after > 0.0, ErrorCode::out_of_range, {"silence_after"}, "must be > 0",
+      .require(definition.stale_after > 0.0, ErrorCode::out_of_range, {"stale_after"}, "must be > 0",
                definition.stale_after)
-      .require(definition.drop_after > 0.0, ErrorCode::out_of_range, {"forget_after"}, "must be > 0",
+      .require(definition.drop_after > 0.0, ErrorCode::out_of_range, {"drop_after"}, "must be > 0",
                definition.drop_after)
       .require(!definition.classes.empty(), ErrorCode::out_of_range, {"classes"}, "must name at least one",
                definition.classes.size());

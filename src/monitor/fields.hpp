@@ -29,10 +29,10 @@ void serialize(Self& self, Archive& archive) {
 
 template <Some<MonitorDefinition> Self, class Archive>
 void serialize(Self& self, Archive& archive) {
-  auto& [dimensions, start_time, classes, separations, tolerance, time_resolution, window, silence_after,
-         forget_after, share] = self;
-  archive(dimensions, start_time, classes, separations, tolerance, time_resolution, window, silence_after,
-          forget_after, share);
+  auto& [dimensions, start_time, classes, separations, tolerance, time_resolution, window, stale_after,
+         drop_after, share] = self;
+  archive(dimensions, start_time, classes, separations, tolerance, time_resolution, window, stale_after,
+          drop_after, share);
 }
 
 template <Some<MonitorCounters> Self, class Archive>

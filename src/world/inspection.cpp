@@ -66,7 +66,7 @@ std::vector<Certificate> World::certificates() const {
 }
 
 Result<void> World::set_profiling(bool on) {
-  auto valid = Preconditions(*this, "set_timing").idle();
+  auto valid = Preconditions(*this, "set_profiling").idle();
   if (!valid) return valid;
   if (on && !profiling_) timings_ = {};
   profiling_ = on;

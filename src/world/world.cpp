@@ -209,7 +209,7 @@ Result<void> World::set_pair_filter(PairFilter filter) {
 }
 
 Result<void> World::refresh_filter(BodyId body) {
-  auto valid = Preconditions(*this, "refilter").changeable(body);
+  auto valid = Preconditions(*this, "refresh_filter").changeable(body);
   if (valid) changing(step::RefreshFilter{body}).refresh_filter(body);
   return valid;
 }

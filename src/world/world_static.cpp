@@ -5,7 +5,7 @@
 namespace kinesphere {
 
 Result<BodyId> World::add_static(const StaticDefinition& body) {
-  const Preconditions check(*this, "add_fixed");
+  const Preconditions check(*this, "add_static");
   if (auto idle = check.idle(); !idle) return idle.error();
   const auto checkpoint = check.new_static(body, engine_->bodies().table().next_id());
   if (!checkpoint) return checkpoint.error();
@@ -28,11 +28,11 @@ Result<BodyId> World::add_zone(const Shape& shape, std::uint64_t user_data) {
 }
 
 Result<std::vector<BodyId>> World::add_static_all(std::span<const StaticDefinition> bodies) {
-  if (auto idle = Preconditions(*this, "add_fixed_all").idle(); !idle) return idle.error();
+  if (auto idle = Preconditions(*this, "add_static_all").idle(); !idle) return idle.error();
   std::vector<StaticDefinition> checkpoint;
   checkpoint.reserve(bodies.size());
   for (std::size_t number = 0; number < bodies.size(); ++number) {
-    const std::string call = "add_fixed_all: bodies[" + std::to_string(number) + "]";
+    const std::string call = "add_static_all: bodies[" + std::to_string(number) + "]";
     auto valid =
         Preconditions(*this, call).new_static(bodies[number], engine_->bodies().table().next_id(number));
     if (!valid) return valid.error();

@@ -14,7 +14,7 @@ export interface State {
 
 const kinds = [
   "bound_violation", "contact_begin", "contact_end", "wall_begin", "wall_end", "zeno_guard", "sensor_enter",
-  "sensor_leave", "woken",
+  "sensor_leave", "woke",
 ] as const;
 export type EventKind = (typeof kinds)[number];
 export const eventKinds: readonly EventKind[] = kinds;

@@ -4,7 +4,7 @@
 /** Why a call failed: one of the error codes of the library (kinesphere/result.hpp). */
 export type ErrorCode =
   | "not_finite" | "out_of_range" | "time_backwards" | "unknown_body" | "stale_body" | "foreign_body"
-  | "disabled_body" | "enabled_body" | "fixed_body" | "outside_domain" | "overlapping" | "probe_in_progress"
+  | "disabled_body" | "enabled_body" | "static_body" | "outside_domain" | "overlapping" | "probe_in_progress"
   | "filter_in_progress" | "run_in_progress" | "workers_busy" | "no_threads" | "null_probe" | "null_callback"
   | "callback_threw" | "rank_failed" | "moved_from" | "unsupported" | "bad_snapshot" | "bad_bytes"
   | "recording" | "not_recording" | "bad_recording" | "diverged";

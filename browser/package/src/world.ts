@@ -22,8 +22,8 @@ export interface BodyView {
   box: { lower: Float64Array; upper: Float64Array };
   boxEnd: number;
   enabled: boolean;
-  fixed: boolean;
-  resting: boolean;
+  isStatic: boolean;
+  sleeping: boolean;
   accelerationLimit: number;
   sensorClass: number;
   userData: number;
@@ -107,8 +107,8 @@ export class WorldView extends Owned {
         box: { lower: numbers.subarray(12, 15), upper: numbers.subarray(15, 18) },
         boxEnd: numbers[18]!,
         enabled: numbers[19] === 1,
-        fixed: numbers[20] === 1,
-        resting: numbers[21] === 1,
+        isStatic: numbers[20] === 1,
+        sleeping: numbers[21] === 1,
         accelerationLimit: numbers[22]!,
         sensorClass: numbers[23]!,
         userData: numbers[24]!,
@@ -302,12 +302,12 @@ export class World extends WorldView {
     return this.addNumbers(numbers);
   }
   /** A body that never moves. */
-  addFixed(shape: Shape, options: { solid?: boolean; sensorClass?: number; userData?: number } = {}): BodyId {
-    return this.fixed(shape, false, options, "addFixed");
+  addStatic(shape: Shape, options: { solid?: boolean; sensorClass?: number; userData?: number } = {}): BodyId {
+    return this.addSurroundings(shape, false, options, "addStatic");
   }
   /** Touches nobody, and tells who comes in and goes: sensor_enter and sensor_leave at distance 0. */
   addZone(shape: Shape, userData = 0): BodyId {
-    return this.fixed(shape, true, { userData }, "addZone");
+    return this.addSurroundings(shape, true, { userData }, "addZone");
   }
   remove(body: BodyId): void {
     this.change("world_remove", body);
@@ -339,8 +339,8 @@ export class World extends WorldView {
     this.change("world_enable", body, sixOf(state, "enable"));
   }
   /** It stays where it is, and is not asked, until something wakes it. */
-  rest(body: BodyId): void {
-    this.change("world_rest", body);
+  sleep(body: BodyId): void {
+    this.change("world_sleep", body);
   }
   wake(body: BodyId): void {
     this.change("world_wake", body);
@@ -417,7 +417,7 @@ export class World extends WorldView {
       return module.answer();
     });
   }
-  private fixed(shape: Shape, isZone: boolean, options: { solid?: boolean; sensorClass?: number; userData?: number },
+  private addSurroundings(shape: Shape, isZone: boolean, options: { solid?: boolean; sensorClass?: number; userData?: number },
                 call: string): BodyId {
     const module = theModule();
     const [kind, numbers] = shapeNumbers(shape, call);

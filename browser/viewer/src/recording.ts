@@ -50,7 +50,7 @@ export class Recording implements Shown {
     return wrapInto(positions, this.box, this.periodic);
   }
   views(): BodyView[] {
-    return this.replay.world.bodyViews().filter((view) => !view.fixed);
+    return this.replay.world.bodyViews().filter((view) => !view.isStatic);
   }
 
   run(until: number, deadline = Infinity): Told[] {

@@ -88,7 +88,7 @@ export class Simulation implements Shown {
   }
   views(): BodyView[] {
     const views = this.view.bodyViews();
-    return this.zone === null ? views : views.filter((view) => !view.fixed);
+    return this.zone === null ? views : views.filter((view) => !view.isStatic);
   }
 
   run(until: number, deadline = Infinity): Told[] {

@@ -76,8 +76,8 @@ struct FrameViolation {
 /// at latest_time() before the frame is pushed, and before it goes on:
 ///   for (const FrameViolation& turn : frames.violations())
 ///     world.set_velocity(ids[turn.body], turn.velocity).value();
-/// or, with a BodyMap, bodies.tell_violations(world, frames). A jump that falls between two frames makes two
-/// chords differ from the one before, so it is reported twice, and told twice.
+/// or, with a BodyMap, bodies.report_violations(world, frames). A jump that falls between two frames makes
+/// two chords differ from the one before, so it is reported twice, and told twice.
 class FrameMotion final : public Motion {
  public:
   /// Errors: not_finite or out_of_range, naming the field and the body.
