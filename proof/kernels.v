@@ -392,7 +392,7 @@ Definition meeting_step (a b : bound) (from distance d : double) : double :=
 Definition earliest_meeting (a b : bound) (from until distance : double) : double :=
   advance_by_safe_steps (meeting_step a b from distance) from until.
 
-(* src/broadphase/capsule_search_plain.cpp: one capsule of a table *)
+(* src/broadphase/swept_sphere_search_plain.cpp: one capsule of a table *)
 Definition left_out (other one : capsule) (from to : single) : bool :=
   let t1 := other.(centre_x) - one.(centre_x) in
   let t2 := other.(motion_x) - one.(motion_x) in

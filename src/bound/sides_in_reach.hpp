@@ -10,7 +10,7 @@ namespace kinesphere {
 /// The box, but without end, from -infinity to +infinity, on each axis on which no point of the bound comes
 /// within `room` of a side for this time. The bound counts as one that moves straight on, with
 /// radius_after(duration); that lies between its places now and then. Rounding is covered by `room` as in
-/// Encounter. A number that is none clears no axis.
+/// QuickReject. A number that is none clears no axis.
 inline Box sides_in_reach(const BoundAt& bound, const Box& box, double duration, double margin) {
   const double reach = bound.radius_after(duration) + margin;
   Box near = box;

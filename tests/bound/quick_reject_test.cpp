@@ -197,7 +197,7 @@ TEST_P(Encounters, have_bounds_that_stay_within_the_radius_of_a_straight_one) {
 INSTANTIATE_TEST_SUITE_P(Families, Encounters, testing::ValuesIn(families_here()), family_name);
 
 /// Ballistic ones that hit each other squarely.
-TEST(Encounter, of_ballistic_bounds_is_exact) {
+TEST(QuickReject, of_ballistic_bounds_is_exact) {
   for (std::uint64_t k = 0; k < cases_per_family; ++k) {
     Random random = Random::at(seed, k, 7);
     const double radius = random.uniform(0.2, 1.0);
