@@ -11,7 +11,7 @@ Error busy_error(CallState activity, std::string_view call) {
   }
   if (activity == CallState::running) {
     return {ErrorCode::run_in_progress, "world", no_body,
-            std::string(call) + ": mover, respond and sink may not make this call to the world that runs"};
+            std::string(call) + ": source, respond and sink may not make this call to the world that runs"};
   }
   return {ErrorCode::filter_in_progress, "pair_filter", no_body,
           std::string(call) + ": a pair filter may not make this call to the world that asked it"};

@@ -219,7 +219,7 @@ void SpeculativeRunner::restore_origin(const UndoEntry& turn) {
   } catch (...) {
     if (exception_) return;
     exception_ = std::current_exception();
-    failure_ = Error{ErrorCode::callback_threw, "mover", no_body, "run: mover threw as it went back"};
+    failure_ = Error{ErrorCode::callback_threw, "source", no_body, "run: source threw as it went back"};
   }
 }
 

@@ -33,7 +33,7 @@ Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::u
   const std::span<const Components> levels = levels_of(a, b);
   if (!definition_.shard.contains(std::min(first, second)))
     return Error{ErrorCode::out_of_range, "second", no_body,
-                 "answer: first and second must be of a share that is watched"};
+                 "answer: first and second must be of a shard that is watched"};
   if (level >= levels.size())
     return Error{ErrorCode::out_of_range, "level", no_body,
                  "answer: level must be less than " + std::to_string(levels.size()) + ", but is " +

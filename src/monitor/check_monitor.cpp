@@ -38,12 +38,12 @@ Result<void> check_monitor(const MonitorDefinition& definition) {
   duration("window", definition.window);
   const Shard& share = definition.shard;
   check
-      .require(share.of > 0, ErrorCode::out_of_range, {.argument = "share", .part = "of"}, "must be > 0",
+      .require(share.of > 0, ErrorCode::out_of_range, {.argument = "shard", .part = "of"}, "must be > 0",
                share.of)
-      .require(share.count > 0, ErrorCode::out_of_range, {.argument = "share", .part = "count"},
+      .require(share.count > 0, ErrorCode::out_of_range, {.argument = "shard", .part = "count"},
                "must be > 0", share.count)
       .require(share.count <= share.of && share.first <= share.of - share.count, ErrorCode::out_of_range,
-               {.argument = "share", .part = "first"}, "must be, with count, at most", share.of, share.first);
+               {.argument = "shard", .part = "first"}, "must be, with count, at most", share.of, share.first);
   const auto limit = [&check](const Subject& subject, const ErrorBound& error, double most) {
     for (const double value : {error.horizontal(), error.vertical(), error.total()})
       check.require(value >= 0.0, ErrorCode::out_of_range, subject, "must be >= 0", value)

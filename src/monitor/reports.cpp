@@ -22,14 +22,14 @@ Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const
   const std::string part = "report of track " + std::to_string(id);
   const auto subject = [&part](std::string_view field) { return Subject{.argument = part, .part = field}; };
   InputCheck check(call);
-  check.finite(subject("stamp"), report.timestamp)
-      .require(std::abs(report.timestamp) <= limits::largest_time, ErrorCode::out_of_range, subject("stamp"),
-               "must lie within +-", limits::largest_time, report.timestamp)
+  check.finite(subject("timestamp"), report.timestamp)
+      .require(std::abs(report.timestamp) <= limits::largest_time, ErrorCode::out_of_range,
+               subject("timestamp"), "must lie within +-", limits::largest_time, report.timestamp)
       .within(subject("position"), report.state.position, definition_.tolerance * limits::largest_length)
       .within(subject("velocity"), report.state.velocity, limits::largest_speed)
-      .not_negative(subject("stamp_error"), report.timestamp_error)
+      .not_negative(subject("timestamp_error"), report.timestamp_error)
       .require(report.timestamp_error <= limits::largest_time, ErrorCode::out_of_range,
-               subject("stamp_error"), "must be at most", limits::largest_time, report.timestamp_error)
+               subject("timestamp_error"), "must be at most", limits::largest_time, report.timestamp_error)
       .require(report.track_class < definition_.classes.size(), ErrorCode::out_of_range,
                subject("track_class"), "must be less than the number of classes", definition_.classes.size(),
                report.track_class);
@@ -48,7 +48,7 @@ Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const
     error_bound("plan acceleration_limit", report.plan->acceleration_limit, limits::largest_acceleration,
                 false);
     check.require(report.plan->valid_until > report.timestamp, ErrorCode::out_of_range,
-                  subject("plan valid_until"), "must be later than the stamp", report.plan->valid_until);
+                  subject("plan valid_until"), "must be later than the timestamp", report.plan->valid_until);
   }
   if (check.error()) return *check.error();
   const TrackClass& promise = promises_[report.track_class];

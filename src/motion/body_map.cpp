@@ -133,12 +133,12 @@ void BodyMap::MapSource::states(std::span<const BodyId> ids, double time, std::s
 }
 
 MotionOrigin BodyMap::MapSource::origin(BodyId body) const {
-  const Entry& moved = bodies_.known("departure", body);
+  const Entry& moved = bodies_.known("origin", body);
   return moved.motion->origin(moved.number);
 }
 
 void BodyMap::MapSource::set_origin(BodyId body, const MotionOrigin& origin) {
-  const Entry& moved = bodies_.known("depart", body);
+  const Entry& moved = bodies_.known("set_origin", body);
   moved.motion->set_origin(moved.number, origin).value();
 }
 

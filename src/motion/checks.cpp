@@ -37,9 +37,9 @@ std::optional<Error> wrong_state(std::string_view call, BodyId body, const State
 
 std::optional<Error> wrong_departure(std::string_view call, BodyId body, const MotionOrigin& origin) {
   return InputCheck(call)
-      .finite({"departure", body, "time"}, origin.time)
-      .finite({"departure", body, "position"}, origin.state.position)
-      .finite({"departure", body, "velocity"}, origin.state.velocity)
+      .finite({"origin", body, "time"}, origin.time)
+      .finite({"origin", body, "position"}, origin.state.position)
+      .finite({"origin", body, "velocity"}, origin.state.velocity)
       .error();
 }
 

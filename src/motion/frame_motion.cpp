@@ -189,8 +189,7 @@ Result<void> FrameMotion::set_origin(std::uint32_t body, const MotionOrigin& ori
   constexpr std::string_view call = "FrameMotion::set_origin";
   if (const auto error = wrong_body(call, *this, body)) return *error;
   if (const auto error = wrong_departure(call, {body, 0}, origin)) return *error;
-  if (const auto error =
-          wrong_time(call, {body, 0}, "departure", origin.time, {previous_time(), latest_time()}))
+  if (const auto error = wrong_time(call, {body, 0}, "origin", origin.time, {previous_time(), latest_time()}))
     return *error;
   turn(body, origin.time, origin.state);
   return {};

@@ -25,11 +25,11 @@ Result<void> Motion::teleport(std::uint32_t body, double, const State&) {
 Result<void> Motion::remove(std::uint32_t body) { return cannot_change("remove", *this, body, "removed"); }
 
 MotionOrigin Motion::origin(std::uint32_t body) const {
-  detail::bad_result(cannot_change("departure", *this, body, "changed"));
+  detail::bad_result(cannot_change("origin", *this, body, "changed"));
 }
 
 Result<void> Motion::set_origin(std::uint32_t body, const MotionOrigin&) {
-  return cannot_change("depart", *this, body, "changed");
+  return cannot_change("set_origin", *this, body, "changed");
 }
 
 Result<void> Motion::write_body(std::uint32_t body, std::vector<std::byte>&) const {

@@ -74,12 +74,12 @@ Result<void> PiecewiseAcceleration::teleport(std::uint32_t body, double t, const
 }
 
 MotionOrigin PiecewiseAcceleration::origin(std::uint32_t body) const {
-  if (const auto error = wrong_body("departure", *this, body)) detail::bad_result(*error);
+  if (const auto error = wrong_body("origin", *this, body)) detail::bad_result(*error);
   return {courses_[body].since, courses_[body].state};
 }
 
 Result<void> PiecewiseAcceleration::set_origin(std::uint32_t body, const MotionOrigin& origin) {
-  constexpr std::string_view call = "depart";
+  constexpr std::string_view call = "set_origin";
   if (const auto error = wrong_body(call, *this, body)) return *error;
   if (const auto error = wrong_departure(call, {body, 0}, origin)) return *error;
   restart(body, origin.time, origin.state);

@@ -163,7 +163,7 @@ Result<void> World::disable(BodyId body) {
 }
 
 Result<void> World::sleep(BodyId body) {
-  auto valid = Preconditions(*this, "rest").mobile(body);
+  auto valid = Preconditions(*this, "sleep").mobile(body);
   if (valid) changing(step::SleepBody{body}).sleep(body);
   return valid;
 }
@@ -364,7 +364,7 @@ Result<std::vector<BodyId>> World::touching(BodyId body) const {
 }
 
 Result<std::vector<SensorOverlap>> World::sensor_overlaps(BodyId body) const {
-  if (auto valid = Preconditions(*this, "sensed").known(body); !valid) return valid.error();
+  if (auto valid = Preconditions(*this, "sensor_overlaps").known(body); !valid) return valid.error();
   std::vector<SensorOverlap> within;
   for (const OverlapRecord& overlap : engine_->contacts().overlaps_of(body.index))
     within.push_back({engine_->bodies().id_of(overlap.partner), overlap.distance});

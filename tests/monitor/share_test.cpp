@@ -84,7 +84,7 @@ TEST(MonitorShare, IsChecked) {
   for (const Shard wrong :
        {Shard{.of = 0}, Shard{.of = 3, .count = 0}, Shard{.of = 3, .first = 3},
         Shard{.of = 3, .first = 2, .count = 2}, Shard{.of = 3, .first = ~std::uint64_t{0}, .count = 2}})
-    expect_error(Monitor::create(definition(wrong)), ErrorCode::out_of_range, "share", "Monitor::create");
+    expect_error(Monitor::create(definition(wrong)), ErrorCode::out_of_range, "shard", "Monitor::create");
 }
 
 }  // namespace

@@ -334,7 +334,7 @@ TEST_P(EveryMotion, GoesBackToAnEarlierDepartureToTheLastBit) {
 
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(motion.set_origin(1, {nan, {}}).error().code, ErrorCode::not_finite);
-    EXPECT_EQ(motion.set_origin(1, {2.0, {{}, {0, nan, 0}}}).error().argument, "departure");
+    EXPECT_EQ(motion.set_origin(1, {2.0, {{}, {0, nan, 0}}}).error().argument, "origin");
     EXPECT_EQ(motion.set_origin(bodies, origin).error().code, ErrorCode::unknown_body);
     EXPECT_EQ(refusal([&] { (void)motion.origin(bodies); })->code, ErrorCode::unknown_body);
     EXPECT_EQ(motion.state(1, 15.0), kicked->state(1, 15.0));

@@ -308,9 +308,9 @@ TEST(Frames, TakesAChangeBackToTheLastBit) {
   EXPECT_EQ(frames.latest(), before.latest());
   EXPECT_EQ(frames.state(0, time), before.state(0, time));
 
-  expect_error(frames.set_origin(0, {0.0, {}}), ErrorCode::time_backwards, "departure",
+  expect_error(frames.set_origin(0, {0.0, {}}), ErrorCode::time_backwards, "origin",
                "FrameMotion::set_origin:", BodyId{0, 0});
-  expect_error(frames.set_origin(0, {1.0, {}}), ErrorCode::out_of_range, "departure",
+  expect_error(frames.set_origin(0, {1.0, {}}), ErrorCode::out_of_range, "origin",
                "FrameMotion::set_origin:", BodyId{0, 0});
   frames.remove(0).value();
   EXPECT_EQ(frames.set_origin(0, origin).error().code, ErrorCode::stale_body);

@@ -97,7 +97,7 @@ void Player::add_all(const Operation& operation) {
   for (std::size_t k = 0; k < bodies.size(); ++k) join((*ids)[k], bodies[k], operation);
 }
 
-void Player::add_fixed(const Operation& operation) {
+void Player::add_static(const Operation& operation) {
   if (!kind_.fixed || truth_.ids().size() >= kind_.most_bodies) return;
   const bool flat = truth_.definition().dimensions == 2;
   StaticDefinition fixed{.shape = operation.shape(flat),
@@ -110,17 +110,17 @@ void Player::add_fixed(const Operation& operation) {
   const auto id = on_world([&](World& world) { return world.add_static(fixed); });
   if (!id) {
     require(!truth_.definition().allow_overlap && id.error().code == ErrorCode::overlapping,
-            "add_fixed: refused for a wrong reason");
+            "add_static: refused for a wrong reason");
     return;
   }
   const BodyDefinition body = world_.body(*id).value().definition;
   require(body.filter == fixed.filter && body.solid == fixed.solid &&
               body.sensor_class == fixed.sensor_class && body.user_data == fixed.user_data,
-          "add_fixed: other than asked for");
+          "add_static: other than asked for");
   const Shape shape = world_.shape_of(*id).value();
-  require(shape.index() == fixed.shape.index(), "add_fixed: another shape");
-  truth_.add_fixed(*id, body, shape);
-  require(room_of_fixed(*id), "add_fixed: an overlap is not refused");
+  require(shape.index() == fixed.shape.index(), "add_static: another shape");
+  truth_.add_static(*id, body, shape);
+  require(room_of_fixed(*id), "add_static: an overlap is not refused");
   told_.appeared(*id);
   changed();
 }
@@ -308,7 +308,7 @@ bool Player::room_of_fixed(BodyId id) const {
 
 /// `change` is about to change the answers about these bodies.
 template <class Change>
-void Player::refilter(const std::vector<BodyId>& ids, Change change) {
+void Player::refresh_filter(const std::vector<BodyId>& ids, Change change) {
   std::vector<std::vector<Before>> before;
   for (const BodyId id : ids) before.push_back(told_.before(world_, id));
   change();
@@ -319,7 +319,7 @@ void Player::refilter(const std::vector<BodyId>& ids, Change change) {
 void Player::set_filter(const Operation& operation) {
   const auto id = any(operation);
   if (!id) return;
-  refilter({*id}, [&] {
+  refresh_filter({*id}, [&] {
     accepted(on_world([&](World& world) { return world.set_filter(*id, operation.filter()); }));
     truth_.at(*id).definition.filter = operation.filter();
   });
@@ -329,7 +329,7 @@ void Player::set_solid(const Operation& operation) {
   const auto id = any(operation);
   if (!id || !kind_.sensors) return;
   const bool solid = operation.byte(0) % 4 != 0;
-  refilter({*id}, [&] {
+  refresh_filter({*id}, [&] {
     accepted(on_world([&](World& world) { return world.set_solid(*id, solid); }));
     truth_.at(*id).definition.solid = solid;
   });
@@ -339,7 +339,7 @@ void Player::set_sensor_class(const Operation& operation) {
   const auto id = any(operation);
   if (!id || !kind_.sensors) return;
   const SensorClass sensor_class = operation.sensor_class();
-  refilter({*id}, [&] {
+  refresh_filter({*id}, [&] {
     accepted(on_world([&](World& world) { return world.set_sensor_class(*id, sensor_class); }));
     truth_.at(*id).definition.sensor_class = sensor_class;
   });
@@ -351,7 +351,7 @@ void Player::set_sensor(const Operation& operation) {
   const Sensor sensor = operation.sensor(truth_.definition().periodic.any() ? 0.3 : 1.0);
   std::vector<BodyId> ids = truth_.ids();
   std::erase_if(ids, [&](BodyId id) { return truth_.at(id).definition.sensor_class != sensor_class; });
-  refilter(ids, [&] {
+  refresh_filter(ids, [&] {
     accepted(on_world([&](World& world) { return world.set_sensor(sensor_class, sensor); }));
     truth_.sensors[sensor_class] = sensor;
   });
@@ -362,7 +362,7 @@ void Player::set_sensor(const Operation& operation) {
 void Player::haunt(const Operation& operation) {
   const auto id = any(operation);
   if (!id) return;
-  refilter({*id}, [&] {
+  refresh_filter({*id}, [&] {
     truth_.haunt(*id);
     accepted(on_world([&](World& world) { return world.refresh_filter(*id); }));
   });
@@ -386,7 +386,7 @@ void Player::give_pair_filters() {
 
 void Player::set_pair_filter(const Operation& operation) {
   if (kind_.crowd) return;
-  refilter(truth_.ids(), [&] {
+  refresh_filter(truth_.ids(), [&] {
     truth_.has_pair_filter = operation.byte(0) % 4 != 0;
     give_pair_filter(world_);
     if (twin_) give_pair_filter(*twin_);

@@ -26,11 +26,11 @@ const std::array<Player::Kind, 29> Player::kinds{{
     {"set_motion_limits", 8, &Player::set_motion_limits},
     {"set_filter", 8, &Player::set_filter},
     {"set_pair_filter", 2, &Player::set_pair_filter},
-    {"refilter", 6, &Player::haunt},
+    {"refresh_filter", 6, &Player::haunt},
     {"set_solid", 3, &Player::set_solid},
     {"set_sensor", 4, &Player::set_sensor},
     {"set_sensor_class", 4, &Player::set_sensor_class},
-    {"add_fixed", 4, &Player::add_fixed},
+    {"add_static", 4, &Player::add_static},
     {"set_user_data", 2, &Player::set_user_data},
     {"disable", 6, &Player::turn_off},
     {"enable", 9, &Player::turn_on},
@@ -68,7 +68,7 @@ Player::Player(const WorldKind& kind)
       asked_at_(kind.definition.start_time) {
   Random random(kind.first_bodies);
   for (int k = 0; k < 2 * sensor_classes; ++k) set_sensor(random_operation(random));
-  for (int k = 0; k < 3; ++k) add_fixed(random_operation(random));
+  for (int k = 0; k < 3; ++k) add_static(random_operation(random));
   for (std::size_t k = 0; k < kind.first_bodies; ++k) add(random_operation(random));
 }
 

@@ -61,7 +61,7 @@ class Player {
   void set_solid(const Operation& operation);
   void set_sensor(const Operation& operation);
   void set_sensor_class(const Operation& operation);
-  void add_fixed(const Operation& operation);
+  void add_static(const Operation& operation);
   void set_user_data(const Operation& operation);
   void turn_off(const Operation& operation);
   void turn_on(const Operation& operation);
@@ -120,7 +120,7 @@ class Player {
   MotionLimits limits(const Operation& operation) const;
   bool has_room(BodyId id, const CollisionShape& extent, const BodyDefinition& body) const;
   template <class Change>
-  void refilter(const std::vector<BodyId>& ids, Change change);
+  void refresh_filter(const std::vector<BodyId>& ids, Change change);
   void join(BodyId id, const BodyDefinition& body, const Operation& operation);
   void leave(BodyId id, const std::vector<Before>& before);
   Vec3 inside(Vec3 position, double radius) const;

@@ -69,7 +69,7 @@ void Truth::add(BodyId id, const BodyDefinition& body, const Vec3& acceleration)
   at(id).path = {{time_, infinity, body.position, body.velocity, acceleration, {}}};
 }
 
-void Truth::add_fixed(BodyId id, const BodyDefinition& body, const Shape& shape) {
+void Truth::add_static(BodyId id, const BodyDefinition& body, const Shape& shape) {
   add(id, body, {});
   at(id).fixed = true;
   if (!std::holds_alternative<Ball>(shape)) at(id).shape = shape;

@@ -74,7 +74,7 @@ class Truth {
   Vec3 shift_to_nearest(const Vec3& from, const Vec3& to) const;
 
   void add(BodyId id, const BodyDefinition& body, const Vec3& acceleration);
-  void add_fixed(BodyId id, const BodyDefinition& body, const Shape& shape);
+  void add_static(BodyId id, const BodyDefinition& body, const Shape& shape);
   void remove(BodyId id);
   void move(BodyId id, const State& state);
   /// A resting body gets the acceleration when it wakes.

@@ -284,7 +284,7 @@ TEST(Probe, MayNotCallTheWorldThatAskedIt) {
     refused(p.world.enable(a, {}), "enable");
     refused(p.world.set_filter(a, {}), "set_filter");
     refused(p.world.set_pair_filter({}), "set_pair_filter");
-    refused(p.world.refresh_filter(a), "refilter");
+    refused(p.world.refresh_filter(a), "refresh_filter");
     refused(p.world.set_user_data(a, 1), "set_user_data");
     refused(p.world.remove_all({}), "remove_all");
     refused(p.world.advance(1e9, p.probe()), "advance");

@@ -237,7 +237,7 @@ void expect_all_refused(World& world, BodyId id, ErrorCode code) {
   expect_error(world.disable(id), code, "disable");
   expect_error(world.enable(id, {}), code, "enable");
   expect_error(world.set_filter(id, {}), code, "set_filter");
-  expect_error(world.refresh_filter(id), code, "refilter");
+  expect_error(world.refresh_filter(id), code, "refresh_filter");
   expect_error(world.set_user_data(id, 1), code, "set_user_data");
   expect_error(world.user_data(id), code, "user_data");
   expect_error(world.remove_all(std::span(&id, 1)), code, "remove_all: bodies[0]");

@@ -138,7 +138,7 @@ class Chaos {
     if (random_.bits() % 3 == 0) body.acceleration_limit = 0.3 * length_ / time_ / time_;
     if (const auto added = world_.add(body)) depart(*added, state, 0.0);
   }
-  void add_fixed() {
+  void add_static() {
     if (world_.size() > 12) return;
     StaticDefinition fixed{.shape = Ball{place(0.1 * length_), length_ * random_.uniform(0.0, 0.1)}};
     if (const auto added = world_.add_static(fixed))
@@ -149,7 +149,7 @@ class Chaos {
     const auto id = any();
     const auto what = random_.bits() % 16;
     if (what <= 1 || !id) return add();
-    if (what == 2) return add_fixed();
+    if (what == 2) return add_static();
     if (what == 3) return (void)world_.remove(*id);
     if (what <= 5) {
       const State state{place(0.1 * length_), velocity()};

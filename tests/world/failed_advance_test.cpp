@@ -45,7 +45,7 @@ class RandomCrowd {
  public:
   explicit RandomCrowd(std::uint64_t seed) : random_(seed), playground_(definition()) {
     for (int k = 0; k < 12; ++k) add();
-    for (int k = 0; k < 3; ++k) add_fixed();
+    for (int k = 0; k < 3; ++k) add_static();
     if (random_.bits() % 2 == 0) playground_.world.set_sensor(1, {.distances = {0.0, 0.2}}).value();
   }
 
@@ -80,7 +80,7 @@ class RandomCrowd {
                      .sensor_class = static_cast<SensorClass>(random_.bits() % 2)},
                     0.99 * limit * random_.point_in_ball());
   }
-  void add_fixed() {
+  void add_static() {
     const Vec3 at = place();
     const Vec3 size{random_.uniform(), random_.uniform(), random_.uniform()};
     Shape shape = Ball{at, 0.35 * random_.uniform()};
@@ -101,7 +101,7 @@ class RandomCrowd {
         return add();
       case 1:
         playground_.world.remove(id).value();
-        return random_.bits() % 2 == 0 ? add() : add_fixed();
+        return random_.bits() % 2 == 0 ? add() : add_static();
       case 2:
         if (enabled) return playground_.world.disable(id).value();
         playground_.world.enable(id, state).value();

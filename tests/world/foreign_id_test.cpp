@@ -27,10 +27,10 @@ TEST(ForeignId, IsRefusedByEveryCallThatTakesOne) {
   refused(world.set_motion_limits(id, {}), "set_motion_limits");
   refused(world.disable(id), "disable");
   refused(world.enable(id, {}), "enable");
-  refused(world.sleep(id), "rest");
+  refused(world.sleep(id), "sleep");
   refused(world.wake(id), "wake");
   refused(world.set_filter(id, {}), "set_filter");
-  refused(world.refresh_filter(id), "refilter");
+  refused(world.refresh_filter(id), "refresh_filter");
   refused(world.set_solid(id, true), "set_solid");
   refused(world.set_sensor_class(id, 0), "set_sensor_class");
   refused(world.set_user_data(id, 0), "set_user_data");
@@ -38,7 +38,7 @@ TEST(ForeignId, IsRefusedByEveryCallThatTakesOne) {
   refused(world.body(id), "body");
   refused(world.shape_of(id), "shape_of");
   refused(world.touching(id), "touching");
-  refused(world.sensor_overlaps(id), "sensed");
+  refused(world.sensor_overlaps(id), "sensor_overlaps");
   refused(world.safe_until(id), "safe_until");
   refused(world.safe_until(own, id), "safe_until");
   refused(world.earliest_contact(id), "earliest_contact");

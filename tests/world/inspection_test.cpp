@@ -192,7 +192,7 @@ TEST(WrongCalls, AProbeMayLookInsideButNotSwitchTimingOn) {
   int calls = 0;
   p.distort = [&](BodyId, double, State&) {
     ++calls;
-    expect_error(p.world.set_profiling(true), ErrorCode::probe_in_progress, "probe", "set_timing");
+    expect_error(p.world.set_profiling(true), ErrorCode::probe_in_progress, "probe", "set_profiling");
     EXPECT_GT(p.world.memory().total(), 0u);
     EXPECT_LE(p.world.cells().size(), 8u);
     EXPECT_TRUE(p.world.certificates().empty());

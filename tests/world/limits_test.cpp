@@ -130,7 +130,7 @@ std::vector<Limit> limits_of_a_world() {
        false},
       {"sensor", largest_length, "set_sensor",
        [](World& world, BodyId, double value) { return world.set_sensor(1, {.distances = {value}}); }, false},
-      {"shape", largest_length, "add_fixed",
+      {"shape", largest_length, "add_static",
        [](World& world, BodyId, double value) {
          return without_value(world.add_static({.shape = Ball{{0, value, 0}, 1.0}}));
        },

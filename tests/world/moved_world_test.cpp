@@ -23,7 +23,7 @@ TEST(MovedFromWorld, AnswersEveryCallWithAnError) {
   refused(world.add({}), "add");
   refused(world.reserve(1), "reserve");
   refused(world.add_all({}), "add_all");
-  refused(world.add_static({}), "add_fixed");
+  refused(world.add_static({}), "add_static");
   refused(world.add_static_all({}), "add_fixed_all");
   refused(world.shape_of(id), "shape_of");
   refused(world.remove(id), "remove");
@@ -34,12 +34,12 @@ TEST(MovedFromWorld, AnswersEveryCallWithAnError) {
   refused(world.set_motion_limits(id, {}), "set_motion_limits");
   refused(world.disable(id), "disable");
   refused(world.enable(id, {}), "enable");
-  refused(world.sleep(id), "rest");
+  refused(world.sleep(id), "sleep");
   refused(world.wake(id), "wake");
   refused(world.add_zone({}), "add_zone");
   refused(world.set_filter(id, {}), "set_filter");
   refused(world.set_pair_filter({}), "set_pair_filter");
-  refused(world.refresh_filter(id), "refilter");
+  refused(world.refresh_filter(id), "refresh_filter");
   refused(world.set_solid(id, true), "set_solid");
   refused(world.set_sensor(0, {}), "set_sensor");
   refused(world.set_sensor_class(id, 0), "set_sensor_class");
@@ -48,8 +48,8 @@ TEST(MovedFromWorld, AnswersEveryCallWithAnError) {
   refused(world.advance(1.0, idle_probe), "advance");
   refused(world.body(id), "body");
   refused(world.touching(id), "touching");
-  refused(world.sensor_overlaps(id), "sensed");
-  refused(world.set_profiling(true), "set_timing");
+  refused(world.sensor_overlaps(id), "sensor_overlaps");
+  refused(world.set_profiling(true), "set_profiling");
   refused(world.safe_until(), "safe_until");
   refused(world.safe_until(id), "safe_until");
   refused(world.safe_until(id, id), "safe_until");

@@ -223,7 +223,7 @@ TEST(Sensor, RefusesDistancesThatAreNone) {
   expect_error(world.set_sensor_class(never, 1), ErrorCode::unknown_body, "body", "set_sensor_class", never);
   expect_error(world.set_solid(never, true), ErrorCode::unknown_body, "body", "set_solid", never);
   expect_error(world.touching(never), ErrorCode::unknown_body, "body", "touching", never);
-  expect_error(world.sensor_overlaps(never), ErrorCode::unknown_body, "body", "sensed", never);
+  expect_error(world.sensor_overlaps(never), ErrorCode::unknown_body, "body", "sensor_overlaps", never);
   world.add({}).value();
   auto calls_back = [&](std::span<const BodyId> ids, double, std::span<State> states) {
     for (State& state : states) state = {};

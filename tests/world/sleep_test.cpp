@@ -207,10 +207,10 @@ TEST(Sleep, RefusesWhatCannotRest) {
   Rested p;
   const BodyId id = p.ball({});
   const BodyId fixed = p.world.add_static({.shape = Ball{{9, 0, 0}, 1}}).value();
-  expect_error(p.world.sleep(fixed), ErrorCode::static_body, "body", "rest: ", fixed);
+  expect_error(p.world.sleep(fixed), ErrorCode::static_body, "body", "sleep: ", fixed);
   expect_error(p.world.wake(fixed), ErrorCode::static_body, "body", "wake: ", fixed);
   p.world.disable(id).value();
-  expect_error(p.world.sleep(id), ErrorCode::disabled_body, "body", "rest: ", id);
+  expect_error(p.world.sleep(id), ErrorCode::disabled_body, "body", "sleep: ", id);
   p.world.remove(id).value();
   expect_error(p.world.wake(id), ErrorCode::stale_body, "body", "wake: ", id);
 }

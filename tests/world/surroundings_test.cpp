@@ -515,18 +515,18 @@ TEST(Surroundings, WrongCalls) {
   World& w = p.world;
   const BodyId box = p.place(unit_box);
   constexpr auto range = ErrorCode::out_of_range;
-  expect_error(w.add_static({.shape = Ball{{0, 0, 0}, -1}}), range, "radius", "add_fixed: ");
+  expect_error(w.add_static({.shape = Ball{{0, 0, 0}, -1}}), range, "radius", "add_static: ");
   expect_error(w.add_static({.shape = Ball{{infinity, 0, 0}, 1}}), ErrorCode::not_finite, "shape",
-               "add_fixed: ");
-  expect_error(w.add_static({.shape = HalfSpace{{0, 0, 2}, 0}}), range, "shape", "add_fixed: ");
-  expect_error(w.add_static({.shape = HalfSpace{{0, 0, 1}, 1e9}}), range, "shape", "add_fixed: ");
+               "add_static: ");
+  expect_error(w.add_static({.shape = HalfSpace{{0, 0, 2}, 0}}), range, "shape", "add_static: ");
+  expect_error(w.add_static({.shape = HalfSpace{{0, 0, 1}, 1e9}}), range, "shape", "add_static: ");
   expect_error(w.add_static({.shape = HalfSpace{{0, 0, 1}, infinity}}), ErrorCode::not_finite, "shape",
-               "add_fixed: ");
-  expect_error(w.add_static({.shape = Box{{0, 0, 0}, {1, -1, 1}}}), range, "shape", "add_fixed: ");
-  expect_error(w.add_static({.shape = Box{{0, 0, 0}, {1, 1e9, 1}}}), range, "shape", "add_fixed: ");
-  expect_error(w.add_static({.shape = Triangle{}}), range, "shape", "add_fixed: ");
+               "add_static: ");
+  expect_error(w.add_static({.shape = Box{{0, 0, 0}, {1, -1, 1}}}), range, "shape", "add_static: ");
+  expect_error(w.add_static({.shape = Box{{0, 0, 0}, {1, 1e9, 1}}}), range, "shape", "add_static: ");
+  expect_error(w.add_static({.shape = Triangle{}}), range, "shape", "add_static: ");
   expect_error(w.add_static({.shape = Triangle{{0, 0, 0}, {1, 0, 0}, {2, 1e-7, 0}}}), range, "shape",
-               "add_fixed: ");
+               "add_static: ");
   const std::vector<StaticDefinition> two{{.shape = ground}, {.shape = Triangle{}}};
   expect_error(w.add_static_all(two), range, "shape", "add_fixed_all: bodies[1]: ");
   EXPECT_EQ(w.size(), 1u);
@@ -539,7 +539,7 @@ TEST(Surroundings, WrongCalls) {
                "add: ", box);
   const BodyId ball = p.add({.radius = 1, .position = {0, 0, 2}});
   expect_error(w.add_static({.shape = Triangle{{-5, -5, 2}, {5, -5, 2}, {0, 5, 2}}}), ErrorCode::overlapping,
-               "shape", "add_fixed: ", ball);
+               "shape", "add_static: ", ball);
   w.disable(box).value();
   p.world.teleport(ball, {{0, 0, 0}, {}}).value();
   p.set_position(ball, {});
@@ -550,7 +550,7 @@ TEST(Surroundings, WrongCalls) {
   EXPECT_EQ(std::get<Ball>(w.shape_of(ball).value()).radius, 1.0);
   p.place(HalfSpace{{0, 0, 1 + 1e-9}, -5});
   const auto inside = [&](std::span<const BodyId>, double, std::span<State> states) {
-    expect_error(w.add_static({.shape = ground}), ErrorCode::probe_in_progress, "probe", "add_fixed: ");
+    expect_error(w.add_static({.shape = ground}), ErrorCode::probe_in_progress, "probe", "add_static: ");
     expect_error(w.add_static_all(two), ErrorCode::probe_in_progress, "probe", "add_fixed_all: ");
     std::fill(states.begin(), states.end(), State{});
   };

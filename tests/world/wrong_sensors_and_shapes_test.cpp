@@ -20,7 +20,7 @@ TEST(WrongIdOfAStaticBody, IsStaleEverywhere) {
   };
   stale(world.shape_of(gone), "shape_of");
   stale(world.touching(gone), "touching");
-  stale(world.sensor_overlaps(gone), "sensed");
+  stale(world.sensor_overlaps(gone), "sensor_overlaps");
   stale(world.set_solid(gone, false), "set_solid");
   stale(world.set_sensor_class(gone, 1), "set_sensor_class");
   stale(world.set_velocity(gone, {}), "set_velocity");
@@ -35,9 +35,9 @@ TEST(WrongStaticBody, HasToFitWhereSpaceRepeats) {
   World world = World::create({.box = Box{{0, 0, 0}, {10, 10, 10}}, .periodic = {true, true, true}}).value();
   for (const Shape& shape : {Shape(HalfSpace{{0, 0, 1}, 0}), Shape(Box{{1, 1, 1}, {2, 2, 2}}),
                              Shape(Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})})
-    expect_error(world.add_static({.shape = shape}), ErrorCode::unsupported, "shape", "add_fixed");
+    expect_error(world.add_static({.shape = shape}), ErrorCode::unsupported, "shape", "add_static");
   expect_error(world.add_static({.shape = Ball{{1, 1, 1}, 1.9}}), ErrorCode::out_of_range, "shape",
-               "add_fixed");
+               "add_static");
   EXPECT_EQ(world.size(), 0u);
 }
 
@@ -66,11 +66,11 @@ TEST(WrongSensor, HasToFitWhereSpaceRepeats) {
 TEST(WrongStaticBody, HasToLieInThePlane) {
   World world = World::create({.dimensions = 2}).value();
   expect_error(world.add_static({.shape = Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}), ErrorCode::unsupported,
-               "shape", "add_fixed");
+               "shape", "add_static");
   expect_error(world.add_static({.shape = Ball{{0, 0, 1}, 1}}), ErrorCode::out_of_range, "shape",
-               "add_fixed");
+               "add_static");
   expect_error(world.add_static({.shape = HalfSpace{{0, 0, 1}, 0}}), ErrorCode::out_of_range, "shape",
-               "add_fixed");
+               "add_static");
   EXPECT_EQ(world.size(), 0u);
 }
 

@@ -250,7 +250,7 @@ TEST_F(WrongUse, 37_ASensorWithANegativeDistance) {
 
 TEST_F(WrongUse, 38_ABoxTurnedInsideOut) {
   expect_error(world.add_static({.shape = Box{{1, 1, 1}, {0, 2, 2}}}), ErrorCode::out_of_range, "shape",
-               "add_fixed:");
+               "add_static:");
 }
 
 TEST_F(WrongUse, 39_ATriangleThatIsALine) {
