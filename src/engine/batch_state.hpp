@@ -1,5 +1,5 @@
 // BatchState holds what all clusters of a batch share: the cluster of each body, checkpoints of the bodies at
-// the begin of the batch, and how far clusters are executed.
+// the start of the batch, and how far clusters are executed.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +13,14 @@
 
 namespace kinesphere {
 
-/// Times of the first changes to a body since its last swept-sphere update or, without one, since the begin
+/// Times of the first changes to a body since its last swept-sphere update or, without one, since the start
 /// of the batch; +infinity if there was none.
 struct FirstChange {
   double changed = infinity;      ///< first report or new swept sphere
   double invalidated = infinity;  ///< first increment of the revision
 };
 
-/// State of a body at the begin of the batch.
+/// State of a body at the start of the batch.
 struct BodyCheckpoint {
   Bodies::Checkpoint body{};
   ContactCheckpoint contacts{};
@@ -41,7 +41,7 @@ struct BatchState {
   // By BodySlot::checkpoint. A cluster's bodies are checkpointed before the cluster is executed.
   std::vector<BodyCheckpoint> checkpoints;
   std::vector<std::uint8_t> has_checkpoint;
-  double begin = 0.0;  ///< begin of the batch (time)
+  double begin = 0.0;  ///< start of the batch (time)
   double epoch_end = 0.0;
   double stop = 0.0;   ///< end of the batch, exclusive
   double until = 0.0;  ///< end of the run, inclusive
@@ -50,7 +50,7 @@ struct BatchState {
   std::size_t most_updates = 512;
 
   bool is_in_batch(double time) const { return time < stop && time <= until; }
-  /// Returns nullptr if the body is in the state that it had at the begin of the batch.
+  /// Returns nullptr if the body is in the state that it had at the start of the batch.
   const BodyCheckpoint* checkpoint_of(std::uint32_t number) const {
     const std::uint32_t place = number < slots.size() ? slots[number].checkpoint : none;
     return place < has_checkpoint.size() && has_checkpoint[place] != 0 ? &checkpoints[place] : nullptr;

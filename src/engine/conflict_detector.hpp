@@ -15,7 +15,7 @@ namespace kinesphere {
 
 class ConflictDetector {
  public:
-  /// Resets the detector; call at the begin of a batch.
+  /// Resets the detector; call at the start of a batch.
   void clear();
   /// Records that these clusters have been executed.
   void note_runs(std::span<const std::uint32_t> groups) {

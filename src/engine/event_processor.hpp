@@ -124,7 +124,7 @@ class alignas(128) EventProcessor {
   /// Probes the enabled bodies whose state at the current time is unknown. Returns true if there were any.
   Result<bool> probe_stale(std::span<const std::uint32_t> numbers, PoolLease& shift);
 
-  /// Starts the execution of a cluster at the begin of its batch. Its initial work is certificates that are
+  /// Starts the execution of a cluster at the start of its batch. Its initial work is certificates that are
   /// due, bodies to recertify first, and events that are known already.
   void begin(SpeculationLog& log, std::span<const PairCertificate> due,
              std::span<const std::uint32_t> unsettled, std::span<const Event> pending);

@@ -99,8 +99,8 @@ class PairCertifier {
   /// Returns the time before which no threshold of the two is crossed, by the contact rules; +infinity if
   /// never. Valid for linked and unlinked pairs.
   double unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const;
-  /// Returns the time before which the body neither touches nor leaves a wall. Precondition: the world has
-  /// walls.
+  /// Returns the time before which the body neither touches nor leaves a wall; the current time if it touches
+  /// one. Precondition: the world has walls.
   double walls_unchanged_until(std::uint32_t number) const;
 
   // Certificates of a body that has got a new swept sphere.

@@ -21,9 +21,9 @@ class RunPool {
   RunPool(WorldState& tables, const EventProcessor& main, std::size_t workers, const Probe& probe,
           ResponseHandler* handler);
 
-  /// Clears all logs; call at the begin of a batch.
+  /// Clears all logs; call at the start of a batch.
   void clear();
-  /// Executes the cluster from the begin of the batch until its end, or until it conflicts with a body
+  /// Executes the cluster from the start of the batch until its end, or until it conflicts with a body
   /// outside the cluster. Thread-safe for different clusters and different workers. Throws what a callback
   /// throws.
   void run(Cluster& group, std::span<const PairCertificate> due, BatchState& batch, std::uint32_t worker);

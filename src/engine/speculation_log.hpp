@@ -4,8 +4,8 @@
 // Within a batch of an epoch (speculative_runner.hpp) a cluster meets no other body unless one of its bodies
 // changes its velocity: the new swept sphere of that body may touch others. During execution the broad phase
 // is read-only, and new swept spheres are stored here. If such a body may meet one outside the cluster within
-// the batch, that one is a conflict: the cluster stops, and is executed again from the begin of the batch
-// with that body. If it may meet one later, that one joins the read set: it must be unchanged since the begin
+// the batch, that one is a conflict: the cluster stops, and is executed again from the start of the batch
+// with that body. If it may meet one later, that one joins the read set: it must be unchanged since the start
 // of the batch up to the time of the velocity change.
 #pragma once
 
@@ -48,7 +48,7 @@ struct EventInRound {
   Event event;
 };
 
-/// A body outside the cluster, and the time up to which it must be unchanged since the begin of the batch.
+/// A body outside the cluster, and the time up to which it must be unchanged since the start of the batch.
 struct ReadEntry {
   std::uint32_t number;
   double time;
@@ -132,7 +132,7 @@ struct SpeculationLog {
   /// Error of the first of these runs that failed.
   std::optional<Error> failure;
 
-  /// Clears all lists; call at the begin of a batch.
+  /// Clears all lists; call at the start of a batch.
   void clear() {
     events.clear();
     updates.clear();
@@ -208,7 +208,7 @@ struct SpeculationLog {
                                             : batch->checkpoints[place.checkpoint].body.body.revision;
   }
   /// Returns the first changes of a body of the cluster since its last update or, without one, since the
-  /// begin of the batch.
+  /// start of the batch.
   FirstChange& first_change(std::uint32_t number) {
     assert(is_own(number));
     const BatchState::BodySlot& place = batch->slots[number];

@@ -177,7 +177,7 @@ bool SpeculativeRunner::execute_found() {
   return true;
 }
 
-/// Saves the state of the cluster's bodies at the begin of the batch. Other clusters may read it during the
+/// Saves the state of the cluster's bodies at the start of the batch. Other clusters may read it during the
 /// run.
 void SpeculativeRunner::checkpoint(const Cluster& group) {
   for (const std::uint32_t number : clusters_.members_of(group)) {

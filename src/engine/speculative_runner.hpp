@@ -4,9 +4,9 @@
 // An epoch begins when windows have started and ends when the next windows start. A batch is a part of an
 // epoch that ends after a limited number of due pairs. Bodies connected by certificates due in the batch form
 // a cluster. Clusters are executed concurrently, each as if it were alone (event_processor.hpp). That is
-// correct as long as no body whose velocity changed may meet a body of another cluster; so
+// correct as long as no body whose velocity changed may meet a body of another cluster. Therefore:
 // - A cluster that conflicts with a body outside it stops. It takes the body, or is merged with the body's
-//   cluster, and is executed again from the begin of the batch.
+//   cluster, and is executed again from the start of the batch.
 // - A cluster whose read set contains a body that another cluster changed too early is merged with that
 //   cluster.
 // - When there are no such conflicts, the updated swept spheres of all clusters are compared. Clusters of two
@@ -54,7 +54,7 @@ class SpeculativeRunner {
 
   /// Advances from now to `until` or to the end of a batch, whichever is earlier, except for what is due at
   /// that time, and appends the events. Returns false, without any change, if too few or too unequal clusters
-  /// exist, if they are executed again too often in this batch or were in earlier ones, or if a callback
+  /// exist, if they are executed again too often in this batch or were in earlier epochs, or if a callback
   /// fails; advance() then repeats the failure. Precondition: EventProcessor::is_certified() of the main
   /// processor. Throws the exception of a motion source that failed to restore an origin, after all other
   /// origins were restored.
@@ -110,14 +110,14 @@ class SpeculativeRunner {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> take_conflicts() {
     return conflicts_.take_conflicts();
   }
-  /// Rolls the cluster back, to be executed again from the begin of the batch.
+  /// Rolls the cluster back, to be executed again from the start of the batch.
   void run_again(std::uint32_t own) {
     rollback(clusters_[own]);
     clusters_[own].needs_run = true;
   }
   /// Returns true if the time is before the end of the batch.
   bool is_in_batch(double time) const { return batch_.is_in_batch(time); }
-  /// Returns nullptr if the body is in the state that it had at the begin of the batch.
+  /// Returns nullptr if the body is in the state that it had at the start of the batch.
   const BodyCheckpoint* checkpoint_of(std::uint32_t number) const { return batch_.checkpoint_of(number); }
   /// Commits the results of all clusters to the main processor. Returns the events of clusters for which
   /// is_counted(cluster) is true, in their order; only the work of these is counted. Precondition:
@@ -130,7 +130,7 @@ class SpeculativeRunner {
     commit(told);
     return told;
   }
-  /// Rolls back all clusters, which restores the state at the begin of the batch.
+  /// Rolls back all clusters, which restores the state at the start of the batch.
   void rollback();
   /// Ends the batch after commit() or rollback().
   void end_batch();

@@ -15,7 +15,7 @@
 namespace kinesphere {
 
 /// Not thread-safe; must not be used during advance(). Precondition: the arguments have been validated
-/// (world/check.hpp).
+/// (world/preconditions.hpp).
 class World::WorldEditor {
  public:
   WorldEditor(WorldState& tables, EventProcessor& main) : state_(tables), main_(main) {}

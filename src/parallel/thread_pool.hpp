@@ -86,7 +86,7 @@ class PoolLease {
     if (pool_) pool_->busy_ = false;
   }
 
-  /// True if the pool was acquired; all other members require it.
+  /// True if the pool was acquired, or if there are no workers; all other members require it.
   explicit operator bool() const { return free_; }
   /// Returns the maximum number of concurrent workers.
   std::size_t count() const { return pool_ ? static_cast<std::size_t>(pool_->count()) : 1; }
