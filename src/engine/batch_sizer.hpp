@@ -1,5 +1,5 @@
-// How many pairs islands take on in a part of a phase, and whether they are worth their while at all: learned
-// from how often they have had to run again.
+// BatchSizer decides how many due pairs a batch of an epoch contains, and whether speculative execution pays
+// at all. It adapts both to how often clusters had to be executed again.
 #pragma once
 
 #include <algorithm>
@@ -9,34 +9,37 @@ namespace kinesphere {
 
 class BatchSizer {
  public:
-  /// All is done by islands, however long they take and however few pairs are due.
+  /// Forces speculative execution of every epoch, however long it takes and however few pairs are due.
   void require_speculation() {
     must_speculate_ = true;
     least_due_ = 8;
   }
   bool may_decline() const { return !must_speculate_; }
 
-  /// Whether a phase is left without islands.
+  /// Returns true if the next epoch is processed without speculation. Consumes one paused epoch.
   bool skips_epoch() {
     if (paused_ == 0) return false;
     --paused_;
     return true;
   }
-  /// How many pairs may be due in the next part, among so many bodies.
+  /// Returns the maximum number of due pairs in the next batch, for a world with this number of bodies.
   std::size_t most_due(std::size_t bodies) {
     if (most_due_ == 0) most_due_ = std::max(least_due_, bodies / 32);
     return most_due_;
   }
   void begin() { first_runs_ = repeats_ = 0; }
-  /// An island runs in which so many pairs are due.
+  /// Records the execution of a cluster with `due` due pairs; `again` if it has been executed before in this
+  /// batch.
   void note_run(std::size_t due, bool again) { (again ? repeats_ : first_runs_) += due; }
-  /// So many run again and again in this part that others had better do it.
+  /// Returns true if repeated executions exceed 8 times the first-run work (in due pairs) in this batch; the
+  /// caller then falls back to advance().
   bool repeats_too_often() const {
     constexpr std::size_t too_often = 8;
     return may_decline() && repeats_ > too_often * first_runs_;
   }
-  /// The part is done. In a short part few kicked bodies meet others; in a long one each body is copied once
-  /// for many pairs.
+  /// Doubles the batch size if repeats are less than 1/16 of the first runs, halves it if they are more than
+  /// 1/6. Call at the end of a batch. A small batch has few conflicts between clusters; a large batch copies
+  /// each body once for many pairs.
   void adapt(std::size_t bodies) {
     if (16 * repeats_ < first_runs_) {
       most_due_ = std::min(2 * most_due_, std::max(least_due_, bodies));
@@ -44,8 +47,9 @@ class BatchSizer {
       most_due_ = std::max(most_due_ / 2, least_due_);
     }
   }
-  /// If the islands of a part that could not be shorter ran again and again, nobody runs any for some phases:
-  /// for more and more of them, as long as it turns out to be so. `done` says whether they did their part.
+  /// Pauses speculation for 1, 3, 7, ... up to 31 epochs, longer with each consecutive call, while repeats
+  /// exceed 1/3 of the first runs and the batch was not committed or could not be smaller. Resets the pause
+  /// otherwise. `done` is true if the batch was committed.
   void pause(bool done) {
     constexpr int longest = 31;
     const bool repeat_much = 3 * repeats_ > first_runs_ && (!done || most_due_ == least_due_);
@@ -55,12 +59,12 @@ class BatchSizer {
 
  private:
   bool must_speculate_ = false;
-  std::size_t least_due_ = 128;  ///< in a part: fewer are not worth the while
-  std::size_t most_due_ = 0;     ///< in a part
-  std::size_t first_runs_ = 0;   ///< pairs that were due in groups when these first ran in this part
-  std::size_t repeats_ = 0;      ///< the same when they ran again
-  int pause_ = 0;                ///< so many phases without islands
-  int paused_ = 0;               ///< that are still to come
+  std::size_t least_due_ = 128;  ///< minimum due pairs per batch; fewer do not repay its overhead
+  std::size_t most_due_ = 0;     ///< maximum due pairs per batch; 0 until most_due() is called
+  std::size_t first_runs_ = 0;   ///< due pairs of first executions in this batch
+  std::size_t repeats_ = 0;      ///< due pairs of repeated executions in this batch
+  int pause_ = 0;                ///< length of the current pause in epochs
+  int paused_ = 0;               ///< epochs of the pause that are still to come
 };
 
 }  // namespace kinesphere

@@ -1,5 +1,5 @@
-// What all islands of a part of a phase share: whose each body is, how it was when the part began, and how
-// far islands go.
+// BatchState holds what all clusters of a batch share: the cluster of each body, checkpoints of the bodies at
+// the start of the batch, and how far clusters are executed.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,14 @@
 
 namespace kinesphere {
 
-/// What has first changed about a body since something; +infinity where nothing has.
+/// Times of the first changes to a body since its last swept-sphere update or, without one, since the start
+/// of the batch; +infinity if there was none.
 struct FirstChange {
-  double changed = infinity;      ///< it was reported, or its window ended
-  double invalidated = infinity;  ///< what was known of it became void
+  double changed = infinity;      ///< first report or new swept sphere
+  double invalidated = infinity;  ///< first increment of the revision
 };
 
-/// A body as it was when the part began.
+/// State of a body at the start of the batch.
 struct BodyCheckpoint {
   Bodies::Checkpoint body{};
   ContactCheckpoint contacts{};
@@ -32,22 +33,24 @@ struct BatchState {
 
   struct BodySlot {
     std::uint32_t cluster = unassigned;
-    std::uint32_t update = none;      ///< the last one, in the list of the thread that has run its island
-    std::uint32_t checkpoint = none;  ///< where it is kept as it was when the part began
+    /// index of its last update, in the list of the worker that executed its cluster
+    std::uint32_t update = none;
+    std::uint32_t checkpoint = none;  ///< index of its checkpoint in `checkpoints`
   };
-  std::vector<BodySlot> slots;  ///< by body; an island changes those of its own
-  // By BodySlot::checkpoint. All bodies of islands are kept before these run.
+  std::vector<BodySlot> slots;  ///< by body number; a cluster writes only the slots of its own bodies
+  // By BodySlot::checkpoint. A cluster's bodies are checkpointed before the cluster is executed.
   std::vector<BodyCheckpoint> checkpoints;
   std::vector<std::uint8_t> has_checkpoint;
-  double begin = 0.0;  ///< of the part
+  double begin = 0.0;  ///< start of the batch (time)
   double epoch_end = 0.0;
-  double stop = 0.0;   ///< islands go up to here,
-  double until = 0.0;  ///< and no further than this
-  /// Of an island. More would take too long to go through where islands can be left to others.
+  double stop = 0.0;   ///< end of the batch, exclusive
+  double until = 0.0;  ///< end of the run, inclusive
+  /// Maximum number of updates of one cluster; execution fails above it. Trades fallbacks to advance()
+  /// against the cost of every search, which scans all updates of the cluster.
   std::size_t most_updates = 512;
 
   bool is_in_batch(double time) const { return time < stop && time <= until; }
-  /// Null for a body that is as it was when the part began.
+  /// Returns nullptr if the body is in the state that it had at the start of the batch.
   const BodyCheckpoint* checkpoint_of(std::uint32_t number) const {
     const std::uint32_t place = number < slots.size() ? slots[number].checkpoint : none;
     return place < has_checkpoint.size() && has_checkpoint[place] != 0 ? &checkpoints[place] : nullptr;

@@ -80,7 +80,7 @@ Change& Bodies::change_of(std::uint32_t number) {
 
 void Bodies::wrap_to_primary(std::uint32_t number, double now, double length) {
   Body& body = table_[number];
-  // The middle of a box is rounded and can lie on the other side of the border; the centre of a fixed ball
+  // The centre of a box is rounded and can lie on the other side of the border. The centre of a static ball
   // was wrapped when the ball was added.
   if (body.is_static()) {
     images[number] = {.middle = body.bound.position};

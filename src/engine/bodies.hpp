@@ -1,8 +1,9 @@
-// The bodies of a world: their table, and beside it what some of them have: changes, rests, filters, homes,
-// shapes, sensors.
+// Bodies holds all bodies of a world: their table, and side tables for changes, sleep records, filters,
+// periodic images, shapes and sensors.
 //
-// A fixed body has a shape in a table of its own; it is never probed. A body that rests has a bound that
-// stands still, and is otherwise like any other; what it promises once it is awake waits in a table.
+// A static body has a shape in a side table and is never probed. A sleeping body has a bound that stands
+// still and is otherwise treated like any other; the motion limits that apply after it wakes are in a side
+// table.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +30,7 @@ class Bodies {
 
   const WorldDefinition& definition() const { return definition_; }
   const Space& space() const { return space_; }
-  /// As walls_of(definition()).
+  /// Returns walls_of(definition()).
   const std::optional<Box>& walls() const { return walls_; }
 
   const BodyTable& table() const { return table_; }
@@ -39,23 +40,24 @@ class Bodies {
   std::uint32_t numbers() const { return table_.numbers(); }
 
   void reserve(std::size_t bodies);
-  /// A body with all of its definition but its state and its promise: its number.
+  /// Adds a body with its definition except for its state and motion limits. Returns its number.
   std::uint32_t add(const BodyDefinition& definition);
-  /// The same with a name (BodyTable). Its definition may be that of one that has moved here.
+  /// Adds a body as above, with a name (BodyTable). The definition may be that of a body that moved here from
+  /// another process.
   std::uint32_t add(const BodyDefinition& definition, std::uint32_t name);
-  /// The body never moves, and has this shape.
+  /// Makes the body static, with this shape.
   void fix(std::uint32_t number, const Shape& shape);
   void remove(std::uint32_t number);
 
-  /// With the state of the last report, and with all changes since.
+  /// Returns the definition with the state of the last report and all pending changes.
   BodyDefinition definition_of(std::uint32_t number) const;
   void set_solid(std::uint32_t number, bool solid);
-  /// The change of the body, to be made or added to.
+  /// Returns the pending change of the body, and creates it if there is none.
   Change& change_of(std::uint32_t number);
-  /// It is in force, or the body has gone.
+  /// Removes the pending change: it has taken effect, or the body is being removed.
   void forget_change(std::uint32_t number) { changes.remove(table_, number); }
 
-  /// Whether the filters let two bodies touch or sense each other.
+  /// Returns true if the filters allow two bodies to touch or sense each other.
   bool may_meet(std::uint32_t a, std::uint32_t b) const {
     return !filters.any() || (!(table_[a].is_static() && table_[b].is_static()) &&
                               filters.may_meet(id_of(a), filters.of(a), id_of(b), filters.of(b)));
@@ -64,15 +66,15 @@ class Bodies {
     return table_[a].solid && table_[b].solid && may_meet(a, b);
   }
 
-  /// The caller has placed the body anew: its images are counted from here.
+  /// Resets the image count of the body; call when the caller sets its position.
   void count_images_anew(std::uint32_t number) {
     if (space_.repeats()) images[number].image = {};
   }
-  /// Where space repeats: moves the body to the image in which the middle of its way for this long lies in
-  /// the primary box.
+  /// Moves the body to the image in which the centre of its path during `length` lies in the primary box.
+  /// Requires periodic space.
   void wrap_to_primary(std::uint32_t number, double now, double length);
 
-  /// A body as it is, to be put back as it was; without changes since its report.
+  /// A copy of a body, to be restored later. Precondition: the body has no pending change.
   struct Checkpoint {
     Body body;
     PeriodicImage image;
@@ -85,8 +87,8 @@ class Bodies {
     if (space_.repeats()) images[number] = checkpoint.image;
   }
 
-  /// All but the definition and what follows from it, the tag, and the pair filter. The ids of bodies that
-  /// are read are given out anew.
+  /// Serializes all fields except the definition and what follows from it, the tag, and the pair filter.
+  /// Bodies that are read get ids with tag 0.
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
     auto& [changed, resting, filtered, at_home, fixed, sensing, definition, space, enclosure, numbered] =
@@ -96,14 +98,15 @@ class Bodies {
     archive(bodies, live_count, changed, resting, by_number, at_home, free, fixed, sensing, any);
     if constexpr (!std::is_const_v<Self>) tag = 0;
   }
-  /// For one that was read, with the time of the world: nullptr, or the part that cannot have come about.
+  /// Returns the name of the part that no sequence of calls could have produced, or nullptr if there is none.
+  /// Call after reading; `now` is the time of the world.
   const char* first_invalid_part(double now, const std::vector<std::uint32_t>& dirty) const;
 
-  // Parts of the bodies. What concerns the table too is done by the functions above.
+  // Side tables. The member functions above make the changes that concern the body table too.
   WaitingChanges changes;
   SleepRecords sleep_records;
   Filters filters;
-  std::vector<PeriodicImage> images;  ///< by number; empty unless space repeats
+  std::vector<PeriodicImage> images;  ///< by body number; empty unless space is periodic
   Shapes shapes;
   SensorTable sensors;
 

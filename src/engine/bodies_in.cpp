@@ -6,8 +6,8 @@
 
 namespace kinesphere {
 
-/// A capsule holds its body until its window ends, which is not past; only a change or a broken promise
-/// leaves a body outside, and dirty.
+/// A swept sphere contains its body until its window ends, which is not in the past. Only a body that was
+/// changed or violated its bound can be outside, and such a body is dirty.
 std::vector<std::uint32_t> bodies_in(const Box& box, const WorldState& tables, const DirtyList& unsettled,
                                      double now) {
   std::vector<std::uint32_t> numbers;

@@ -8,8 +8,8 @@
 
 namespace kinesphere {
 
-/// All that may be in a box now, by number. Cost: a search, and those that were added or changed since time
-/// moved on.
+/// Returns all bodies that may be in the box now, in ascending order. Cost: one search, plus one step for
+/// each body in the dirty list.
 std::vector<std::uint32_t> bodies_in(const Box& box, const WorldState& tables, const DirtyList& unsettled,
                                      double now);
 

@@ -1,4 +1,5 @@
-// Whether bodies that were read from a snapshot can have come about.
+// Validity checks for bodies that were read from a snapshot: whether some sequence of calls can have produced
+// them.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -13,8 +14,9 @@
 namespace kinesphere {
 namespace {
 
-/// A place as a report can give it. Where space repeats a bound is in the image that the middle of its way
-/// chooses, which is any number of periods away from there at times that are too coarse for short windows.
+/// Returns the position in the form in which a report can give it, or nullopt if it is too large. In periodic
+/// space a bound is in the image that the centre of its path selects; at times too coarse for short windows
+/// that image is any number of periods away.
 std::optional<Vec3> reported_place(const Vec3& position, const Space& space) {
   for (int axis = 0; axis < 3; ++axis)
     if (!(std::abs(position[axis]) <= limits::largest_size)) return std::nullopt;
@@ -23,7 +25,7 @@ std::optional<Vec3> reported_place(const Vec3& position, const Space& space) {
 
 bool is_valid(const Bound& bound, const Vec3& place, double now, const WorldDefinition& world) {
   BodyDefinition as_body;
-  as_body.radius = 0.5 * bound.radius;  // the sum of a radius and an error
+  as_body.radius = 0.5 * bound.radius;  // bound.radius is the sum of a radius and an error
   as_body.acceleration_limit = bound.growth_acceleration;
   as_body.planned_acceleration = bound.planned_acceleration;
   as_body.velocity_error = bound.growth_speed;
@@ -32,7 +34,7 @@ bool is_valid(const Bound& bound, const Vec3& place, double now, const WorldDefi
   return bound.time >= -limits::largest_time && bound.time <= now && check_body(as_body, world, "restore");
 }
 
-/// To the bit.
+/// Compares bit by bit.
 template <class T>
 bool same(const T& a, const T& b) {
   ByteWriter bytes_of_a, bytes_of_b;
@@ -95,7 +97,7 @@ bool Bodies::is_valid(std::uint32_t number, double now) const {
   const Body& body = table_[number];
   if (body.is_static()) return is_valid_static(number, now);
   if (body.visited || !sleep_is_valid(body)) return false;
-  // An index that is free is as its next body will find it.
+  // A free number has the state that its next body starts with.
   if (!body.alive) return !body.dirty && body.change_number == Body::none;
   WorldDefinition unbounded = definition_;
   unbounded.box.reset();
@@ -110,13 +112,13 @@ bool Bodies::is_valid(std::uint32_t number, double now) const {
     return false;
   if (!limits_are_valid(body, definition)) return false;
   if (!body.enabled) return !body.dirty;
-  // The radius and an error; only that of a disabled body is stale.
+  // The bound's radius includes an error. Only the bound of a disabled body can be out of date.
   if (body.bound.radius < body.radius) return false;
-  // Before time moves on there is a report.
+  // A pending change requires a report before time advances.
   return body.change_number == Body::none || (body.dirty && !body.fresh(now));
 }
 
-/// Promises that come into force later: of these, definition_of() tells one.
+/// Checks the motion limits that take effect later; definition_of() returns only one set of them.
 bool Bodies::limits_are_valid(const Body& body, BodyDefinition definition) const {
   const auto is_promise = [&](const MotionLimits& limits) {
     return static_cast<bool>(
@@ -132,7 +134,7 @@ bool Bodies::limits_are_valid(const Body& body, BodyDefinition definition) const
   return is_promise(motion_limits_of(definition));
 }
 
-/// It must equal what its shape makes of it.
+/// A static body must equal the body that its shape defines.
 bool Bodies::is_valid_static(std::uint32_t number, double now) const {
   const Body& body = table_[number];
   if (!check_shape(shapes.of(body), definition_, "restore")) return false;
@@ -146,7 +148,8 @@ bool Bodies::is_valid_static(std::uint32_t number, double now) const {
          !body.is_sleeping() && !(body.dirty && !body.enabled);
 }
 
-/// A body that rests can move and takes part, and its bound stands still unless there is no report yet.
+/// A sleeping body is present and not static; its bound stands still unless a change still waits for a
+/// report.
 bool Bodies::sleep_is_valid(const Body& body) const {
   const SleepRecord* rest = sleep_records.find(body);
   if (!rest) return true;

@@ -1,4 +1,4 @@
-// A body as the engine keeps it.
+// Body is the engine's record of one body.
 #pragma once
 
 #include <cstdint>
@@ -10,30 +10,29 @@
 
 namespace kinesphere {
 
-/// What the bound tells is not kept again: the state of the last report and, but for position_error, the
-/// promise.
+/// The state of the last report and the motion limits, except for position_error, are stored in the bound
+/// only.
 struct Body {
-  /// In place of a number in a table.
+  /// Marks the absence of an index into a side table.
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-  Bound bound{};  ///< since the last report
-  /// Changes when all that is known about the body becomes void (PairCertificate).
+  Bound bound{};  ///< bound of the position since the last report
+  /// Incremented when all certificates of the body are invalidated (PairCertificate).
   std::uint32_t revision = 0;
 
   bool alive = false;
   bool enabled = true;
-  bool dirty = false;    ///< in the list of those to settle before time moves on
-  bool visited = false;  ///< in the present round
-  /// It has come to where it is, or nothing is known of whom it may meet, since windows started: it may start
-  /// together with all others.
+  bool dirty = false;    ///< listed for recertification before time advances
+  bool visited = false;  ///< visited mark used inside a search; false between calls
+  /// Added, teleported, enabled or refiltered since the last window start; eligible for the bulk restart.
   bool relocated = false;
-  // As in BodyDefinition.
+  // Fields of BodyDefinition.
   bool solid = true;
   SensorClass sensor_class = 0;
-  std::uint32_t shape_number = none;   ///< in the table of the shapes of fixed bodies
-  std::uint32_t change_number = none;  ///< in the table of changes
+  std::uint32_t shape_number = none;   ///< index of the shape of a static body
+  std::uint32_t change_number = none;  ///< index of the pending change
   std::uint32_t generation = 0;
-  std::uint32_t sleep_number = none;  ///< in the table of rests
+  std::uint32_t sleep_number = none;  ///< index of the sleep record
   double radius = 0.0;
   double position_error = 0.0;
   std::uint64_t user_data = 0;
@@ -41,9 +40,9 @@ struct Body {
   bool present() const { return alive && enabled; }
   bool is_static() const { return shape_number != none; }
   bool is_sleeping() const { return sleep_number != none; }
-  /// It rests, and the world has known where since it does. Then its bound stands still.
+  /// Sleeping, and with a report since it fell asleep. The bound then stands still.
   bool is_at_rest() const { return is_sleeping() && change_number == none; }
-  /// Its bound neither moves nor grows.
+  /// Returns true if the bound neither moves nor grows.
   bool stands_still() const {
     return bound.velocity == Vec3{} && bound.planned_acceleration == Vec3{} && bound.growth_speed == 0.0 &&
            bound.growth_acceleration == 0.0;
@@ -53,7 +52,7 @@ struct Body {
     bound.growth_speed = bound.growth_acceleration = 0.0;
   }
   void mark_visited() { dirty = visited = relocated = false; }
-  /// The world knows its present state.
+  /// Returns true if the state at `time` is known without a probe.
   bool fresh(double time) const { return bound.time == time || is_static() || is_at_rest(); }
   double largest_acceleration() const { return bound.growth_acceleration + norm(bound.planned_acceleration); }
 
@@ -67,11 +66,11 @@ struct Body {
 };
 static_assert(sizeof(Body) <= 168);
 
-/// What the caller has changed about a body since its last report; the next report, or its return after it
-/// was disabled, puts it into force.
+/// Changes that the caller made since the body's last report. They take effect with the next report, or when
+/// the body is enabled again.
 struct Change {
   std::uint32_t body = 0;
-  std::optional<Vec3> velocity{};  ///< its velocity
+  std::optional<Vec3> velocity{};  ///< new velocity, if it was set
   MotionLimits limits{};
 
   template <class Self, class Archive>
@@ -81,7 +80,7 @@ struct Change {
   }
 };
 
-/// What a body that rests promises once it is awake.
+/// Motion limits of a sleeping body that apply after it wakes.
 struct SleepRecord {
   std::uint32_t body = 0;
   MotionLimits limits{};

@@ -6,8 +6,8 @@
 namespace kinesphere {
 namespace {
 
-/// Bodies and their bounds, with all that they sense, reach less far than eight times the limit of their
-/// coordinates.
+/// Limits the box of a shape to eight times the coordinate limit. Bodies and their bounds, including their
+/// sensor reach, stay within that.
 Box cut_box(const Bodies& bodies, const Shape& shape) {
   return bounding_box(shape, 8.0 * coordinate_limit(bodies.definition()));
 }
@@ -21,7 +21,7 @@ Bound bound_now(const BodyDefinition& body, double now) {
 Bound bound_with(const Bodies& bodies, std::uint32_t number, const BodyDefinition& changed, double now) {
   const Body& body = bodies[number];
   if (body.fresh(now)) return bound_of(changed, {body.bound.position, body.bound.velocity}, now);
-  // The old promise held until now, and the next report comes before time moves on.
+  // The old limits held until now, and the next report comes before time advances.
   Bound bound = body.bound;
   bound.radius = changed.radius + (bound.radius - body.radius);
   return bound;

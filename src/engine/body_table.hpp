@@ -1,9 +1,9 @@
-// The table of bodies: each has a number; numbers that were given back are taken again, last come first, by
-// another generation, so that an id stands for one body for ever.
+// BodyTable assigns numbers to bodies. Freed numbers are reused, last freed first, with another generation,
+// so that an id denotes one body forever.
 //
-// Where a world is spread over several processes, each of them numbers the bodies that it knows as they come,
-// and a body has a name beside, the same everywhere, which is the index of its id. What comes first is
-// decided by names.
+// In a world that is distributed over several processes, each process numbers the bodies that it knows in
+// order of arrival. There a body also has a name, equal in all processes, which is the index of its id. Names
+// define the order of bodies.
 #pragma once
 
 #include <cstddef>
@@ -23,55 +23,56 @@ class BodyTable {
   const Body& operator[](std::uint32_t number) const { return bodies_[number]; }
   auto begin() const { return bodies_.begin(); }
   auto end() const { return bodies_.end(); }
-  /// All numbers are smaller than this.
+  /// Returns a bound on all numbers: each is smaller.
   std::uint32_t numbers() const { return static_cast<std::uint32_t>(bodies_.size()); }
-  /// That live.
+  /// Returns the number of live bodies.
   std::size_t live_count() const { return live_count_; }
-  /// That live and are enabled. Cost: O(n).
+  /// Returns the number of bodies that are live and enabled. Cost: O(n).
   std::size_t present_count() const;
 
   void reserve(std::size_t bodies) { bodies_.reserve(bodies); }
-  /// The number of a body that lives and has nothing else yet.
+  /// Creates a live body with default fields. Returns its number.
   std::uint32_t take();
-  /// The same in a table where all bodies have names.
+  /// Creates a live body with a name, as take() does. Precondition: all bodies of the table have names.
   std::uint32_t take(std::uint32_t name);
   void give_back(std::uint32_t number);
 
-  /// The sum of what all worlds of this program that were made before count: of BodyId::world.
+  /// Returns BodyId::world of all ids, if bodies have no names: a nonzero number assigned at construction, or
+  /// 0 after reading a snapshot.
   std::uint32_t tag() const { return tag_; }
-  /// Of a body with a name, the number is in BodyId::world.
+  /// Returns the id of a body. If bodies have names, BodyId::world is the number.
   BodyId id_of(std::uint32_t number) const {
     if (names_.empty()) return {number, bodies_[number].generation, tag_};
     return {names_[number], 0, number};
   }
-  /// Of a body that is or was in the table.
+  /// Returns the number of a body that is or was in the table.
   std::uint32_t number_of(BodyId id) const { return names_.empty() ? id.index : id.world; }
-  /// As id_of() has it, of an id that a snapshot may have held.
+  /// Returns the id with this table's tag, as id_of() does; for ids that may come from a snapshot.
   BodyId tagged(BodyId id) const { return names_.empty() ? BodyId{id.index, id.generation, tag_} : id; }
-  /// By number; empty where numbers are names.
+  /// Returns names by number; empty if numbers serve as names.
   const std::vector<std::uint32_t>& names() const { return names_; }
   bool have_names() const { return !names_.empty(); }
   std::uint32_t name_of(std::uint32_t number) const { return names_.empty() ? number : names_[number]; }
-  /// The order of the bodies.
+  /// Compares two bodies in the order of their names.
   bool comes_before(std::uint32_t a, std::uint32_t b) const { return name_of(a) < name_of(b); }
-  /// The ids that the next bodies added will have, in their order.
+  /// Returns the id that a body will get after `additions_before` other additions.
   BodyId next_id(std::size_t additions_before = 0) const;
   bool is_alive(BodyId id) const {
     return id.index < numbers() && bodies_[id.index].alive && bodies_[id.index].generation == id.generation;
   }
   bool was_given_out(BodyId id) const;
 
-  /// Of one that was read: each number is free or that of a body that lives.
+  /// Returns true if each number is either free or belongs to a live body. Call after reading.
   bool is_valid() const;
 
  private:
-  friend class Bodies;  // its serialize() archives the fields
+  friend class Bodies;  // Bodies::serialize() archives the fields
 
   std::vector<Body> bodies_;
   std::size_t live_count_ = 0;
   std::vector<std::uint32_t> free_;
   std::uint32_t tag_;
-  std::vector<std::uint32_t> names_;  ///< by number; empty where numbers are names
+  std::vector<std::uint32_t> names_;  ///< by number; empty if numbers serve as names
 };
 
 }  // namespace kinesphere

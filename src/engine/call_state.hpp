@@ -1,4 +1,4 @@
-// What a world may be waiting for while the caller's own code runs in the middle of one of its calls.
+// CallState names what a world waits for while user code runs inside one of its calls.
 #pragma once
 
 #include <string_view>
@@ -10,16 +10,17 @@ namespace kinesphere {
 
 enum class CallState { idle, probing, filtering, running };
 
-/// An error unless the world is idle: neither a probe, nor a pair filter, nor what a run() calls may make
-/// this call to the world that asked it.
+/// Returns the error of a call made while the world is not idle: probes, pair filters and callbacks of run()
+/// must not make this call to the world that invoked them. Precondition: `activity` is not idle.
 Error busy_error(CallState activity, std::string_view call);
 inline Result<void> check_idle(CallState activity, std::string_view call) {
   if (activity == CallState::idle) return {};
   return busy_error(activity, call);
 }
 
-/// A question to a pair filter, for as long as this object lives. Each thread has its own, as several may
-/// read one world at the same time; and they are nested, as the filter of one world may read another.
+/// Marks this thread as being inside a pair filter for the lifetime of the object. Each thread has its own
+/// stack of marks, since several threads may read one world concurrently, and the filter of one world may
+/// read another.
 class FilterQuestion {
  public:
   explicit FilterQuestion(const void* world) : world_(world), outer_(innermost) { innermost = this; }
@@ -27,7 +28,7 @@ class FilterQuestion {
   FilterQuestion& operator=(const FilterQuestion&) = delete;
   ~FilterQuestion() { innermost = outer_; }
 
-  /// Whether this thread is in the pair filter of that world.
+  /// Returns true if this thread is inside the pair filter of that world.
   static bool is_asked_by(const void* world) {
     const FilterQuestion* question = innermost;
     while (question != nullptr && question->world_ != world) question = question->outer_;

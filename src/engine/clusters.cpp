@@ -6,7 +6,7 @@
 namespace kinesphere {
 namespace {
 
-/// Moves a stretch to the end of its list, so that it can grow.
+/// Moves a range to the end of its list, so that it can grow.
 template <class T>
 void move_to_end(std::vector<T>& list, IndexRange& stretch) {
   if (stretch.end == list.size()) return;
@@ -50,12 +50,12 @@ void Clusters::clear() {
   count_ = checkpoint_count_ = 0;
 }
 
-/// The first body of the pair that moves: its group is that of the pair.
+/// Returns the first body of the pair that is not static; the pair belongs to its cluster.
 std::uint32_t Clusters::mobile_of(const PairCertificate& pair) const {
   return bodies_->shapes.any() && (*bodies_)[pair.first].is_static() ? pair.second : pair.first;
 }
 
-/// In the order in which they come up.
+/// Returns the index of a body, assigned in order of first occurrence.
 std::uint32_t Clusters::index_of(std::uint32_t number) {
   std::uint32_t& place = (*slots_)[number].checkpoint;
   if (place == BatchState::none) {
@@ -84,10 +84,10 @@ void Clusters::merge_bodies(std::span<const PairCertificate> due) {
   }
 }
 
-/// Bodies and pairs, group by group.
+/// Sorts bodies and pairs by cluster.
 void Clusters::distribute(std::span<const PairCertificate> due) {
   for (std::uint32_t place = 0; place < parents_.size(); ++place) {
-    // The one at the top has the smallest place of all, and its group already.
+    // The root has the smallest index of its cluster, so its cluster exists already.
     const std::uint32_t top = root_at(place);
     const std::uint32_t own = top == place ? add().index : (*slots_)[numbers_[top]].cluster;
     (*slots_)[numbers_[place]].cluster = own;

@@ -1,4 +1,5 @@
-// Which bodies are in an island together, in a part of a phase, and what each island begins with.
+// Clusters partitions the bodies of a batch: bodies of one cluster are executed together. It also holds the
+// initial work of each cluster.
 #pragma once
 
 #include <cstddef>
@@ -13,20 +14,21 @@
 
 namespace kinesphere {
 
-/// The bodies of an island, and what came of them in the last attempt.
+/// The bodies of a cluster, and the record of its last execution.
 struct Cluster {
-  std::uint32_t index = 0;        ///< its place
-  std::uint32_t merged_into = 0;  ///< the same, unless it has been joined to another one
-  bool needs_run = true;          ///< it has to run, or run again
-  bool executed = false;          ///< and not taken back
+  std::uint32_t index = 0;        ///< index in Clusters
+  std::uint32_t merged_into = 0;  ///< cluster that this one was merged into; equal to `index` if not merged
+  bool needs_run = true;          ///< must be executed, or executed again
+  bool executed = false;          ///< executed and not rolled back
   bool has_run = false;
   bool updates_are_checked = false;
   bool failed = false;
-  bool is_unsent = true;  ///< until whoever tells other processes of groups sets it to false
+  /// Set when the cluster changes; cleared by the code that sends clusters to other processes.
+  bool is_unsent = true;
   std::uint32_t runs = 0;
-  /// Of the bodies that it has counted on, those that others had kicked before.
+  /// Number of bodies in the read set that other clusters invalidated before the time of the read.
   std::uint32_t superseded = 0;
-  IndexRange members{};  ///< of the lists of Groups
+  IndexRange members{};  ///< range in the lists of Clusters
   IndexRange due{};
   RunRecord record{};
   std::vector<std::uint32_t> dirty{};
@@ -35,17 +37,17 @@ struct Cluster {
   bool is_merged() const { return merged_into != index; }
 };
 
-/// Lists of bodies and of due pairs, in which each group has a stretch. A group that grows moves to the end
-/// of them.
+/// Lists of bodies and of due pairs, in which each cluster has a contiguous range. A cluster that grows moves
+/// its range to the end.
 class Clusters {
  public:
-  /// A part begins: bodies joined by due pairs are in a group.
+  /// Forms the clusters of a batch: bodies connected by due pairs share a cluster.
   void form(std::span<const PairCertificate> due, const Bodies& bodies,
             std::vector<BatchState::BodySlot>& places);
-  /// It ends.
+  /// Removes all clusters; call at the end of a batch.
   void clear();
 
-  /// Those that have been joined to others, too. A group is joined only to one with a smaller place.
+  /// Returns all clusters, including merged ones. A cluster is merged only into one with a smaller index.
   std::span<Cluster> all() { return std::span(clusters_).first(count_); }
   std::span<const Cluster> all() const { return std::span(clusters_).first(count_); }
   Cluster& operator[](std::uint32_t own) { return clusters_[own]; }
@@ -53,18 +55,19 @@ class Clusters {
   std::size_t size() const { return count_; }
   std::span<const std::uint32_t> members_of(const Cluster& group) const { return group.members.of(members_); }
   std::span<const PairCertificate> due_of(const Cluster& group) const { return group.due.of(due_); }
-  /// That it is joined to, in the end.
+  /// Follows merges to the cluster that finally contains this one.
   Cluster& root_of(std::uint32_t own);
-  /// Nobody's bodies have none.
+  /// Returns nullptr if the body belongs to no cluster.
   Cluster* cluster_of(std::uint32_t number);
-  /// How many bodies are in groups: the places where they are kept are less than this.
+  /// Returns the number of bodies in clusters; each BodySlot::checkpoint is smaller.
   std::size_t checkpoint_count() const { return checkpoint_count_; }
 
-  // Needs a group that is not joined to another one.
+  // add_member() and add_due() require a cluster that is not merged.
   Cluster& add();
   void add_member(Cluster& group, std::uint32_t number);
   void add_due(Cluster& group, const PairCertificate& pair);
-  /// Two different ones become one, which is returned.
+  /// Merges two different clusters into the one with the smaller index, which is returned. Precondition:
+  /// neither is merged already.
   Cluster& merge(Cluster& one, Cluster& other);
 
  private:
@@ -74,16 +77,16 @@ class Clusters {
   std::uint32_t root_at(std::uint32_t place);
   std::uint32_t mobile_of(const PairCertificate& pair) const;
 
-  std::vector<BatchState::BodySlot>* slots_ = nullptr;  ///< by body
+  std::vector<BatchState::BodySlot>* slots_ = nullptr;  ///< by body number
   const Bodies* bodies_ = nullptr;
-  std::vector<Cluster> clusters_;  ///< more than there are in this part, perhaps
-  std::size_t count_ = 0;          ///< of those that there are
+  std::vector<Cluster> clusters_;  ///< may contain unused clusters of earlier batches
+  std::size_t count_ = 0;          ///< number of clusters in use
   std::size_t checkpoint_count_ = 0;
   std::vector<std::uint32_t> members_;
   std::vector<PairCertificate> due_;
-  // While groups are formed: by place.
+  // Scratch lists of form(), by index of first occurrence.
   std::vector<std::uint32_t> numbers_;
-  std::vector<std::uint32_t> parents_;  ///< one of the same group, or itself
+  std::vector<std::uint32_t> parents_;  ///< parent in the union-find forest; a root is its own parent
 };
 
 }  // namespace kinesphere

@@ -1,4 +1,5 @@
-// What decides when two bodies meet and part: their bounds or, for a fixed body, its shape.
+// CollisionShape decides when two bodies touch and separate: the bound of a body or, for a static body, its
+// shape.
 #pragma once
 
 #include <variant>
@@ -7,16 +8,16 @@
 
 namespace kinesphere {
 
-/// What a body takes up. A fixed ball is a bound at rest like any other.
+/// Volume of a body. A static ball is represented by a bound that stands still.
 struct CollisionShape {
   const Bound& bound;
   bool fixed = false;
   const Shape* shape =
-      nullptr;  ///< of a fixed body that is no ball; the bound then stands for one point of it
+      nullptr;  ///< shape of a static body that is not a ball; `bound` then is one point of it
 };
 
-/// Calls visit(bound, partner), where the partner is another bound or a HalfSpace, Box or Triangle. Not both
-/// may have a shape.
+/// Calls visit(bound, partner), where `partner` is another bound or a HalfSpace, Box or Triangle.
+/// Precondition: at most one of the two has a shape.
 template <class Visit>
 auto visit_shapes(const CollisionShape& a, const CollisionShape& b, Visit visit) {
   if (!a.shape && !b.shape) return visit(a.bound, b.bound);

@@ -1,4 +1,5 @@
-// Which kicks of islands have been held against all others.
+// ConflictDetector tracks which swept-sphere updates have been compared with the updates of all other
+// clusters.
 #pragma once
 
 #include <cstddef>
@@ -14,27 +15,28 @@ namespace kinesphere {
 
 class ConflictDetector {
  public:
-  /// A part begins.
+  /// Resets the detector; call at the start of a batch.
   void clear();
-  /// These groups have run.
+  /// Records that these clusters have been executed.
   void note_runs(std::span<const std::uint32_t> groups) {
     unchecked_.insert(unchecked_.end(), groups.begin(), groups.end());
   }
-  /// A body that another process kicks.
+  /// Adds an update of a body that another process executes.
   void add_foreign(const SweptSphereUpdate& update) { foreign_.push_back(update); }
   bool has_new_foreign() const { return checked_foreign_ < foreign_.size(); }
-  /// All kicks of groups that stand, and of other processes: first those that have not been held against
-  /// others, as is to be done now. Returns how many these are; if there are none, there are no others.
+  /// Collects the updates of all executed clusters and of other processes. The first ones, whose number is
+  /// returned, have not been compared yet and count as compared afterwards. Leaves `updates` empty if there
+  /// are none.
   std::size_t take(Clusters& groups, const RunPool& pool, std::vector<ClusterUpdate>& updates);
 
-  /// A group may meet a body that another process kicks.
+  /// Records that a cluster may meet a body whose velocity another process changes.
   void note_conflict(std::uint32_t group, std::uint32_t number) { conflicts_.emplace_back(group, number); }
   std::vector<std::pair<std::uint32_t, std::uint32_t>> take_conflicts() {
     return std::exchange(conflicts_, {});
   }
 
  private:
-  std::vector<std::uint32_t> checked_;  ///< groups, and those that have run since
+  std::vector<std::uint32_t> checked_;  ///< indices of clusters, possibly executed again since
   std::vector<std::uint32_t> unchecked_;
   std::vector<SweptSphereUpdate> foreign_;
   std::size_t checked_foreign_ = 0;

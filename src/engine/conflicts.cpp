@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t updates_at_once = 256;
 
-/// As Meeting::until; +infinity where they do not meet.
+/// Returns Conflict::until of two updates; +infinity if the bodies do not meet.
 double conflict_of(const Bodies& bodies, const SweptSphereUpdate& earlier, const SweptSphereUpdate& later) {
   const double now = later.time;
   const double end = std::min(earlier.window.end, later.window.end);
@@ -21,8 +21,8 @@ double conflict_of(const Bodies& bodies, const SweptSphereUpdate& earlier, const
     return BoundRef{update.number, &update.bound, update.window.end, &update.middle};
   };
   const double until = apart_until(bodies, known(earlier), known(later), now);
-  // A later report makes the bound smaller: two that stay apart still do. What comes first at one instant,
-  // the two islands do not know.
+  // A later report only shrinks a bound, so two bodies certified apart stay apart. The order of changes at
+  // one instant is not known across clusters.
   const bool as_kicked = earlier.time < now && now < earlier.first_change.changed;
   return as_kicked || earlier.first_change.invalidated < now || until == infinity ? until : Conflict::unknown;
 }

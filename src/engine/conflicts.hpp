@@ -1,4 +1,4 @@
-// Kicked bodies of islands that have run side by side, held against each other.
+// Comparison of the swept-sphere updates of clusters that were executed concurrently.
 #pragma once
 
 #include <cstddef>
@@ -13,28 +13,28 @@
 
 namespace kinesphere {
 
-/// A kick, and whose it is: of the group at this place, or another process's (BatchState::unassigned).
+/// An update and the index of its cluster; BatchState::unassigned if another process made it.
 struct ClusterUpdate {
   std::uint32_t cluster;
   const SweptSphereUpdate* update;
 };
 
-/// Two kicks, by their places.
+/// Two updates that may meet, by their indices.
 struct Conflict {
-  /// In place of a time: it would take to run both islands as one to know it.
+  /// Replaces a time that only a joint execution of both clusters could find.
   static constexpr double unknown = -infinity;
 
   std::uint32_t first;
   std::uint32_t second;
-  /// When the two may first meet: what Facts::apart_until() finds at the later kick.
+  /// Earliest time at which the bodies may meet, from apart_until() at the later update.
   double until;
-  /// The earlier one was void when the later one came.
+  /// True if the earlier update was invalidated before the later one was made.
   bool is_stale;
 };
 
-/// Pairs of kicks of different groups whose bodies may meet while both windows last; at least one of each
-/// pair is among the first `fresh` kicks. Kicks are searched for as if each had been there from `begin` on.
-/// Cost: as of a window's start for the fresh ones, and a search for each of the others.
+/// Returns the pairs of updates of different clusters whose bodies may meet while both windows last. At least
+/// one of each pair is among the first `fresh` updates. Each update is searched for as if it existed from
+/// `begin` on. Cost: a window start for the fresh updates, plus one search for each other update.
 std::vector<Conflict> find_conflicts(const WorldState& tables, std::span<const ClusterUpdate> updates,
                                      std::size_t fresh, double begin, PoolLease& shift);
 

@@ -1,4 +1,4 @@
-// Pairs of which two islands have one body each, and which are due when the part is over.
+// CrossClusterPairs collects certificates between bodies of two clusters that are due after the batch.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@ namespace kinesphere {
 class CrossClusterPairs {
  public:
   void clear() { entries_.clear(); }
-  /// Two kicked bodies that have to be looked at then, if neither is kicked again in the part: as these
-  /// attempts of the two groups have it.
+  /// Records a pair of updated bodies to be rechecked after the batch. It is valid only for the current runs
+  /// of both clusters.
   void note(const Cluster& one, const Cluster& other, const PairCertificate& pair) {
     entries_.push_back({one.index, one.runs, other.index, other.runs, pair});
   }
-  /// Calls visit(pair) for each of which none of the two groups has been taken back since.
+  /// Calls visit(pair) for each pair of which neither cluster has been rolled back or merged since note().
   template <class Visit>
   void for_each_standing(const Clusters& groups, Visit visit) const {
     const auto stands = [&](std::uint32_t own, std::uint32_t attempt) {

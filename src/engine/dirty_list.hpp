@@ -1,4 +1,4 @@
-// Bodies that have to be settled before time moves on.
+// DirtyList lists the bodies that must be recertified before time advances.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,8 @@
 
 namespace kinesphere {
 
-/// Those that are dirty, in the order in which they have become so; and some that are not dirty any more.
+/// Contains all dirty bodies in the order in which they became dirty, and possibly some that are no longer
+/// dirty.
 class DirtyList {
  public:
   void reserve(std::size_t bodies) { numbers_.reserve(bodies); }
@@ -23,7 +24,8 @@ class DirtyList {
     numbers_.push_back(number);
   }
   void assign(std::span<const std::uint32_t> numbers) { numbers_.assign(numbers.begin(), numbers.end()); }
-  /// Those that are dirty, each once, in ascending order; there are no others then.
+  /// Sorts the list in ascending order and removes duplicates and bodies that are not dirty. Returns the
+  /// list. Cost: O(n log n).
   const std::vector<std::uint32_t>& sort(const Bodies& bodies) {
     if (numbers_.size() > 1) {
       std::sort(numbers_.begin(), numbers_.end());
@@ -32,7 +34,7 @@ class DirtyList {
     std::erase_if(numbers_, [&](std::uint32_t number) { return !bodies[number].dirty; });
     return numbers_;
   }
-  /// The same of those that have come to where they are since windows started.
+  /// Returns the dirty bodies that were relocated since the last window start, each once, in ascending order.
   std::vector<std::uint32_t> arrivals(const Bodies& bodies) const {
     std::vector<std::uint32_t> arrived;
     for (const std::uint32_t number : numbers_)

@@ -1,4 +1,4 @@
-// The clock: what comes next.
+// The clock of a world: the order of window starts, rechecks and events.
 #include "engine/engine.hpp"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ Result<bool> World::Engine::run_epoch(double until, const Probe& probe, PoolLeas
   if (main_.epoch_end() <= time()) {
     if (auto started = start_windows(shift, false); !started) return started.error();
     if (!main_.events().is_quiet()) {
-      // All events of an instant are known before the first is told, as in advance().
+      // As in advance(), all events of an instant are known before the first is delivered.
       main_.begin_instant(time());
       return false;
     }
@@ -49,7 +49,7 @@ Result<bool> World::Engine::run_epoch(double until, const Probe& probe, PoolLeas
   return main_.is_certified() && islands.run(until, events);
 }
 
-/// Windows that end at this instant, and all that is due.
+/// Starts the windows that end at this instant, then rechecks all certificates that are due.
 Result<void> World::Engine::gather() {
   PoolLease alone;
   if (main_.epoch_end() <= time()) {
@@ -59,7 +59,7 @@ Result<void> World::Engine::gather() {
   return main_.gather();
 }
 
-/// Where many have arrived, all others start anew with them; else each is settled by itself.
+/// Restarts all windows if many bodies were relocated; otherwise recertifies dirty bodies one by one.
 Result<void> World::Engine::recertify(PoolLease& shift) {
   main_.recertify_changed();
   if (!main_.dirty().empty()) {

@@ -1,5 +1,5 @@
-// The engine behind World: the clock, windows, and what the caller changes. What must always hold of any two
-// bodies stands in island.hpp.
+// World::Engine is the implementation of World: the clock, windows, and changes by the caller. The invariant
+// that holds for every pair of bodies is stated in event_processor.hpp.
 #pragma once
 
 #include <algorithm>
@@ -30,38 +30,38 @@ class World::Engine {
   explicit Engine(const WorldDefinition& definition);
   Engine(const Engine& other);
 
-  // The clock.
+  // Time.
   Result<std::optional<Event>> advance(double until, const Probe& probe);
-  /// The same for many events at once (islands.hpp), up to `until` or to the end of a part of the phase.
-  /// Appends them to `events`. False where that cannot be done, or is not worth it, until the phase's end:
-  /// advance() can.
+  /// Processes many events concurrently (speculative_runner.hpp), up to `until` or to the end of a batch of
+  /// the epoch, and appends them to `events`. Results are those of advance(). Returns false if speculation is
+  /// impossible or does not pay until the end of the epoch; the caller then uses advance().
   Result<bool> run_epoch(double until, const Probe& probe, PoolLease& shift, SpeculativeRunner& islands,
                          std::deque<Event>& events);
   SpeculativeRunner runner(PoolLease& shift, const Probe& probe, ResponseHandler* handler) {
     return {state_, main_, shift, probe, handler};
   }
   double epoch_end() const { return main_.epoch_end(); }
-  /// Something has to be done before time moves on.
+  /// Returns true if there is work to do before time can advance.
   bool is_due() { return std::min(main_.epoch_end(), main_.next_time()) <= time(); }
   double time() const { return main_.time(); }
   CallState activity() const;
 
   WorldEditor changes() { return {state_, main_}; }
 
-  // What is known at the current time.
+  // State at the current time.
   const Bodies& bodies() const { return state_.bodies; }
   const ContactGraph& contacts() const { return state_.contacts; }
   const BroadPhase& broad_phase() const { return state_.broad_phase; }
   const EventProcessor& main() const { return main_; }
-  /// Those that hold, or those of them that a body has a part in.
+  /// Returns all valid certificates, or those that involve the body `number`.
   std::vector<PairCertificate> certificates(std::optional<std::uint32_t> number = std::nullopt) const;
-  /// All that may be in a box now, by number.
+  /// Returns all bodies that may be in the box now, in ascending order.
   std::vector<std::uint32_t> bodies_in(const Box& box) const {
     return kinesphere::bodies_in(box, state_, main_.dirty(), time());
   }
   const WorldDefinition& definition() const { return bodies().definition(); }
   const Counters& counters() const { return main_.work().counters; }
-  /// Contains the body, and all that it senses, from now until its window ends.
+  /// Returns a box that contains the body and its sensor reach from now until its window ends.
   Box box(std::uint32_t number) const { return broad_phase().box_of(number, time()); }
   class Answers;
   class Queries;
@@ -69,17 +69,17 @@ class World::Engine {
   Memory memory() const;
 
   Overlaps overlaps() const { return {bodies(), broad_phase(), time()}; }
-  /// As EventProcessor::probe_stale(), while no advance() goes on.
+  /// Probes bodies as EventProcessor::probe_stale() does. Must not be called during advance().
   Result<bool> probe_stale(std::span<const std::uint32_t> numbers, const Probe& ask, std::string_view call);
 
-  // snapshot.cpp: the whole state as bytes.
+  // snapshot.cpp: conversion of the whole state to bytes and back.
   std::vector<std::byte> save() const;
   static Result<std::unique_ptr<Engine>> restore(std::span<const std::byte> bytes, PairFilter pair_filter);
 
  private:
   class Audit;
 
-  // phases.cpp
+  // epochs.cpp and engine.cpp
   Result<void> start_windows(PoolLease& shift, bool all, std::span<const std::uint32_t> joining = {});
   Result<void> start_with_arrivals(PoolLease& shift);
   Result<void> gather();
@@ -95,8 +95,9 @@ class World::Engine {
 
   WorldState state_;
   EventProcessor main_;
-  std::vector<SearchResults> found_;         ///< by worker; kept for its memory only
-  std::vector<PairCertificate> read_pairs_;  ///< from a snapshot, until they are in the agenda
+  std::vector<SearchResults> found_;  ///< by worker; a member only to reuse its memory
+  /// certificates read from a snapshot, before they enter the queue
+  std::vector<PairCertificate> read_pairs_;
 };
 
 }  // namespace kinesphere

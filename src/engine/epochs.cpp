@@ -1,4 +1,4 @@
-// Phases: windows end, and new ones start for their bodies, or for all of them where many have arrived.
+// Epochs: windows end, and new windows start for their bodies, or for all bodies if many were relocated.
 #include <algorithm>
 
 #include "engine/engine.hpp"
@@ -6,8 +6,8 @@
 
 namespace kinesphere {
 
-/// Where many have arrived since windows started, all start anew with them: those that have arrived one by
-/// one would cost more.
+/// Restarts all windows if many bodies were relocated since the last window start. Recertifying that many
+/// bodies one by one would cost more.
 Result<void> World::Engine::start_with_arrivals(PoolLease& shift) {
   std::vector<std::uint32_t> joining = main_.dirty().arrivals(bodies());
   const bool anew = are_many(joining.size(), broad_phase().size());
@@ -17,20 +17,21 @@ Result<void> World::Engine::start_with_arrivals(PoolLease& shift) {
     });
   }
   WindowStart starting(state_, main_, shift, found_);
-  // A tempo that was chosen for few bodies may be far too slow for many.
+  // A window policy that was chosen for few bodies may be far off for many.
   const bool was_for_few = anew && 2 * joining.size() >= broad_phase().moving();
   if (!joining.empty() && (was_for_few || !state_.window_policy.is_chosen()))
     starting.choose_policy(starting.survey(joining));
   if (!anew || joining.empty()) return {};
   if (auto probed = main_.probe_stale(joining, shift); !probed) return probed.error();
   if (auto started = start_windows(shift, true, joining); !started) return started;
-  // For some there was no window.
+  // Bodies for which no window was found stay dirty.
   for (const std::uint32_t number : joining)
     if (broad_phase().contains(number)) state_.bodies[number].mark_visited();
   return {};
 }
 
-/// New windows for those whose windows have ended, or for all, and for some that join them.
+/// Starts new windows for the bodies whose windows have ended, or for all if `all`, together with the bodies
+/// `joining`.
 Result<void> World::Engine::start_windows(PoolLease& shift, bool all,
                                           std::span<const std::uint32_t> joining) {
   BroadPhase& windows = state_.broad_phase;
@@ -42,7 +43,7 @@ Result<void> World::Engine::start_windows(PoolLease& shift, bool all,
   if (auto probed = starting.refresh(numbers); !probed) return probed;
   if (most) window_policy.start_main(now, std::exchange(main_.work().recertified, {}));
   windows.end_windows(now, all);
-  // Those with a broken promise, too, are settled by themselves.
+  // A body that violated its bound is dirty and is recertified separately.
   std::erase_if(numbers, [this](std::uint32_t number) { return bodies()[number].dirty; });
   ++main_.work().counters.window_ends;
   main_.work().counters.starts += numbers.size();

@@ -1,5 +1,5 @@
-// The course of an instant: what is due is gathered, events are delivered, and what they have changed is
-// settled before time moves on.
+// Processing of one instant: certificates that are due are rechecked, events are delivered, and bodies that
+// they changed are recertified before time advances.
 #include "engine/event_processor.hpp"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ Event EventProcessor::wall_contact(EventKind kind, std::uint32_t number, Wall wa
   return wall_event(kind, time_, sphere(number), *bodies().walls(), wall);
 }
 
-/// Who senses the other at the distance of this event now.
+/// Returns which of the two bodies senses the other at the distance of this event now.
 Senses EventProcessor::senses_in(const Event& event) const {
   const Sensing first = sensing_of(bodies(), bodies().table().number_of(event.first));
   const Sensing second = sensing_of(bodies(), bodies().table().number_of(event.second));
@@ -64,7 +64,7 @@ Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers) {
 }
 
 Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, PoolLease& shift) {
-  // Counted first: a probe that throws leaves the same world as one that does not answer.
+  // Probes are counted first, so that a probe that throws leaves the same state as one that gives no answer.
   work_.counters.probes += numbers.size();
   if (log_)
     for (const std::uint32_t number : numbers) log_->note_change(number, time_);
@@ -120,14 +120,15 @@ void EventProcessor::recertify_changed() {
 
 Result<void> EventProcessor::recertify() {
   recertify_changed();
-  // Reports may show broken promises, which make further bodies dirty.
+  // Reports can violate bounds, which makes further bodies dirty.
   while (!dirty_.empty()) {
     if (auto settled = recertify_dirty(); !settled) return settled;
   }
   return {};
 }
 
-/// Body and body, or a body and (itself) its walls: what was certified concerns the contact as it was.
+/// Certifies a pair again after its contact changed, since the earlier certificate applied to the earlier
+/// contact state. If a == b, the pair is the body and the walls.
 void EventProcessor::recertify_changed(std::uint32_t a, std::uint32_t b) {
   if (!bodies()[a].present() || !bodies()[b].present() || bodies()[a].dirty || bodies()[b].dirty) return;
   queue_.add(certifier().certificate(time_, a, a == b ? PairCertificate::walls : b));

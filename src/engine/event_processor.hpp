@@ -1,20 +1,22 @@
-// An island: bodies on their way through a window of time in which they meet nobody else.
+// EventProcessor processes the events of a set of bodies in the order of time.
 //
-// The loop over World::advance() has one island, all bodies; World::run() has many, side by side. An island
-// has a clock, an agenda and the events of its present instant, and looks at the pairs that are due.
+// World::advance() uses one processor with all bodies, main_. World::run() executes clusters of bodies with
+// several processors concurrently (speculative_runner.hpp). A processor has a clock, a certificate queue and
+// the events of the current instant, and rechecks the certificates that are due.
 //
-// For every pair of bodies one of these facts holds whenever its time moves on:
-//   - their capsules do not touch before the window of either ends, and each body stays in its capsule until
-//     its own window ends; or
-//   - they cannot change between touching and not touching, nor cross a sensor distance, before the window of
-//     either ends; or
-//   - they cannot do so before the time of a hot pair in the agenda; or
-//   - the filters keep them from touching and sensing each other.
-// A capsule has room for all that its body can sense around it. A fact is about the true bodies, so later
-// probes leave it true. Only a discontinuity (a kick, a broken promise, a change that the caller makes) ends
-// it: the body gets another stamp, which voids its hot pairs, and becomes dirty. A dirty body gets a capsule
-// and its hot pairs anew before time moves on (a disabled one has left the windows instead); so do all bodies
-// whose window has ended.
+// Invariant: whenever time advances, each pair of bodies satisfies one of these conditions:
+// - Their swept spheres do not touch before the earlier window end, and each body stays in its swept sphere
+//   until its own window ends.
+// - They neither change between touching and not touching nor cross a sensor distance before the earlier
+//   window end.
+// - They do neither before the failure time of a certificate in the queue.
+// - The filters prevent them from touching and sensing each other.
+//
+// A swept sphere includes the sensor reach of its body. The conditions concern the true bodies, so later
+// probes do not invalidate them. Only a discontinuity does: a velocity change, a report that violates its
+// bound, or a change by the caller. It increments the body's revision, which makes its certificates stale,
+// and marks the body dirty. Before time advances, each dirty body gets a new swept sphere and new
+// certificates, as does each body whose window has ended. A disabled body leaves the broad phase instead.
 #pragma once
 
 #include <algorithm>
@@ -42,33 +44,33 @@ namespace kinesphere {
 class alignas(128) EventProcessor {
  public:
   EventProcessor(WorldState& tables, double time) : state_(&tables), time_(time) {}
-  /// The same with a copy of the other's tables.
+  /// Copies a processor, to work on `tables`, a copy of the other's world state.
   EventProcessor(EventProcessor other, WorldState& tables) : EventProcessor(std::move(other)) {
     state_ = &tables;
   }
 
   double time() const { return time_; }
-  /// Until somebody takes it away.
+  /// Returns the work counted since the counters were last reset.
   const WorkCounters& work() const { return work_; }
   WorkCounters& work() { return work_; }
   const PendingEvents& events() const { return events_; }
   PendingEvents& events() { return events_; }
   const CertificateQueue& queue() const { return queue_; }
   CertificateQueue& queue() { return queue_; }
-  /// Bodies that have to be settled before time moves on. Facts about one that is added stay.
+  /// Returns the bodies to recertify before time advances. Adding a body keeps its certificates.
   const DirtyList& dirty() const { return dirty_; }
   DirtyList& dirty() { return dirty_; }
 
-  /// All facts are as they should be, and nothing is to be delivered.
+  /// Returns true if the invariant holds and no event is waiting for delivery.
   bool is_certified() const {
     return !gathering_ && dirty_.empty() && events_.is_quiet() && events_.changed().empty();
   }
 
-  // The clock.
-  /// Collecting what is due at this instant has begun: if a bad answer interrupts it, the next call goes on
-  /// with it.
+  // Time.
+  /// Returns true if the work of this instant has begun and is incomplete. It stays true when an invalid
+  /// report interrupts it; the next call then continues.
   bool is_gathering() const { return gathering_; }
-  /// When the next pair is due; +infinity when nothing is.
+  /// Returns the earliest failure time in the queue; +infinity if the queue is empty.
   double next_time() {
     queue_.open([facts = certifier()](const PairCertificate& pair) { return facts.is_stale(pair); });
     return queue_.next_time();
@@ -77,23 +79,24 @@ class alignas(128) EventProcessor {
     if (time > time_) events_.start();
     time_ = time;
   }
-  /// The same, to an instant at which something is due.
+  /// Advances the clock to an instant at which work is due.
   void begin_instant(double time) {
     advance_clock(std::max(time, time_));
     gathering_ = true;
   }
-  /// Looks at all pairs that are due, so that every event of this instant is known before the first is
-  /// delivered.
+  /// Rechecks all certificates that are due, so that every event of this instant is known before the first is
+  /// delivered. Errors: those of probe().
   Result<void> gather();
-  /// Pairs that delivered events have changed are to be looked at anew, but for those of dirty bodies, which
-  /// will be found.
+  /// Certifies again the pairs whose contacts were changed by delivered events. Pairs of dirty bodies are
+  /// skipped, since recertify() finds them.
   void recertify_changed();
-  /// After it, all facts are as they should be.
+  /// Recertifies all changed pairs and dirty bodies; afterwards the invariant holds. Errors: those of
+  /// probe().
   Result<void> recertify();
-  /// The next event of this instant.
+  /// Returns the next event of this instant, or nullopt if there is none.
   std::optional<Event> pop();
 
-  /// What the island has to begin with is left to others.
+  /// Discards the initial work, which clusters have taken over.
   void discard_initial_work() {
     dirty_.clear();
     events_.clear();
@@ -101,38 +104,38 @@ class alignas(128) EventProcessor {
   }
 
   // Discontinuities.
-  /// Nothing that was certified about the body holds any more.
+  /// Makes all certificates of the body stale and marks it dirty.
   void invalidate(std::uint32_t number);
-  /// The body has another velocity from now on.
+  /// Sets the velocity of the body from the current time on.
   void set_velocity(BodyId body, const Vec3& velocity) {
     set_velocity(bodies().table().number_of(body), velocity);
   }
   void set_velocity(std::uint32_t number, const Vec3& velocity);
 
-  /// At this time.
+  /// Returns a certifier at the current time.
   PairCertifier certifier() const { return {*state_, time_, log_}; }
 
   // Reports.
   Reports& reports() { return reports_; }
   const Reports& reports() const { return reports_; }
   Result<void> probe(std::span<const std::uint32_t> numbers);
-  /// The same, where several threads may be asked.
+  /// Probes as above; several threads may call the probe concurrently.
   Result<void> probe(std::span<const std::uint32_t> numbers, PoolLease& shift);
-  /// Those of them whose reports are not of this time, except for disabled ones. True when there were any.
+  /// Probes the enabled bodies whose state at the current time is unknown. Returns true if there were any.
   Result<bool> probe_stale(std::span<const std::uint32_t> numbers, PoolLease& shift);
 
-  /// From now on the island is one of those of a phase, from where its part begins. It begins with pairs that
-  /// are due, bodies that have to be settled before anything else, and events that are known already.
+  /// Starts the execution of a cluster at the start of its batch. Its initial work is certificates that are
+  /// due, bodies to recertify first, and events that are known already.
   void begin(SpeculationLog& log, std::span<const PairCertificate> due,
              std::span<const std::uint32_t> unsettled, std::span<const Event> pending);
 
-  // The phase.
-  /// All windows that hold a body now end at this time or later; those that end before it, of bodies that
-  /// were kicked, are renewed one by one.
+  // Epoch.
+  /// Returns the end of the epoch. No window ends earlier, except for those of bodies that were recertified
+  /// one by one, for which the queue contains window_end certificates.
   double epoch_end() const { return epoch_end_; }
   void begin_epoch(double end) { epoch_end_ = end; }
 
-  /// What a snapshot holds of it: the agenda comes apart.
+  /// Serializes all fields of a snapshot except the queue, which is archived separately.
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
     archive(self.events_, self.time_, self.epoch_end_, self.dirty_, self.gathering_, self.work_.counters,
@@ -156,11 +159,11 @@ class alignas(128) EventProcessor {
   void enter(std::uint32_t number, const Window& window);
   std::span<const std::uint32_t> near(std::uint32_t number);
 
-  // beside.cpp
+  // speculation_log.cpp
   void note_linked_conflicts(std::uint32_t number);
   void certify_speculatively(std::uint32_t number, std::uint32_t other);
 
-  // looking.cpp
+  // rechecks.cpp
   Result<void> recheck(const PairCertificate& pair);
   Result<void> recheck_pair(std::uint32_t a, std::uint32_t b);
   Result<void> recheck_walls(std::uint32_t number);
@@ -184,8 +187,8 @@ class alignas(128) EventProcessor {
   bool gathering_ = false;
   WorkCounters work_;
   Reports reports_;
-  SpeculationLog* log_ = nullptr;  ///< unless it has all bodies
-  // Kept for their memory only.
+  SpeculationLog* log_ = nullptr;  ///< nullptr for the processor with all bodies
+  // Members only to reuse their memory.
   std::vector<std::uint32_t> round_;
   SearchResults found_;
 };

@@ -1,4 +1,5 @@
-// Who may touch or sense whom: the filters of bodies and the caller's pair filter.
+// Filters decides which bodies may touch or sense each other, from the filters of bodies and the caller's
+// pair filter.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +15,10 @@ namespace kinesphere {
 
 class Filters {
  public:
-  /// False as long as all bodies may touch each other.
+  /// Returns false as long as all bodies may touch each other.
   bool any() const { return any_; }
-  /// From now on some may not, for a reason that is not kept here: they are fixed, or not solid.
+  /// Makes any() true, for a restriction that is stored elsewhere: static bodies, or bodies that are not
+  /// solid.
   void set_any() { any_ = true; }
 
   const Filter& of(std::uint32_t number) const {
@@ -35,10 +37,10 @@ class Filters {
     any_ = true;
     pair_filter_ = std::move(filter);
   }
-  /// Whether this thread is in the pair filter.
+  /// Returns true if this thread is inside the pair filter.
   bool is_filtering() const { return pair_filter_ && FilterQuestion::is_asked_by(this); }
 
-  /// Whether they let two bodies touch or sense each other.
+  /// Returns true if both filters and the pair filter allow the bodies to touch or sense each other.
   bool may_meet(BodyId a, const Filter& filter_a, BodyId b, const Filter& filter_b) const {
     return passes(filter_a, filter_b) && (!pair_filter_ || ask(a, b));
   }
@@ -46,18 +48,18 @@ class Filters {
     return body_a.solid && body_b.solid && may_meet(a, body_a.filter, b, body_b.filter);
   }
 
-  /// Of one that was read.
+  /// Validates the filters after reading.
   bool is_valid(std::size_t bodies) const { return filters_.size() <= bodies; }
 
  private:
-  friend class Bodies;  // its serialize() archives the fields
+  friend class Bodies;  // Bodies::serialize() archives the fields
 
   bool ask(BodyId a, BodyId b) const {
     const FilterQuestion question(this);
     return pair_filter_(a, b);
   }
 
-  std::vector<Filter> filters_;  ///< of all bodies up to the last one that has another than the default
+  std::vector<Filter> filters_;  ///< by body number, up to the last body whose filter is not the default
   PairFilter pair_filter_;
   bool any_ = false;
 };

@@ -6,7 +6,7 @@
 namespace kinesphere {
 namespace {
 
-/// Wherever in their bounds the two are.
+/// Returns true if the two overlap wherever they are in their bounds.
 bool certainly_overlap(const Bodies& bodies, double now, const CollisionShape& a, const CollisionShape& b) {
   return gap_at(bodies, now, a, b).upper < -bodies.definition().contact_tolerance;
 }

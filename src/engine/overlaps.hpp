@@ -1,5 +1,5 @@
-// Overlaps that the caller is about to make: bodies that certainly overlap by more than the tolerance now,
-// wherever in their bounds they are.
+// Overlaps finds overlaps that a change by the caller would cause: two bodies that overlap by more than the
+// contact tolerance now, wherever they are in their bounds.
 #pragma once
 
 #include <cstddef>
@@ -16,13 +16,13 @@ class Overlaps {
   Overlaps(const Bodies& bodies, const BroadPhase& windows, double now)
       : bodies_(bodies), windows_(windows), now_(now) {}
 
-  /// The first other body that certainly overlaps body `id` with this extent and definition, and may touch
-  /// it. Cost: a search.
+  /// Returns the first other body, in the order of id indices, that certainly overlaps body `id` with this
+  /// shape and definition and may touch it. Cost: one search.
   std::optional<BodyId> of_body(BodyId id, const CollisionShape& extent,
                                 const BodyDefinition& definition) const;
   std::optional<Wall> of_wall(const Bound& bound) const;
-  /// The first of new bodies that certainly overlaps one before it, and may touch it: as the second of a
-  /// pair, beside the first that it overlaps. Cost: a search for each.
+  /// Returns the first new body that certainly overlaps an earlier new body and may touch it. The result is a
+  /// pair of indices: the first body that it overlaps, then the body itself. Cost: one search per body.
   std::optional<std::pair<std::size_t, std::size_t>> first_among(std::span<const BodyDefinition> added) const;
 
  private:

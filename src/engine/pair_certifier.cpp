@@ -8,7 +8,7 @@
 namespace kinesphere {
 namespace {
 
-/// Of two in their order.
+/// Computes apart_until() for two bodies in the order of their names.
 [[gnu::always_inline]] inline double apart_until_in_order(const Bodies& bodies, const BoundRef& a,
                                                           const BoundRef& b, double now) {
   const double end = std::min(a.end, b.end);
@@ -44,7 +44,7 @@ double apart_until(const Bodies& bodies, const BoundRef& a, const BoundRef& b, d
 }
 
 double PairCertifier::apart_until(std::uint32_t a, std::uint32_t b) const {
-  // The same, to the last bit, whoever has found whom.
+  // The order of the two is fixed, so that the result is bit-identical whichever body found the other.
   if (bodies().table().comes_before(b, a)) std::swap(a, b);
   if (!bodies().may_meet(a, b)) return infinity;
   const BoundRef one = bound_ref(a);
@@ -88,10 +88,10 @@ double PairCertifier::certify(std::uint32_t a, std::uint32_t b, SearchResults& f
   return until;
 }
 
-/// They may be anywhere.
+/// Linked partners can be outside the swept sphere, so they come from the contact graph, not from the search.
 void PairCertifier::certify_linked(std::uint32_t number, SearchResults& found) const {
   const auto add = [&](std::uint32_t other) {
-    // Of two in the round the first one finds it.
+    // If both bodies are marked as visited, the first one certifies the pair.
     if (!state_.broad_phase.contains(other) ||
         (bodies()[other].visited && bodies().table().comes_before(other, number)))
       return;

@@ -1,5 +1,5 @@
-// What is certain of bodies at an instant: until when their capsules hold them, and how long nothing changes
-// between two of them.
+// PairCertifier computes what is certain of bodies at an instant: until when swept spheres contain them, and
+// how long the contact state of a pair cannot change.
 #pragma once
 
 #include <algorithm>
@@ -15,20 +15,20 @@
 
 namespace kinesphere {
 
-/// The hot pairs that searches have found, and what they have cost. One for each thread.
+/// The certificates that searches have found, and the cost of these searches. Each thread uses its own.
 struct alignas(128) SearchResults {
   std::vector<PairCertificate> certificates;
   NeighbourSearch search;
   std::uint64_t searches = 0;
   std::uint64_t candidates = 0;
-  std::uint64_t near = 0;       ///< of them, those that may meet before a window ends
-  std::uint64_t certified = 0;  ///< that have become hot
+  std::uint64_t near = 0;       ///< candidates that may meet before the earlier window end
+  std::uint64_t certified = 0;  ///< certificates created for candidates
 
   void clear() {
     certificates.clear();
     searches = candidates = near = certified = 0;
   }
-  /// Nothing is left here then.
+  /// Moves all results to the queue and the counters, and clears this object.
   void hand_over(CertificateQueue& queue, Counters& counters) {
     counters.searches += searches;
     counters.candidates += candidates;
@@ -38,8 +38,8 @@ struct alignas(128) SearchResults {
   }
 };
 
-/// A body that can move: its bound, until when its capsule holds it and, where space repeats, the middle of
-/// its way.
+/// A body that is not static: its bound, the end of its window and, in periodic space, the centre of its
+/// path.
 struct BoundRef {
   std::uint32_t number;
   const Bound* bound;
@@ -47,72 +47,77 @@ struct BoundRef {
   const Vec3* middle;
 };
 
-/// As Facts::apart_until(), of two that may meet and of which one has a window that ends. The same, to the
-/// last bit, in whichever order they are given.
+/// Computes PairCertifier::apart_until() for two bodies that may meet. Precondition: at least one window is
+/// finite. The result is bit-identical for either order of arguments.
 double apart_until(const Bodies& bodies, const BoundRef& a, const BoundRef& b, double now);
 
-/// Reads the tables and, of an island beside others, the capsules that its bodies have got in this part, and
-/// the bodies of other islands as they were when it began.
+/// Reads the world state. For a cluster (`log` is not null) it also reads the swept spheres that its bodies
+/// got in this batch, and the checkpoints of bodies in other clusters.
 class PairCertifier {
  public:
   PairCertifier(const WorldState& tables, double time, const SpeculationLog* log)
       : state_(tables), time_(time), log_(log) {}
 
-  /// The body stays in its capsule until then.
+  /// Returns the time until which the body stays in its swept sphere.
   double window_end_of(std::uint32_t number) const {
     const SweptSphereUpdate* update = log_ ? log_->last_update(number) : nullptr;
     return update != nullptr ? update->window.end : state_.broad_phase.end_of(number);
   }
-  /// Both do.
+  /// Returns the earliest window end of the two bodies.
   double earliest_window_end(std::uint32_t a, std::uint32_t b) const {
     return std::min(window_end_of(a), window_end_of(b));
   }
-  /// The window that the body is in, if it is in any.
+  /// Returns the window of the body, or nullopt if it has none.
   std::optional<Window> window_of(std::uint32_t number) const;
 
   bool is_stale(const PairCertificate& pair) const {
     return revision_of(pair.first) != pair.first_revision ||
            (pair.has_second() && revision_of(pair.second) != pair.second_revision);
   }
-  /// Calls visit(pair) for those of the agenda that hold.
+  /// Calls visit(pair) for each certificate in the queue that is not stale.
   template <class Visit>
   void for_each_certificate(const CertificateQueue& queue, Visit visit) const {
     queue.for_each([&](const PairCertificate& pair) {
       if (!is_stale(pair)) visit(pair);
     });
   }
-  /// Two bodies, or a body and PairCertificate::walls or PairCertificate::window_end, to be looked at then.
+  /// Creates a certificate that fails at `time`, for two bodies, or for a body and PairCertificate::walls or
+  /// PairCertificate::window_end.
   PairCertificate certificate(double time, std::uint32_t a, std::uint32_t b) const;
 
-  /// Whether the two touch or sense each other.
+  /// Returns true if the two touch or sense each other.
   bool are_linked(std::uint32_t a, std::uint32_t b) const {
     return contacts().touch(a, b) || !contacts().overlaps_of(a, b).empty();
   }
-  /// Calls visit(threshold) for what comes next between two bodies that may meet: their contact, the next
-  /// sensor distance inward, and the next one outward.
+  /// Calls visit(threshold) for each threshold that two bodies can cross next: their contact, the next sensor
+  /// distance inward, and the next one outward. Precondition: the two may meet.
   template <class Visit>
   void for_each_threshold(std::uint32_t a, std::uint32_t b, Visit visit) const;
-  /// Two that neither touch nor sense each other do not before this time, or not before a window ends
-  /// (+infinity); now, if that takes fresh reports.
+  /// Returns the time before which two unlinked bodies neither touch nor sense each other; +infinity if they
+  /// do not before the earlier window end. Returns the current time if only fresh reports can decide.
   double apart_until(std::uint32_t a, std::uint32_t b) const;
-  /// The same by the rules of contacts, for any pair; +infinity for ever.
+  /// Returns the time before which no threshold of the two is crossed, by the contact rules; +infinity if
+  /// never. Valid for linked and unlinked pairs.
   double unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const;
-  /// The same of a body and its walls, in a world that has any.
+  /// Returns the time before which the body neither touches nor leaves a wall; the current time if it touches
+  /// one. Precondition: the world has walls.
   double walls_unchanged_until(std::uint32_t number) const;
 
-  // The hot pairs of a body that has got a capsule.
-  /// With one whom a search has found to be near, if they may meet before a window ends: when they may, or
-  /// +infinity. Of two that touch or sense each other, find_known_pairs() takes care.
+  // Certificates of a body that has got a new swept sphere.
+  /// Certifies a pair found by a search and adds a certificate to `found` if the two may meet before the
+  /// earlier window end. Returns the failure time, or +infinity if none was added. Linked pairs are left to
+  /// certify_linked().
   double certify(std::uint32_t a, std::uint32_t b, SearchResults& found) const;
-  /// With those that it touches or senses.
+  /// Certifies the body with each body that it touches or senses.
   void certify_linked(std::uint32_t number, SearchResults& found) const;
-  /// With the walls, which it may reach or leave before its window ends.
+  /// Certifies the body with the walls that it may reach or leave before its window ends.
   void certify_walls(std::uint32_t number, SearchResults& found) const;
 
  private:
   const Bodies& bodies() const { return state_.bodies; }
   const ContactGraph& contacts() const { return state_.contacts; }
-  /// A body of another island that may be changing it now; null for all others.
+  /// Returns the checkpoint of a body that another cluster may be changing concurrently; nullptr for all
+  /// other bodies.
   const BodyCheckpoint* checkpoint_of(std::uint32_t number) const {
     return log_ ? log_->checkpoint_of(number) : nullptr;
   }
@@ -131,7 +136,7 @@ class PairCertifier {
 
   const WorldState& state_;
   double time_;
-  const SpeculationLog* log_;  ///< null for an island with all bodies
+  const SpeculationLog* log_;  ///< nullptr for the processor with all bodies
 };
 
 template <class Visit>

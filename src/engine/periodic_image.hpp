@@ -1,9 +1,9 @@
-// In which image a body is, where space repeats.
+// PeriodicImage records which image of a body is stored in periodic space.
 //
-// The image in which two bodies can meet is the one in which the middles of their capsules are nearest
-// (space/space.hpp). A body's bound is in one image: reports are moved to that nearest to the bound, and a
-// new capsule brings both home to the primary box. Of fixed bodies there are only balls there, which are
-// bounds at rest.
+// Two bodies can meet in the image in which the centres of their swept spheres are nearest (space/space.hpp).
+// A bound is in one image: a report is shifted to the image nearest to the bound, and each new swept sphere
+// moves both to the primary box. The only static bodies in periodic space are balls, whose bounds stand
+// still.
 #pragma once
 
 #include <algorithm>
@@ -14,25 +14,27 @@
 namespace kinesphere {
 
 struct PeriodicImage {
-  Vec3 middle{};  ///< of the body's capsule, which tells in which image it can meet others
+  /// centre of the body's swept sphere; it selects the image in which the body can meet others
+  Vec3 middle{};
   /// Largest magnitude of an image count; fits into 64 bits.
   static constexpr double most_images = 0x1p62;
 
   /// Whole numbers: bound.position + image * period is on the path since the caller placed the body.
   Vec3 image{};
 
-  /// The capsule goes home, from around a way: the shift from there to where it was.
+  /// Moves the image so that the centre of the box around the path is in the primary box. Returns the shift
+  /// from the new position to the old one.
   Vec3 wrap(const Space& space, const Box& way) {
     const auto [home, images] = space.wrapped(0.5 * (way.lower + way.upper));
     middle = home;
     if (images == Vec3{}) return {};
     image += images;
-    // Counts saturate: at times that cannot tell a period from the next, ways are as long as any number of
-    // periods.
+    // Counts saturate, because paths span any number of periods at times too coarse to distinguish periods.
     for (int axis = 0; axis < 3; ++axis) image[axis] = std::clamp(image[axis], -most_images, most_images);
     return space.shift_of(images);
   }
-  /// Whole numbers, and none on axes that do not repeat; the middle is a point.
+  /// Returns true if the counts are whole numbers, zero on axes that are not periodic, and the centre is
+  /// finite.
   bool is_valid(const Space& space) const {
     if (!is_finite(middle)) return false;
     for (int axis = 0; axis < 3; ++axis) {

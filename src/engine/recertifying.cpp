@@ -1,5 +1,5 @@
-// Settling: bodies get capsules one by one, and the pairs that may change before their windows end become
-// hot.
+// Recertification: single bodies get new swept spheres, and certificates for the pairs that may change before
+// their windows end.
 #include <algorithm>
 #include <cmath>
 
@@ -8,13 +8,13 @@
 #include "number/powers.hpp"
 
 namespace kinesphere {
-/// A capsule and hot pairs for each dirty body.
+/// Gives each dirty body a new swept sphere and new certificates.
 Result<void> EventProcessor::recertify_dirty() {
-  // Some have been removed or disabled since, or have started with all others.
+  // Listed bodies may have been removed, disabled or restarted with all others since.
   round_ = dirty_.sort(bodies());
   PoolLease alone;
   if (auto probed = probe_stale(round_, alone); !probed) return probed.error();
-  // Broken promises may have made further bodies dirty.
+  // Reports that violate bounds may have made further bodies dirty.
   round_ = dirty_.numbers();
   recertify(round_);
   for (const std::uint32_t number : round_) bodies()[number].mark_visited();
@@ -28,11 +28,11 @@ void EventProcessor::recertify(std::span<const std::uint32_t> numbers) {
   search(numbers);
 }
 
-/// Of bodies that have a new capsule.
+/// Searches for the neighbours of bodies that have a new swept sphere, and certifies the pairs.
 void EventProcessor::search(std::span<const std::uint32_t> numbers) {
   work_.counters.restarts += numbers.size();
   if (!log_) state_->broad_phase.tidy();
-  // An island that stopped to claim a body may have left something.
+  // A run that stopped at a conflict may have left results.
   found_.clear();
   const PairCertifier certifier = this->certifier();
   for (const std::uint32_t number : numbers) {
@@ -57,7 +57,7 @@ void EventProcessor::search(std::span<const std::uint32_t> numbers) {
   found_.hand_over(queue_, work_.counters);
 }
 
-/// A window that the body has for itself ends.
+/// Starts a new window for a body whose individual window ends.
 Result<void> EventProcessor::renew(std::uint32_t number) {
   const WindowChoice pacing = this->window_choice();
   if (pacing.needs_report(number)) {
@@ -71,8 +71,8 @@ Result<void> EventProcessor::renew(std::uint32_t number) {
   return {};
 }
 
-/// The body gets a capsule from now on. That it was kicked does not end the phase, so its window may end
-/// before.
+/// Registers a swept sphere of the body from now on. A velocity change does not end the epoch, so the window
+/// may end earlier; a window_end certificate then renews it. A relocated body shortens the epoch instead.
 void EventProcessor::enter(std::uint32_t number, const Window& window) {
   const Body& body = bodies()[number];
   if (bodies().space().repeats())
@@ -90,7 +90,7 @@ void EventProcessor::enter(std::uint32_t number, const Window& window) {
   }
 }
 
-/// The bodies whose capsules may touch the body's new one; some of them need not.
+/// Returns the bodies whose swept spheres may touch the new one of the body. The result may contain others.
 std::span<const std::uint32_t> EventProcessor::near(std::uint32_t number) {
   const InflatedBound bound = inflated_bound(bodies(), number, time_);
   std::vector<std::uint32_t>& numbers =

@@ -1,5 +1,5 @@
-// Looking at pairs that are due: from bounds as they are, whether they can have changed; and if so, from
-// fresh reports, whether they have.
+// Rechecks of certificates that are due: the current bounds decide whether a contact can have changed; if so,
+// fresh reports decide whether it has.
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +8,7 @@
 
 namespace kinesphere {
 
-/// A pair that was taken out of the agenda is put back unless it has been looked at.
+/// Returns a certificate to the queue unless its recheck has completed.
 class EventProcessor::RequeueGuard {
  public:
   RequeueGuard(EventProcessor& island, const PairCertificate& pair) : processor_(island), pair_(pair) {}
@@ -38,7 +38,7 @@ Result<void> EventProcessor::recheck_pair(std::uint32_t a, std::uint32_t b) {
   ++work_.counters.pair_checks;
   const PairCertifier certifier = this->certifier();
   const double end = certifier.earliest_window_end(a, b);
-  // A broken promise makes a body dirty, and then it gets all its pairs anew.
+  // A violated bound makes a body dirty; recertification then creates all its certificates.
   while (!bodies()[a].dirty && !bodies()[b].dirty) {
     const bool fresh = bodies()[a].fresh(time_) && bodies()[b].fresh(time_);
     if (fresh) {
@@ -58,8 +58,8 @@ Result<void> EventProcessor::recheck_pair(std::uint32_t a, std::uint32_t b) {
   return {};
 }
 
-/// Probes the body whose report is older; the second one, if they are of the same age. One of them at least
-/// is not fresh.
+/// Probes the body with the older report, or the second one if both are equally old. Precondition: at least
+/// one of them is not fresh.
 Result<void> EventProcessor::probe_staler(std::uint32_t a, std::uint32_t b) {
   const bool a_is_staler = bodies()[a].bound.time < bodies()[b].bound.time;
   const bool a_is_asked = !bodies()[a].fresh(time_) && (a_is_staler || bodies()[b].fresh(time_));
@@ -67,7 +67,8 @@ Result<void> EventProcessor::probe_staler(std::uint32_t a, std::uint32_t b) {
   return probe(std::span(&staler, 1));
 }
 
-/// What the fresh reports of two bodies say: when to look again, unless there is news to be told first.
+/// Applies the contact rule to the fresh reports of two bodies. Returns the time of the next recheck, or
+/// nullopt if an event must be delivered first.
 std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t b) {
   const PairCertifier certifier = this->certifier();
   const double end = certifier.earliest_window_end(a, b);
@@ -88,8 +89,8 @@ std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t
   return next;
 }
 
-/// Holds fresh reports against the contact rule. Announces what is news; unless that is a begin or an end,
-/// tells how long the threshold cannot be crossed.
+/// Applies the contact rule to fresh reports. Queues the events that result. Returns the time before which
+/// the threshold cannot be crossed, or nullopt if a begin or an end was queued.
 template <class Partner>
 std::optional<double> EventProcessor::decide(const ContactPredictor<Partner>& predictor,
                                              const Threshold& threshold, Event current,
@@ -109,7 +110,7 @@ std::optional<double> EventProcessor::decide(const ContactPredictor<Partner>& pr
   return verdict.next_check;
 }
 
-/// The walls of a body are due.
+/// Rechecks the certificate of a body and the walls.
 Result<void> EventProcessor::recheck_walls(std::uint32_t number) {
   ++work_.counters.wall_checks;
   const PairCertifier certifier = this->certifier();
@@ -130,8 +131,8 @@ Result<void> EventProcessor::recheck_walls(std::uint32_t number) {
   return {};
 }
 
-/// Holds the fresh report of a body against each wall that it touches or may reach. The others cannot change
-/// anything before its window ends.
+/// Applies the contact rule to the fresh report of a body, for each wall that it touches or may reach. The
+/// other walls cannot matter before its window ends.
 std::optional<double> EventProcessor::decide_walls(std::uint32_t number) {
   const Body& body = bodies()[number];
   const double end = certifier().window_end_of(number);

@@ -11,7 +11,7 @@
 namespace kinesphere {
 namespace {
 
-/// So many are worth the while of a thread.
+/// Minimum reports per parallel chunk; below this, dispatch costs more than probing.
 constexpr std::size_t reports_at_once = 512;
 
 }  // namespace
@@ -21,7 +21,7 @@ Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double
                                                           PoolLease& shift) {
   ask_for(bodies, time, numbers, shift);
   violations_.clear();
-  // Most are asked one by one.
+  // Most calls concern one body.
   if (numbers.size() == 1) {
     if (auto valid = check(bodies, time, 0); !valid) return valid.error();
     apply(bodies, time, 0, 1, violations_);
@@ -48,7 +48,7 @@ void Reports::ask_for(const Bodies& bodies, double time, std::span<const std::ui
   });
 }
 
-/// As many as there are if none is.
+/// Returns the index of the first invalid report, or the number of reports if all are valid.
 std::size_t Reports::first_bad(const Bodies& bodies, double time, PoolLease& shift) const {
   std::size_t first = ids_.size();
   std::mutex mutex;
@@ -70,7 +70,7 @@ Result<void> Reports::check(const Bodies& bodies, double time, std::size_t k) co
 void Reports::apply_all(Bodies& bodies, double time, PoolLease& shift) {
   PoolLease alone;
   std::mutex mutex;
-  // What was changed since the last report is in a table of all bodies.
+  // Pending changes are in a table shared by all bodies, so applying them is not thread-safe.
   (bodies.changes.empty() ? shift : alone)
       .parallel_for(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
         std::vector<Violation> some;

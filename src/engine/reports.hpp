@@ -1,4 +1,4 @@
-// Reports: asking for states, refusing bad ones, and noticing broken promises.
+// Reports probes bodies, rejects invalid reports and detects violated bounds.
 #pragma once
 
 #include <cstddef>
@@ -17,23 +17,24 @@ namespace kinesphere {
 
 class Reports {
  public:
-  /// The k-th report does not fit what its body promised.
+  /// The k-th report violates the bound of its body.
   struct Violation {
     std::size_t k;
-    Vec3 velocity;  ///< as it was reported
+    Vec3 velocity;  ///< as reported
     BoundViolation limits;
   };
 
-  /// Whom to ask from now on, in the call of this name.
+  /// Sets the probe to call from now on, and the name of the API call, for error messages. The probe must
+  /// outlive its use here.
   void ask(const Probe& probe, std::string_view call) {
     probe_ = &probe;
     call_ = call;
   }
   bool is_asking() const { return asking_; }
 
-  /// Asks for the states of bodies at a time, several threads at once if the shift has them. Their bounds
-  /// start anew from there. Returns the broken promises, in the order in which the bodies were asked; good
-  /// until the next call. Errors: a state that is none; then all bounds stay as they were.
+  /// Probes bodies at a time, with several threads if `shift` has them, and starts their bounds anew from the
+  /// reports. Returns the violated bounds in the order of `numbers`; the span is valid until the next call.
+  /// Errors: an invalid state; then all bounds are unchanged.
   Result<std::span<const Violation>> take(Bodies& bodies, double time, std::span<const std::uint32_t> numbers,
                                           PoolLease& shift);
   std::size_t bytes() const;
@@ -46,11 +47,11 @@ class Reports {
   void apply(Bodies& bodies, double time, std::size_t from, std::size_t to,
              std::vector<Violation>& broken) const;
 
-  // During a call that may probe.
+  // Set during calls that may probe.
   const Probe* probe_ = nullptr;
-  std::string_view call_;  ///< its name, for messages
+  std::string_view call_;  ///< name of the API call, for error messages
   bool asking_ = false;
-  // Kept for their memory only.
+  // Members only to reuse their memory.
   std::vector<BodyId> ids_;
   std::vector<State> states_;
   std::vector<Violation> violations_;

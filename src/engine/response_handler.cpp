@@ -9,7 +9,7 @@ namespace kinesphere {
 
 Result<void> turn(MotionSource& source, const WorldDefinition& world, const Event& event,
                   const Response& answer) {
-  // Every state is known to be one before the first body departs.
+  // All states are validated before the first origin is set.
   std::optional<MotionOrigin> first, second;
   const auto make = [&](BodyId body, const std::optional<Vec3>& velocity,
                         std::optional<MotionOrigin>& origin) -> Result<void> {

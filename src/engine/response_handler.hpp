@@ -1,4 +1,4 @@
-// Who answers events while the world goes on by itself (World::run).
+// ResponseHandler responds to events during World::run().
 #pragma once
 
 #include "kinesphere/result.hpp"
@@ -7,23 +7,23 @@
 
 namespace kinesphere {
 
-/// May be used by several threads at the same time, for different bodies.
+/// Implementations may be called by several threads concurrently, for different bodies.
 class ResponseHandler {
  public:
   virtual ~ResponseHandler() = default;
 
-  /// What the event does to its bodies. Errors: an answer that is none.
+  /// Returns the response to the event. Errors: an invalid response.
   virtual Result<Response> respond(const Event& event) = 0;
-  /// Makes the bodies move on from the event as the answer says. Errors: a state that is none. After an error
-  /// or an exception no body has departed.
+  /// Sets the origins of the event's bodies according to the response. Errors: an invalid state. After an
+  /// error or an exception all origins are unchanged.
   virtual Result<void> apply(const Event& event, const Response& answer) = 0;
   virtual MotionOrigin origin(BodyId body) = 0;
-  /// Takes turns back.
+  /// Restores an origin, to roll back responses.
   virtual void set_origin(BodyId body, const MotionOrigin& origin) = 0;
 };
 
-/// Tells the mover of all new velocities, or of none: where it throws, and where a state that it gives is
-/// refused as a report of a probe is (check_report), which is the error returned.
+/// Sets the origins of all bodies with new velocities, or of none if the source throws or returns a state
+/// that check_report() refuses. Errors: those of check_report().
 Result<void> turn(MotionSource& source, const WorldDefinition& world, const Event& event,
                   const Response& answer);
 

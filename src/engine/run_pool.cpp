@@ -46,8 +46,8 @@ RunRecord RunPool::end(Worker& runner, std::uint32_t worker) {
   return runner.log.end(worker, runner.processor.work());
 }
 
-/// As World::Engine::advance(), but that no windows start. Where islands go nowhere, it settles what is
-/// unsettled.
+/// Advances the cluster as World::Engine::advance() does, except that no windows start. Only recertifies
+/// dirty bodies if the batch has no duration.
 Result<void> RunPool::advance(Worker& runner) {
   auto& [island, beside] = runner;
   if (!beside.batch->is_in_batch(island.time())) return island.recertify();

@@ -1,5 +1,5 @@
-// SpeculativeRunner that run: each thread has one, which runs for one group after the other, and the lists of
-// what came of them.
+// RunPool executes clusters. Each worker thread has one event processor, used for one cluster after the
+// other, and the log of what its clusters have done.
 #pragma once
 
 #include <cstddef>
@@ -17,20 +17,20 @@ namespace kinesphere {
 
 class RunPool {
  public:
-  /// One island for each worker. `answerer` may be null: then events get no answer.
+  /// Creates an event processor for each worker. `handler` may be null; then events get no response.
   RunPool(WorldState& tables, const EventProcessor& main, std::size_t workers, const Probe& probe,
           ResponseHandler* handler);
 
-  /// A part begins.
+  /// Clears all logs; call at the start of a batch.
   void clear();
-  /// Runs the group's island from where the part begins, as far as islands go, or to where it claims a body
-  /// that is not its own. Throws what a callback throws. Several threads may do that at the same time, each
-  /// as another worker, for different groups.
+  /// Executes the cluster from the start of the batch until its end, or until it conflicts with a body
+  /// outside the cluster. Thread-safe for different clusters and different workers. Throws what a callback
+  /// throws.
   void run(Cluster& group, std::span<const PairCertificate> due, BatchState& batch, std::uint32_t worker);
-  /// Of a group whose last attempt failed: none, where it had to stop.
+  /// Returns the error of a cluster whose last run failed; nullopt if it exceeded BatchState::most_updates.
   const std::optional<Error>& failure_of(const Cluster& group) const { return log_of(group).failure; }
 
-  // What came of a group in the last attempt; nothing, if it has been taken back.
+  // Results of the last run of a cluster; empty if it was rolled back.
   std::span<const EventInRound> events_of(const Cluster& group) const {
     return of(group, &SpeculationLog::events, &RunRecord::events);
   }
@@ -46,14 +46,15 @@ class RunPool {
   std::span<const UndoEntry> undo_log_of(const Cluster& group) const {
     return of(group, &SpeculationLog::undo_log, &RunRecord::undo_log);
   }
-  /// Also of one that has been taken back.
+  /// Also valid after a rollback.
   std::span<const std::uint32_t> conflicts_of(const Cluster& group) const {
     return group.record.conflicts.of(log_of(group).conflicts.all());
   }
-  /// Of one that has been attempted.
+  /// Precondition: the cluster has been executed.
   const WorkCounters& work_of(const Cluster& group) const { return log_of(group).work[group.record.work]; }
 
-  /// Lists forget what groups have done that were taken back since, when that is most of what they have.
+  /// Removes the records of rolled-back runs from the logs, if these are most of their entries. Cost:
+  /// O(entries) when it removes them.
   void drop_rolled_back(Clusters& groups, BatchState& batch);
 
  private:
@@ -75,7 +76,7 @@ class RunPool {
 
   ResponseHandler* handler_;
   std::vector<Worker> workers_;   ///< by worker
-  std::size_t updates_kept_ = 0;  ///< in the lists, when these were looked through
+  std::size_t updates_kept_ = 0;  ///< updates that remained when the logs were last examined
 };
 
 }  // namespace kinesphere

@@ -1,9 +1,9 @@
-// A flag that is up while something goes on.
+// ScopedFlag marks that an operation is in progress.
 #pragma once
 
 namespace kinesphere {
 
-/// Raises the flag, and lowers it when its scope is left, also by an exception.
+/// Sets the flag to true, and to false when its scope is left, also by an exception.
 class ScopedFlag {
  public:
   explicit ScopedFlag(bool& flag) : flag_(flag) { flag_ = true; }

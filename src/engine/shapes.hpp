@@ -1,4 +1,4 @@
-// The shapes of fixed bodies: Body::shape_number is a place in their table.
+// Shapes stores the shapes of static bodies; Body::shape_number is an index into it.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@ namespace kinesphere {
 
 class Shapes {
  public:
-  /// There never was a fixed body.
+  /// Returns true if there has never been a static body.
   bool empty() const { return shapes_.empty(); }
-  /// There is a fixed body now.
+  /// Returns true if there is a static body now.
   bool any() const { return shapes_.size() > free_.size(); }
-  /// Of a fixed body.
+  /// Returns the shape of a static body.
   const Shape& of(const Body& body) const { return shapes_[body.shape_number]; }
   void add(Body& body, const Shape& shape) {
     if (free_.empty()) {
@@ -27,12 +27,12 @@ class Shapes {
       shapes_[body.shape_number] = shape;
     }
   }
-  /// Of a body that goes.
+  /// Removes the shape of a body that is being removed, if it has one.
   void remove(const Body& body) {
     if (body.is_static()) free_.push_back(body.shape_number);
   }
 
-  /// Of one that was read: each shape belongs to one body or is free.
+  /// Returns true if each shape belongs to one body or is free. Call after reading.
   bool is_valid(const BodyTable& bodies) const;
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {

@@ -1,5 +1,5 @@
-// What is known of a few bodies only: a table beside that of all bodies, without gaps. A body has the place
-// of its record, and the record the number of its body.
+// SideTable stores a property that few bodies have, without gaps. A body stores the index of its record, and
+// the record the number of its body.
 #pragma once
 
 #include <algorithm>
@@ -15,18 +15,18 @@ template <class Record, std::uint32_t Body::*place>
 class SideTable {
  public:
   bool empty() const { return records_.empty(); }
-  /// Null for a body that has none.
+  /// Returns nullptr if the body has no record.
   const Record* find(const Body& body) const {
     return body.*place == Body::none ? nullptr : &records_[body.*place];
   }
-  /// Of a body that has none.
+  /// Precondition: the body has no record.
   Record& add(Body& body, const Record& record) {
     body.*place = static_cast<std::uint32_t>(records_.size());
     return records_.emplace_back(record);
   }
   Record& operator[](const Body& body) { return records_[body.*place]; }
-  /// Nothing, for a body that has none. The last record takes its place. `bodies` are those of all records,
-  /// by number.
+  /// Removes the record of the body, if there is one. The last record takes its index. `bodies` contains the
+  /// bodies of all records, by number.
   template <class Numbered>
   void remove(Numbered& bodies, std::uint32_t number) {
     const std::uint32_t gap = bodies[number].*place;
@@ -37,7 +37,7 @@ class SideTable {
     records_.pop_back();
   }
 
-  /// Of one that was read: each record is that of one body.
+  /// Returns true if each record belongs to one body. Call after reading.
   template <class Numbered>
   bool is_valid(const Numbered& bodies) const {
     for (std::uint32_t record = 0; record < records_.size(); ++record) {

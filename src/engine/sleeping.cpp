@@ -17,7 +17,8 @@ void Sleeping::sleep(std::uint32_t number) {
   processor_.invalidate(number);
 }
 
-/// If there has been no report since it rests, the change that waits for one tells all that.
+/// If there has been no report since the body fell asleep, the pending change contains the velocity and the
+/// limits.
 void Sleeping::resume(std::uint32_t number) {
   Body& body = bodies()[number];
   const bool known = body.is_at_rest();
@@ -26,7 +27,7 @@ void Sleeping::resume(std::uint32_t number) {
   if (known) body.bound = bound_of(definition, {body.bound.position, {}}, processor_.time());
 }
 
-/// As resume(), and the caller will be told.
+/// Wakes the body as resume() does, and queues an event EventKind::woke.
 void Sleeping::wake_one(std::uint32_t number) {
   resume(number);
   processor_.invalidate(number);

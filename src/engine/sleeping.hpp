@@ -1,13 +1,13 @@
-// Rest: bodies whose caller says that they stay where they are, and what wakes them.
+// Sleeping handles bodies that the caller put to sleep, and what wakes them.
 //
-// A body at rest has a bound that stands still, without velocity, plan, growth or limits. Everything else
-// follows from that by the common rules: its report never becomes old, its window has no end, and neither
-// have facts about it and others that stand still. What it promises once it is awake waits in a table of its
-// own.
+// A sleeping body has a bound that stands still: no velocity, planned acceleration, growth or limits. The
+// rest follows from the general rules: its report never becomes old, its window has no end, and neither have
+// certificates with other bodies that stand still. The motion limits that apply after it wakes are in a side
+// table.
 //
-// Bodies in touch wake together. That is decided by their gaps now, not by the contacts in the book, which
-// forgets bouncing bodies that do not approach; and by a search, to which bodies that were changed since the
-// last advance are added.
+// Bodies in contact wake together, as an island. Contact is decided from current gaps, not from the contact
+// graph, which drops bouncing bodies that do not approach. The search includes bodies that were changed since
+// the last advance.
 #pragma once
 
 #include <cstdint>
@@ -23,14 +23,15 @@ class Sleeping {
  public:
   Sleeping(WorldState& tables, EventProcessor& island) : state_(tables), processor_(island) {}
 
-  /// The body rests from now on.
+  /// Puts the body to sleep from the current time on.
   void sleep(std::uint32_t number);
-  /// A body that rests is awake: from here, without velocity, with the limits that it had.
+  /// Wakes a sleeping body at its position, with zero velocity and its earlier motion limits, without an
+  /// event.
   void resume(std::uint32_t number);
-  /// The body, if it rests, and all resting bodies in touch with it, with those, and so on, are awake; the
-  /// caller will be told. Cost: a search for each of them.
+  /// Wakes the body if it sleeps, and all sleeping bodies connected to it by contacts. Queues an event for
+  /// each body that wakes. Cost: one search per body.
   void wake(std::uint32_t number);
-  /// The same where something has touched or left a body.
+  /// Wakes sleeping bodies of a contact begin or end, as wake() does.
   void wake_by(const Event& event);
 
  private:

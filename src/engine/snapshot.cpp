@@ -1,9 +1,9 @@
-// Snapshots: the whole state of a world as bytes, and back.
+// Snapshots: conversion of the whole state of a world to bytes and back.
 //
-// Everything is kept as it stands, the places of capsules in their layers included: what a search meets first
-// decides who is probed first, so only the same order goes on the same way. Of the agenda only hot pairs that
-// hold are kept: it gives them in the order of their times and numbers, however it has divided time. Memory
-// that is merely kept for later is not part of it.
+// All state is saved as it is, including the slots of swept spheres in their grid levels: the order in which
+// a search finds bodies decides the order of probes, so only an identical order continues identically. The
+// queue is saved as its valid certificates only, in the order of times and numbers, which does not depend on
+// its buckets. Spare memory is not saved.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -22,8 +22,7 @@
 namespace kinesphere {
 namespace {
 
-/// Raise the version when the fields change, or when the engine would go on from the same fields in another
-/// way.
+/// Raise the version if the fields change, or if the engine would continue differently from the same fields.
 constexpr Envelope world_envelope{{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'},
                                   16,
                                   "world",
@@ -31,7 +30,7 @@ constexpr Envelope world_envelope{{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'},
                                   "snapshot",
                                   ErrorCode::bad_snapshot};
 
-/// The end of a window that has a beginning within the limits of times, or infinity.
+/// Returns true for infinity and for ends of windows that begin within the time limits.
 bool is_time_of_window_end(double end) { return end == infinity || std::abs(end) <= Window::latest_end; }
 
 Error refusal(const std::string& what) { return world_envelope.refusal(what); }
@@ -40,10 +39,10 @@ Error refusal(const std::string& what) { return world_envelope.refusal(what); }
 
 template <class Self, class Archive>
 void World::Engine::serialize(Self& self, Archive& archive) {
-  // The definition comes first, as an engine is made from it. The tag is left out (BodyId::world).
+  // The definition comes first, since an engine is constructed from it. The tag is omitted (BodyId::world).
   archive(self.state_.bodies, self.state_.contacts, self.state_.broad_phase, self.state_.window_policy,
           self.main_);
-  // Of the agenda what counts, in an order of its own: not what is void, nor how it has divided time.
+  // The queue is saved as its valid certificates in sorted order, without stale ones and without its buckets.
   if constexpr (std::is_const_v<Self>) {
     std::vector<PairCertificate> pairs = self.certificates();
     std::sort(pairs.begin(), pairs.end());
@@ -82,11 +81,11 @@ Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const st
   return engine;
 }
 
-/// The part of a state that was read, if any, that cannot have come about. What passes may be another world
-/// than the one that was saved, but is one in which every call is safe.
+/// Returns the name of the part of a state that no sequence of calls could have produced, or nullptr. A state
+/// that passes may differ from the saved one, but every call is safe on it.
 const char* World::Engine::first_invalid_part() const {
   if (!(std::abs(time()) <= limits::largest_time) || !is_time_of_window_end(main_.epoch_end())) return "time";
-  // Windows that many bodies share have lengths that the tempo chose.
+  // Shared windows have lengths that the window policy chose.
   if (!state_.window_policy.is_chosen() && main_.epoch_end() < infinity) return "windows";
   if (const char* where = bodies().first_invalid_part(time(), main_.dirty().numbers())) return where;
   const auto known = [this](BodyId id) { return bodies().table().was_given_out(id); };
@@ -109,7 +108,7 @@ const char* World::Engine::first_invalid_part() const {
   return nullptr;
 }
 
-/// Hot pairs, which wait to be put into the agenda, are those of bodies which are registered.
+/// Certificates that were read must belong to registered bodies.
 bool World::Engine::queue_is_valid() const {
   const auto takes_part = [this](std::uint32_t number) {
     return number < bodies().numbers() && bodies()[number].present() && broad_phase().contains(number);
@@ -128,7 +127,7 @@ bool World::Engine::queue_is_valid() const {
   return std::all_of(read_pairs_.begin(), read_pairs_.end(), is_valid);
 }
 
-/// A body whose window ends within the phase has a renewal by then.
+/// Each body whose window ends within the epoch must have a window_end certificate by then.
 bool World::Engine::window_ends_are_valid() const {
   std::vector<bool> is_renewed(bodies().numbers(), false);
   for (const PairCertificate& pair : read_pairs_)
@@ -141,7 +140,7 @@ bool World::Engine::window_ends_are_valid() const {
   return true;
 }
 
-/// Fixed bodies touch neither each other nor walls, and are not about to.
+/// Static bodies must neither touch each other or walls, nor have such events pending.
 bool World::Engine::static_contacts_are_valid() const {
   const auto fixed = [this](std::uint32_t number) { return bodies()[number].is_static(); };
   const auto lives_fixed = [&](BodyId id) { return id == bodies().id_of(id.index) && fixed(id.index); };
@@ -154,7 +153,8 @@ bool World::Engine::static_contacts_are_valid() const {
                     [&](const OverlapRecord& c) { return fixed(c.partner); }))
       return false;
   }
-  // One may have got the index of a body that has gone; then it is dirty, and the pair is not looked at.
+  // A static body may have reused the number of a removed body; then it is dirty, and the pair is not
+  // rechecked.
   const auto settled_fixed = [&](std::uint32_t number) {
     return fixed(number) && bodies()[number].present() && !bodies()[number].dirty;
   };

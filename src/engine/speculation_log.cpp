@@ -21,7 +21,7 @@ void EventProcessor::begin(SpeculationLog& log, std::span<const PairCertificate>
   work_ = {};
 }
 
-/// Whom the body touches or senses, the island has to have too.
+/// Adds bodies that the body touches or senses to the conflicts if they are outside the cluster.
 void EventProcessor::note_linked_conflicts(std::uint32_t number) {
   const auto set = [this](std::uint32_t other) {
     if (!log_->is_own(other) && !bodies()[other].is_static()) log_->conflicts.add(other);
@@ -30,11 +30,12 @@ void EventProcessor::note_linked_conflicts(std::uint32_t number) {
   for (const OverlapRecord& overlap : contacts().overlaps_of(number)) set(overlap.partner);
 }
 
-/// With one that is not its own: that one is claimed, if the two have to be looked at in this part.
+/// Certifies the body with one outside the cluster. Adds that one to the conflicts if the pair is due in this
+/// batch, otherwise to the read set.
 void EventProcessor::certify_speculatively(std::uint32_t number, std::uint32_t other) {
   assert(log_->is_own(number) && !log_->is_own(other));
   const PairCertifier certifier = this->certifier();
-  // What two in endless windows have to be looked at for is not known of another island's.
+  // The thresholds of a pair in endless windows depend on state of the other cluster that is unknown here.
   if (log_->checkpoint_of(other) != nullptr && certifier.earliest_window_end(number, other) == infinity)
     return log_->conflicts.add(other);
   const double until = certifier.certify(number, other, found_);

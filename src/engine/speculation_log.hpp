@@ -1,10 +1,12 @@
-// What an island knows that runs beside others: which bodies are its own, and what it does to them.
+// SpeculationLog contains what a cluster knows and does during speculative execution: its read set, its write
+// set (swept-sphere updates) and its events.
 //
-// Inside a part of a phase (islands.hpp) an island meets nobody else, unless one of its bodies is kicked:
-// that body's new capsule may touch others. While islands run, the capsules in the windows stay as they are,
-// for all; those of kicked bodies are kept here. A body of nobody's or of another island that a kicked one
-// may meet in time is claimed: then the island stops, and runs again with it from where the part began. One
-// that it may meet later is counted on to be as it was when the part began, up to the time of the kick.
+// Within a batch of an epoch (speculative_runner.hpp) a cluster meets no other body unless one of its bodies
+// changes its velocity: the new swept sphere of that body may touch others. During execution the broad phase
+// is read-only, and new swept spheres are stored here. If such a body may meet one outside the cluster within
+// the batch, that one is a conflict: the cluster stops, and is executed again from the start of the batch
+// with that body. If it may meet one later, that one joins the read set: it must be unchanged since the start
+// of the batch up to the time of the velocity change.
 #pragma once
 
 #include <algorithm>
@@ -29,39 +31,39 @@
 
 namespace kinesphere {
 
-/// A capsule that a body has from `time` on, in its new window.
+/// A swept sphere that a body has from `time` on, in its new window.
 struct SweptSphereUpdate {
   std::uint32_t number;
   std::uint32_t revision;
   double time;
   Window window;
   Bound bound;
-  Vec3 middle;  ///< where space repeats
+  Vec3 middle;  ///< centre of the path; used in periodic space only
   FirstChange first_change{};
 };
 
-/// An event, and in which round of its instant it came.
+/// An event, and in which round of its instant it was delivered.
 struct EventInRound {
   std::uint32_t round;
   Event event;
 };
 
-/// A body of another island, or of nobody's, and until when it has to be as it was when the part began.
+/// A body outside the cluster, and the time up to which it must be unchanged since the start of the batch.
 struct ReadEntry {
   std::uint32_t number;
   double time;
 };
 
-/// A body that was turned, and from where it had set out before.
+/// A body whose origin was changed, and its origin before the change.
 using UndoEntry = std::pair<BodyId, MotionOrigin>;
 
-/// What an island has done that is only counted.
+/// Work that is only counted.
 struct WorkCounters {
   Counters counters{};
-  RenewalCounts recertified{};  ///< bodies that were settled one by one
+  RenewalCounts recertified{};  ///< bodies that were recertified one by one
 };
 
-/// Where something stands in a list.
+/// A range of indices in a list.
 struct IndexRange {
   std::uint32_t begin = 0;
   std::uint32_t end = 0;
@@ -73,8 +75,8 @@ struct IndexRange {
   }
 };
 
-/// The lists of several islands, one behind the other: the last one is that of the island that runs now.
-/// Those of islands that have been taken back are still there.
+/// The concatenated lists of several clusters; the last one belongs to the cluster that is being executed.
+/// Lists of rolled-back runs stay until they are compacted (RunPool::drop_rolled_back).
 template <class T>
 class SegmentedList {
  public:
@@ -82,10 +84,10 @@ class SegmentedList {
     all_.clear();
     begin_ = 0;
   }
-  /// The next list begins.
+  /// Starts the list of the next cluster.
   void start() { begin_ = static_cast<std::uint32_t>(all_.size()); }
   void add(const T& one) { all_.push_back(one); }
-  /// The same list here: where it stands.
+  /// Copies a list from another object. Returns its range here.
   IndexRange add(const SegmentedList& other, const IndexRange& other_range) {
     start();
     const std::span<const T> list = other_range.of(other.all_);
@@ -104,7 +106,7 @@ class SegmentedList {
   std::uint32_t begin_ = 0;
 };
 
-/// What came of an island: where it stands in the lists of the thread that ran it.
+/// The result of a run: its ranges in the lists of the worker that executed it.
 struct RunRecord {
   std::uint32_t worker = 0;
   std::uint32_t work = 0;
@@ -116,22 +118,21 @@ struct RunRecord {
   IndexRange undo_log{};
 };
 
-/// What one island knows, and what it has done that others have to see; with the lists of those that the same
-/// thread has run before it in this part.
+/// The log of one run, with the lists of runs that the same worker executed before in this batch.
 struct SpeculationLog {
   BatchState* batch = nullptr;
   std::uint32_t index = BatchState::unassigned;
   SegmentedList<EventInRound> events;
-  SegmentedList<SweptSphereUpdate> updates;   ///< in the order of their times
-  SegmentedList<PairCertificate> late_pairs;  ///< that are due later
-  SegmentedList<std::uint32_t> conflicts;     ///< whom else it needs
-  SegmentedList<ReadEntry> read_set;          ///< with whom it has pairs that are due later
+  SegmentedList<SweptSphereUpdate> updates;   ///< ordered by time
+  SegmentedList<PairCertificate> late_pairs;  ///< certificates due after the batch
+  SegmentedList<std::uint32_t> conflicts;     ///< bodies that the cluster needs
+  SegmentedList<ReadEntry> read_set;  ///< bodies outside the cluster with certificates due after the batch
   SegmentedList<UndoEntry> undo_log;
   std::vector<WorkCounters> work;
-  /// Of the first of these islands that has failed.
+  /// Error of the first of these runs that failed.
   std::optional<Error> failure;
 
-  /// A part begins.
+  /// Clears all lists; call at the start of a batch.
   void clear() {
     events.clear();
     updates.clear();
@@ -163,7 +164,8 @@ struct SpeculationLog {
             read_set.range(),
             undo_log.range()};
   }
-  /// All has to be answered one by one then.
+  /// Returns true if the cluster has too many updates; the run then fails, and events are processed one by
+  /// one.
   bool is_full() const { return updates.size() > batch->most_updates; }
   bool is_own(std::uint32_t number) const { return batch->slots[number].cluster == index; }
   void add(const SweptSphereUpdate& update) {
@@ -173,18 +175,18 @@ struct SpeculationLog {
     batch->slots[update.number].update = updates.range().end;
     updates.add(update);
   }
-  /// One of its own is reported, or gets another capsule.
+  /// Records that a body of the cluster is probed or gets a new swept sphere.
   void note_change(std::uint32_t number, double time) {
     double& first = first_change(number).changed;
     first = std::min(first, time);
   }
-  /// A body of another island, which may be changing it now, as it was when the part began; null for all
-  /// others.
+  /// Returns the checkpoint of a body that another cluster may be changing concurrently; nullptr for all
+  /// other bodies.
   const BodyCheckpoint* checkpoint_of(std::uint32_t number) const {
     const std::uint32_t island = batch->slots[number].cluster;
     return island == index || island == BatchState::unassigned ? nullptr : batch->checkpoint_of(number);
   }
-  /// Calls visit(number) for each body that has been kicked.
+  /// Calls visit(number) for each body that has been updated in this run.
   template <class Visit>
   void for_each_updated(Visit visit) const {
     const auto [first, last] = updates.range();
@@ -205,7 +207,8 @@ struct SpeculationLog {
     return place.update != BatchState::none ? updates.all()[place.update].revision
                                             : batch->checkpoints[place.checkpoint].body.body.revision;
   }
-  /// Of one of its own: since its last kick or, if there was none, since the part began.
+  /// Returns the first changes of a body of the cluster since its last update or, without one, since the
+  /// start of the batch.
   FirstChange& first_change(std::uint32_t number) {
     assert(is_own(number));
     const BatchState::BodySlot& place = batch->slots[number];

@@ -26,7 +26,8 @@ SpeculativeRunner::SpeculativeRunner(WorldState& tables, EventProcessor& main, P
 bool SpeculativeRunner::run(double until, std::deque<Event>& events) {
   const Bodies& bodies = state_.bodies;
   assert(main_.is_certified());
-  // What these do reaches beyond an island, or asks the caller's own code in the middle of one.
+  // Sleep records and pending changes have effects beyond a cluster; a pair filter is user code that would be
+  // called during speculation.
   if (!bodies.sleep_records.empty() || !bodies.changes.empty() || bodies.filters.has_pair_filter())
     return false;
   if (sizer_.skips_epoch()) return false;
@@ -56,7 +57,7 @@ double SpeculativeRunner::take_due(double until, double latest) {
 
 void SpeculativeRunner::begin_batch(double stop) {
   batch_.stop = stop;
-  // Those that are due later were taken for a longer part.
+  // Certificates due after `stop` were taken for a longer batch.
   const auto later = std::partition_point(
       due_.begin(), due_.end(), [=](const PairCertificate& pair) { return pair.failure_time < stop; });
   std::for_each(later, due_.end(), [this](const PairCertificate& pair) { main_.queue().add(pair); });
@@ -68,7 +69,7 @@ void SpeculativeRunner::begin_batch(double stop) {
   cross_pairs_.clear();
   clusters_.form(due_, state_.bodies, batch_.slots);
   batch_.has_checkpoint.clear();
-  // With room for those that are claimed, so that the list rarely has to grow while something is in it.
+  // Spare room for bodies added by conflicts, so that the list rarely grows while it has contents.
   if (batch_.checkpoints.size() < clusters_.checkpoint_count())
     batch_.checkpoints = std::vector<BodyCheckpoint>(2 * clusters_.checkpoint_count());
   InitialWork unsettled;
@@ -84,7 +85,7 @@ void SpeculativeRunner::end_batch() {
   state_.contacts.stop_side_by_side();
 }
 
-/// There are enough, and most of the work is not in one of them.
+/// Returns true if there are enough clusters and none has half of the due pairs or more.
 bool SpeculativeRunner::is_worthwhile() const {
   constexpr std::size_t few = 16;
   std::size_t all = 0;
@@ -127,7 +128,8 @@ void SpeculativeRunner::add(const InitialWork& more) {
     group_with({state_.bodies.table().number_of(event.first)}).pending.push_back(event);
 }
 
-/// False when one of them has failed, or so many run again and again that others had better do it.
+/// Returns false on failure, or when rollbacks exceed 8 times the first-run work; the caller falls back to
+/// advance().
 bool SpeculativeRunner::execute_found() {
   if (exception_) return false;
   if (sizer_.repeats_too_often()) return false;
@@ -136,7 +138,7 @@ bool SpeculativeRunner::execute_found() {
   batch_.has_checkpoint.resize(clusters_.checkpoint_count(), 0);
   if (batch_.checkpoints.size() < clusters_.checkpoint_count())
     batch_.checkpoints.resize(clusters_.checkpoint_count());
-  // The large ones first, so that nobody waits for them in the end.
+  // Large clusters start first, so that no worker waits for them at the end.
   constexpr std::size_t large = 16;
   std::stable_partition(to_run_.begin(), to_run_.end(),
                         [this](std::uint32_t own) { return clusters_[own].due.size() >= large; });
@@ -157,7 +159,7 @@ bool SpeculativeRunner::execute_found() {
                           }
                         });
   } catch (const std::exception& thrown) {
-    // It comes again where events are answered one by one, if it comes again.
+    // A callback that throws again does so when events are processed one by one.
     failure_ = Error{ErrorCode::callback_threw, "callback", no_body, thrown.what()};
     return false;
   } catch (...) {
@@ -167,14 +169,16 @@ bool SpeculativeRunner::execute_found() {
   conflicts_.note_runs(to_run_);
   for (const std::uint32_t own : to_run_) {
     if (!clusters_[own].failed) continue;
-    // None where it had to stop; and where that was not so, it is the first of its worker that failed.
+    // No error exists if the run exceeded the maximum number of updates. Otherwise this is the first error of
+    // its worker.
     failure_ = pool_.failure_of(clusters_[own]);
     return false;
   }
   return true;
 }
 
-/// As the bodies are when the part begins. Others may look at that while the group runs.
+/// Saves the state of the cluster's bodies at the start of the batch. Other clusters may read it during the
+/// run.
 void SpeculativeRunner::checkpoint(const Cluster& group) {
   for (const std::uint32_t number : clusters_.members_of(group)) {
     const std::uint32_t place = batch_.slots[number].checkpoint;
@@ -194,7 +198,7 @@ void SpeculativeRunner::rollback() {
   main_.queue().add_all(deferred_);
 }
 
-/// As if the group had never been attempted.
+/// Restores the state before the first run of the cluster.
 void SpeculativeRunner::rollback(Cluster& group) {
   if (!group.executed) return;
   for (const std::uint32_t number : members_of(group)) {
@@ -206,13 +210,13 @@ void SpeculativeRunner::rollback(Cluster& group) {
     before.first_change = {};
     place.update = BatchState::none;
   }
-  // A body that turned several times set out from where it did before the first.
+  // Origins are restored in reverse order, so that a body changed several times gets its first origin.
   const std::span<const UndoEntry> turned = undo_log_of(group);
   std::for_each(turned.rbegin(), turned.rend(), [this](const UndoEntry& turn) { restore_origin(turn); });
   group.executed = false;
 }
 
-/// All others have to go back, too, before anybody learns that this one did not.
+/// Restores one origin. An exception is stored, so that all other bodies are restored before it is rethrown.
 void SpeculativeRunner::restore_origin(const UndoEntry& turn) {
   try {
     handler_->set_origin(turn.first, turn.second);
@@ -229,7 +233,8 @@ void SpeculativeRunner::add_member(Cluster& group, std::uint32_t number) {
   clusters_.add_member(group, number);
 }
 
-/// Needs two that are joined to no other; one that is to be joined with itself runs again.
+/// Rolls two clusters back and merges them. Precondition: neither is merged already. If both arguments are
+/// one cluster, it is executed again.
 void SpeculativeRunner::merge(Cluster& one, Cluster& other) {
   rollback(one);
   rollback(other);
@@ -237,8 +242,8 @@ void SpeculativeRunner::merge(Cluster& one, Cluster& other) {
   if (&one != &other) clusters_.merge(one, other);
 }
 
-/// Gives groups the bodies that they claim, and joins those that count on bodies that others have changed too
-/// early. True when some have to run again.
+/// Adds conflicting bodies to clusters, and merges a cluster with those that changed bodies of its read set
+/// too early. Returns true if clusters must be executed again.
 bool SpeculativeRunner::merge_conflicts() {
   bool any = false;
   for (const std::uint32_t own : to_run_) {
@@ -266,7 +271,8 @@ bool SpeculativeRunner::merge_read_sets() {
                           for (const auto& [number, time] : read_set_of(group)) {
                             const BodyCheckpoint* const before = checkpoint_of(number);
                             if (before == nullptr) continue;
-                            // Its new capsule is held against those of others by itself.
+                            // merge_updates() compares the new swept sphere of the body with those of other
+                            // clusters.
                             if (before->first_change.invalidated < time && sizer_.may_decline()) {
                               ++group.superseded;
                             } else if (before->first_change.changed <= time) {
@@ -288,7 +294,7 @@ bool SpeculativeRunner::merge_read_sets() {
   return any;
 }
 
-/// Of two bodies as they are after these kicks.
+/// Returns the certificate of two bodies in their state after these updates.
 PairCertificate SpeculativeRunner::certificate_of(const SweptSphereUpdate& update,
                                                   const SweptSphereUpdate& other, double until) const {
   const bool in_order = state_.bodies.table().comes_before(update.number, other.number);
@@ -296,7 +302,7 @@ PairCertificate SpeculativeRunner::certificate_of(const SweptSphereUpdate& updat
   return {until, first.number, second.number, first.revision, second.revision};
 }
 
-/// Joins groups of which kicked bodies may meet. True when some have to run again.
+/// Merges clusters whose updated bodies may meet. Returns true if clusters must be executed again.
 bool SpeculativeRunner::merge_updates() {
   std::vector<ClusterUpdate> updates;
   const std::size_t fresh = conflicts_.take(clusters_, pool_, updates);
@@ -306,7 +312,7 @@ bool SpeculativeRunner::merge_updates() {
     const auto [own, foreign] =
         updates[a].cluster == BatchState::unassigned ? std::pair(b, a) : std::pair(a, b);
     if (updates[foreign].cluster == BatchState::unassigned) {
-      // That body stands for its group, which is not here.
+      // The body represents its cluster, which another process executes.
       const std::uint32_t number = updates[foreign].update->number;
       if (batch_.slots[number].cluster != updates[own].cluster)
         conflicts_.note_conflict(updates[own].cluster, number);
@@ -315,7 +321,8 @@ bool SpeculativeRunner::merge_updates() {
     Cluster& one = clusters_.root_of(updates[a].cluster);
     Cluster& other = clusters_.root_of(updates[b].cluster);
     if (&one == &other) continue;
-    // Processes tell each other of what is left of each group, not of what is between two.
+    // Processes exchange the late certificates of each cluster, but none between two clusters; so distributed
+    // worlds merge in any case.
     if (until != Conflict::unknown && !batch_.is_in_batch(until) && sizer_.may_decline()) {
       if (!is_void)
         cross_pairs_.note(one, other, certificate_of(*updates[a].update, *updates[b].update, until));
@@ -345,7 +352,7 @@ void SpeculativeRunner::commit(const Cluster& group, bool is_counted,
 
 void SpeculativeRunner::commit(std::vector<const EventInRound*>& told) {
   register_updates();
-  // As if one of the two had found the other.
+  // The work is counted as if a search had found the pair.
   cross_pairs_.for_each_standing(clusters_, [this](const PairCertificate& pair) {
     main_.work().recertified += {0, 1};
     ++main_.work().counters.hot_pairs;
@@ -361,8 +368,8 @@ void SpeculativeRunner::commit(std::vector<const EventInRound*>& told) {
   sizer_.adapt(state_.bodies.table().live_count());
 }
 
-/// Bodies have the capsules that they got: also those that start anew when the part is over, since queries
-/// may come before that, where the run is interrupted.
+/// Registers the new swept spheres in the broad phase. Bodies whose windows end with the batch are included,
+/// since queries may come before the next window start if the run is interrupted.
 void SpeculativeRunner::register_updates() {
   std::vector<BroadPhase::Arrival> arrivals;
   std::vector<const SweptSphereUpdate*> updates;

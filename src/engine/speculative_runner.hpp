@@ -1,20 +1,22 @@
-// The islands of a part of a phase: which they are, that they are run, by several threads, and what comes of
-// it.
+// SpeculativeRunner executes the clusters of a batch with several threads, detects conflicts between them,
+// and commits or rolls back their results (optimistic execution, as in Time Warp).
 //
-// A phase begins when windows have started, and ends when the next ones do; a part of it ends when so many
-// pairs have been due. Bodies joined by hot pairs that are due in a part are an island. SpeculativeRunner run
-// side by side, each as if there was nobody else (island.hpp). That is right as long as no kicked body of one
-// may meet a body of another: so
-//   - an island that claims a body stops; it is joined with the island that has the body, if there is one,
-//     and they run again, from where the part began;
-//   - an island that counts on a body is joined with the one that has reported it too early, if there is one;
-//   - when none claims any more, the capsules of all kicked bodies are held against each other; islands of
-//     two that may meet in the part are joined, and run again; two that may meet later become a hot pair, as
-//     if one had found the other.
-// What is left is what one island with all bodies would have done, in another order: a body's reports, facts
-// and events depend on its own island alone. So what comes out depends neither on threads, nor on who ran
-// what, nor on where parts end. Events are told in the order of their times, rounds and kinds, when the part
-// is over.
+// An epoch begins when windows have started and ends when the next windows start. A batch is a part of an
+// epoch that ends after a limited number of due pairs. Bodies connected by certificates due in the batch form
+// a cluster. Clusters are executed concurrently, each as if it were alone (event_processor.hpp). That is
+// correct as long as no body whose velocity changed may meet a body of another cluster. Therefore:
+// - A cluster that conflicts with a body outside it stops. It takes the body, or is merged with the body's
+//   cluster, and is executed again from the start of the batch.
+// - A cluster whose read set contains a body that another cluster changed too early is merged with that
+//   cluster.
+// - When there are no such conflicts, the updated swept spheres of all clusters are compared. Clusters of two
+//   bodies that may meet in the batch are merged and executed again. Two bodies that may meet later get a
+//   certificate, as if a search had found the pair.
+//
+// The result equals that of one processor with all bodies, in another order: the reports, certificates and
+// events of a body depend on its own cluster alone. So the result depends neither on the number of threads,
+// nor on the assignment of clusters to threads, nor on the ends of batches. Events are delivered after the
+// batch, in the order of their times, rounds and kinds.
 #pragma once
 
 #include <cstdint>
@@ -36,8 +38,8 @@
 
 namespace kinesphere {
 
-/// What islands begin with: pairs that are due, bodies that have to be settled before anything else, and
-/// events that are known already.
+/// Work that a cluster begins with: certificates that are due, bodies to recertify first, and events that are
+/// known already.
 struct InitialWork {
   std::vector<PairCertificate> due{};
   std::vector<std::uint32_t> dirty{};
@@ -46,28 +48,31 @@ struct InitialWork {
 
 class SpeculativeRunner {
  public:
-  /// `answerer` may be null: then events get no answer.
+  /// `handler` may be null; then events get no response.
   SpeculativeRunner(WorldState& tables, EventProcessor& main, PoolLease& shift, const Probe& probe,
                     ResponseHandler* handler);
 
-  /// From now to `until` or, if that comes first, to the end of a part of the phase, where all has happened
-  /// but what is due then. Appends the events. False, and nothing has happened, if there are no islands worth
-  /// it, if they run again too often or have done so before, or if something has failed in one of them: that
-  /// comes again when events are answered one by one. Needs a world in which nothing is left to be settled.
-  /// Throws what a mover threw that was to set a body back, when all others have been set back.
+  /// Advances from now to `until` or to the end of a batch, whichever is earlier, except for what is due at
+  /// that time, and appends the events. Returns false, without any change, if too few or too unequal clusters
+  /// exist, if they are executed again too often in this batch or were in earlier epochs, or if a callback
+  /// fails; advance() then repeats the failure. Precondition: EventProcessor::is_certified() of the main
+  /// processor. Throws the exception of a motion source that failed to restore an origin, after all other
+  /// origins were restored.
   bool run(double until, std::deque<Event>& events);
 
-  // The same in steps, for a process that has a part of the bodies and learns from others in between which
-  // islands are to be joined. The part begins with what everybody() has not settled, too, and what is to be
-  // told.
+  // Single steps of run(), for a process that owns some of the bodies and learns from other processes between
+  // the steps which clusters to merge. The batch begins with the dirty bodies and pending events of the main
+  // processor.
 
-  /// Takes what is due from now to `until`, or to the end of a part of the phase, or to `latest`: where that
-  /// is.
+  /// Takes the certificates due from now to `until`, to the end of a batch, or to `latest`, whichever is
+  /// earliest. Returns that time.
   double take_due(double until, double latest);
-  /// The part ends at `stop`, no later than take_due() said. Forms islands.
+  /// Begins a batch that ends at `stop`, and forms its clusters. Precondition: `stop` is not later than the
+  /// result of take_due().
   void begin_batch(double stop);
-  /// Runs those islands that have to run and of which is_ready(group) is true; joins those that claim bodies
-  /// or meet, and runs them again, until no more have to. False when one has failed.
+  /// Executes the clusters that need it and for which is_ready(cluster) is true. Merges clusters with
+  /// conflicts and executes them again until there are none. Returns false if a run failed or if runs were
+  /// repeated too often.
   template <class IsReady>
   bool execute_all(IsReady is_ready) {
     return run_rounds([&] {
@@ -75,17 +80,17 @@ class SpeculativeRunner {
         if (group.needs_run && is_ready(group)) to_run_.push_back(group.index);
     });
   }
-  /// Of the attempt that has failed.
+  /// Returns the error of the run that failed.
   const std::optional<Error>& failure() const { return failure_; }
-  /// Groups are joined only to others with smaller places.
+  /// Returns all clusters, including merged ones. A cluster is merged only into one with a smaller index.
   std::span<Cluster> clusters() { return clusters_.all(); }
-  /// Nobody's bodies have none.
+  /// Returns nullptr if the body belongs to no cluster.
   Cluster* cluster_of(std::uint32_t number) { return clusters_.cluster_of(number); }
   std::span<const std::uint32_t> members_of(const Cluster& group) const {
     return clusters_.members_of(group);
   }
   std::span<const PairCertificate> due_of(const Cluster& group) const { return clusters_.due_of(group); }
-  // What came of a group in the last attempt; nothing, if it has been taken back.
+  // Results of the last run of a cluster; empty if it was rolled back.
   std::span<const SweptSphereUpdate> updates_of(const Cluster& group) const {
     return pool_.updates_of(group);
   }
@@ -94,27 +99,29 @@ class SpeculativeRunner {
   }
   std::span<const ReadEntry> read_set_of(const Cluster& group) const { return pool_.read_set_of(group); }
   std::span<const UndoEntry> undo_log_of(const Cluster& group) const { return pool_.undo_log_of(group); }
-  /// These bodies have to be in one island.
+  /// Merges clusters so that one cluster contains all these bodies.
   void merge_bodies(std::span<const std::uint32_t> numbers);
-  /// Bodies have become known meanwhile, and may bring these along.
+  /// Adds initial work, of bodies that became known after begin_batch().
   void add(const InitialWork& more);
-  /// A body that another process kicks: take_meetings() tells which islands here may meet it.
+  /// Adds an update that another process made; take_conflicts() then returns the clusters here that may meet
+  /// the body.
   void add_foreign_update(const SweptSphereUpdate& update) { conflicts_.add_foreign(update); }
-  /// Groups, and kicked bodies of others that they may meet.
+  /// Returns pairs of a cluster and the number of a body, updated by another process, that it may meet.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> take_conflicts() {
     return conflicts_.take_conflicts();
   }
-  /// The island has to run again, from where the part began.
+  /// Rolls the cluster back, to be executed again from the start of the batch.
   void run_again(std::uint32_t own) {
     rollback(clusters_[own]);
     clusters_[own].needs_run = true;
   }
-  /// Whether that is before the part ends.
+  /// Returns true if the time is before the end of the batch.
   bool is_in_batch(double time) const { return batch_.is_in_batch(time); }
-  /// Null for a body that is as it was when the part began.
+  /// Returns nullptr if the body is in the state that it had at the start of the batch.
   const BodyCheckpoint* checkpoint_of(std::uint32_t number) const { return batch_.checkpoint_of(number); }
-  /// All islands have run: what came of the groups becomes what came of everybody. Of those of which
-  /// is_counted(group) is true, events are returned, in their order, and work is counted.
+  /// Commits the results of all clusters to the main processor. Returns the events of clusters for which
+  /// is_counted(cluster) is true, in their order; only the work of these is counted. Precondition:
+  /// execute_all() returned true.
   template <class IsCounted>
   std::vector<const EventInRound*> commit(IsCounted is_counted) {
     std::vector<const EventInRound*> told;
@@ -123,11 +130,11 @@ class SpeculativeRunner {
     commit(told);
     return told;
   }
-  /// Nothing has happened.
+  /// Rolls back all clusters, which restores the state at the start of the batch.
   void rollback();
-  /// Ends the part.
+  /// Ends the batch after commit() or rollback().
   void end_batch();
-  /// All is done by islands, however long they take and however few pairs are due.
+  /// Forces speculative execution of every epoch, however long it takes and however few pairs are due.
   void require_speculation() {
     batch_.most_updates = std::numeric_limits<std::size_t>::max();
     sizer_.require_speculation();
@@ -157,17 +164,17 @@ class SpeculativeRunner {
   PoolLease& lease_;
   ResponseHandler* handler_;
   BatchSizer sizer_;
-  // Of the part.
+  // State of the batch.
   BatchState batch_;
   Clusters clusters_;
   RunPool pool_;
   ConflictDetector conflicts_;
   CrossClusterPairs cross_pairs_;
   std::vector<PairCertificate> due_;
-  std::vector<PairCertificate> deferred_;  ///< that go back into everybody's agenda
-  std::vector<std::uint32_t> to_run_;      ///< groups that run next
+  std::vector<PairCertificate> deferred_;  ///< certificates that return to the queue of the main processor
+  std::vector<std::uint32_t> to_run_;      ///< clusters to execute next
   std::optional<Error> failure_;
-  std::exception_ptr exception_;  ///< by a mover that was to go back
+  std::exception_ptr exception_;  ///< thrown by a motion source while an origin was restored
 };
 
 template <class FindAgain>

@@ -1,4 +1,4 @@
-// What a fixed body is as a body, and as a shape.
+// Conversion of a static body to a body definition and to a shape.
 #include "engine/static_body.hpp"
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace kinesphere {
 namespace {
 
-/// A place for events and views to tell; a point of the shape.
+/// Returns a point of the shape, which events and views show as the position.
 Vec3 certain_sphere_of(const Ball& ball) { return ball.centre; }
 Vec3 certain_sphere_of(const HalfSpace& solid) { return solid.normal * solid.offset; }
 Vec3 certain_sphere_of(const Box& box) { return 0.5 * box.lower + 0.5 * box.upper; }

@@ -1,15 +1,16 @@
-// A fixed body as the table of bodies holds it.
+// Representation of a static body in the table of bodies.
 #pragma once
 
 #include "engine/bodies.hpp"
 
 namespace kinesphere {
 
-/// At rest, at one point of the shape, with no promise to break.
+/// Returns a body that stands still at one point of the shape, with zero motion limits.
 BodyDefinition body_of(const StaticDefinition& fixed);
 StaticDefinition static_definition(const Bodies& bodies, BodyId id);
-/// A shape that has been checked: the normal of a half-space made exactly as long as doubles allow, a ball
-/// moved into the box where space repeats, a box without ends in z in the plane.
+/// Returns the shape in normal form: the normal of a half-space has length 1 to double precision, a ball is
+/// moved into the box in periodic space, a box is unbounded in z in two dimensions. Precondition:
+/// check_shape().
 Shape normalized(Shape shape, const WorldDefinition& world);
 
 }  // namespace kinesphere

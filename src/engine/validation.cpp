@@ -12,7 +12,7 @@
 namespace kinesphere {
 namespace {
 
-/// Nearly all input is fine, and words cost time: what fits needs no check that could speak.
+/// Fast path without error messages, since nearly all input is valid.
 bool fits(const Vec3& v, double limit) {
   return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
 }
@@ -26,7 +26,7 @@ void require_radius(InputCheck& check, double radius, BodyId body, const WorldDe
   require_size(check, {"radius", body}, radius, coordinate_limit(world));
 }
 
-/// A pair can be looked at in one image only: space/space.hpp has the limit and the proof.
+/// Ensures that a pair can meet in one image only; space/space.hpp has the limit and the proof.
 void require_room(InputCheck& check, std::string_view argument, const BodyDefinition& definition, BodyId body,
                   const WorldDefinition& world) {
   if (!world.box) return;
@@ -166,7 +166,7 @@ Result<void> check_world(const WorldDefinition& definition) {
                "must be false on all axes where there is no box", on)
       .require(dimensions == 3 || !definition.periodic.z, ErrorCode::out_of_range, {"periodic"},
                "must be false on z in two dimensions", on);
-  // A body without any size would not fit.
+  // The box must be large enough for a body of radius 0.
   if (!check.error()) require_room(check, "box", {.radius = 0.0}, no_body, definition);
   return check.result();
 }

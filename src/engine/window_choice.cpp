@@ -9,19 +9,20 @@
 namespace kinesphere {
 namespace {
 
-/// What a report costs, in looks at a capsule: with it, all that the caller does for it.
+/// Cost of a report, including the caller's work, in units of one swept-sphere comparison. Trades probes
+/// against searches that find more candidates.
 constexpr double price_of_report = 800.0;
 
-/// How wide the box of a body may be on an axis that repeats, by space/space.hpp (2); a little less, for
-/// rounding.
+/// Returns the largest width (length) of the box of a body on a periodic axis, by space/space.hpp (2);
+/// slightly reduced for rounding.
 double widest_in_period(double period, double position_error, double release_gap) {
   return (0.5 - 0x1p-10) * period - release_gap - 4.0 * position_error;
 }
 
 }  // namespace
 
-/// How long a window of the body may last, `length` at most, for the box around its way to be as narrow as
-/// space/space.hpp (2) wants it.
+/// Returns the longest duration of a window, at most `length`, for which the box around the body's path
+/// satisfies space/space.hpp (2).
 double WindowChoice::longest_in_period(std::uint32_t number, double length, double release_gap) const {
   const Body& body = bodies()[number];
   const Space& space = bodies().space();
@@ -42,7 +43,7 @@ double WindowChoice::longest_in_period(std::uint32_t number, double length, doub
   return longest;
 }
 
-/// Of the longest window up to this tier, from now on, that is short enough for a space that repeats.
+/// Returns the rung of the longest window from now on, up to `rung`, that is short enough for periodic space.
 int WindowChoice::rung_in_space(std::uint32_t number, int rung) const {
   if (!bodies().space().repeats()) return rung;
   rung = Window::at(time_, rung).rung;

@@ -1,4 +1,4 @@
-// Which windows suit bodies at an instant, and which of them are to report before they start in one.
+// WindowChoice selects windows for bodies at an instant, and the bodies to probe before their windows start.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,22 @@ class WindowChoice {
  public:
   WindowChoice(const WorldState& tables, double time) : state_(tables), time_(time) {}
 
-  /// Of the window, from now on, that suits the pace of a body.
+  /// Returns the rung of the window from now on that suits the speed of the body.
   int rung_for(std::uint32_t number, const SpeedBound& speed_bound) const {
     return rung_in_space(number, state_.window_policy.rung_for(speed_bound));
   }
   Window window_for(std::uint32_t number) const {
     return Window::at(time_, rung_for(number, speed_bound_of(BoundAt(bodies()[number].bound, time_))));
   }
-  /// The window in which a body is to be from now on that is in this one, if it is in any: there, unless that
-  /// lasts longer than the one that suits it, or is far shorter.
+  /// Returns the next window of a body whose window is `present`, if any. It stays in that one, unless it
+  /// lasts longer than the window that suits the body, or is much shorter.
   Window next_window(std::uint32_t number, const std::optional<Window>& present) const;
-  /// For a body that had a window for itself, which ends now. Nothing has happened to it for a while, so the
-  /// next one is longer, where space lets it, so that there are not many.
+  /// Returns the next window of a body whose individual window ends now. The body had no discontinuity for a
+  /// while, so the next window is longer, if periodic space permits, to keep such renewals rare.
   Window longer_window(std::uint32_t number, const Window& ended) const;
-  /// Whether, until the next window ends, the bound would grow so much that a report costs less, or the body
-  /// go so far from its last report that its place could not be computed well, or so large that no window
-  /// suits it.
+  /// Returns true if, by the end of the next window, the bound would grow so much that a report costs less,
+  /// or the body would move too far from its last report for an accurate position, or would be too large for
+  /// any window in periodic space.
   bool needs_report(std::uint32_t number) const;
 
  private:

@@ -6,10 +6,10 @@
 namespace kinesphere {
 namespace {
 
-/// So many are worth the while of a thread.
+/// Minimum bodies per parallel chunk; below this, dispatch costs more than the work.
 constexpr std::size_t bodies_at_once = 256;
 
-/// Window::free_at(), of which most bodies ask for the same one.
+/// Caches the last result of Window::free_at(), since most bodies need the same window.
 class FreeWindows {
  public:
   FreeWindows(std::span<const int> held, double now) : held_(held), now_(now) {}
@@ -103,7 +103,7 @@ std::uint64_t WindowStart::start(std::span<const BroadPhase::Starter> starters,
   return near;
 }
 
-/// The hot pairs that searches find of those that have started.
+/// Searches for the pairs of bodies that have started, and certifies them. Returns the number of near pairs.
 std::uint64_t WindowStart::find_pairs(const std::vector<std::uint8_t>* others) {
   const double now = time();
   const BroadPhase& windows = state_.broad_phase;
@@ -129,13 +129,13 @@ std::uint64_t WindowStart::find_pairs(const std::vector<std::uint8_t>* others) {
   return near;
 }
 
-/// Pairs that touch or sense each other, and walls, of those that have started.
+/// Certifies linked pairs and walls of the bodies that have started.
 void WindowStart::find_links_and_walls(std::span<const BroadPhase::Starter> starters) {
   const PairCertifier certifier = main_.certifier();
   const auto is_linked = [this](std::uint32_t number) {
     return !state_.contacts.partners_of(number).empty() || !state_.contacts.overlaps_of(number).empty();
   };
-  // Of most bodies nothing is read then.
+  // Only linked bodies are marked, so that the records of most bodies are not accessed.
   const auto mark = [&](bool settled) {
     lease_.parallel_for(starters.size(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
       for (const BroadPhase::Starter& starter : starters.subspan(from, to - from))

@@ -1,7 +1,7 @@
-// The steps by which windows start: who is asked before, which windows suit, and what searches find.
+// WindowStart provides the steps of a window start: probing, choice of windows, registration and searches.
 //
-// An engine takes them in this order. One that has a part of the bodies learns in between what the others
-// have (distributed/).
+// An engine calls them in this order. A process that owns some of the bodies exchanges data with the others
+// between the steps (distributed/).
 #pragma once
 
 #include <cstdint>
@@ -14,28 +14,30 @@
 
 namespace kinesphere {
 
-/// Where so many have arrived since windows started, among so many, all start anew with them.
+/// Returns true if enough bodies were relocated since the last window start to restart all windows with them.
 constexpr bool are_many(std::size_t arrived, std::size_t all) { return arrived > 8 && 8 * arrived > all; }
 
 class WindowStart {
  public:
-  /// `found`, by worker, is kept for its memory only.
+  /// `found`, by worker, is passed only to reuse its memory.
   WindowStart(WorldState& tables, EventProcessor& main, PoolLease& shift, std::vector<SearchResults>& found)
       : state_(tables), main_(main), lease_(shift), found_(found) {}
 
-  /// Bodies of which nothing is known yet.
+  /// Returns the motion statistics of bodies that have no window yet.
   MotionStatistics survey(std::span<const std::uint32_t> numbers) const;
-  /// The first main window lets most of them go about a quarter of the distance between them.
+  /// Chooses the window policy. Most bodies travel about a quarter of their spacing in the first main window.
   void choose_policy(const MotionStatistics& statistics);
 
-  /// Of bodies whose windows end, probes those for whom a larger capsule would cost more.
+  /// Probes the bodies whose windows end, if a larger swept sphere would cost more than a report. Errors:
+  /// those of probe().
   Result<void> refresh(std::span<const std::uint32_t> ending);
-  /// The windows that suit bodies which are in none, other than those of the tiers `held`
-  /// (Window::free_at). For some there may be no window: they are dirty then.
+  /// Returns windows for bodies that have none, of rungs other than `held` (Window::free_at). A body for
+  /// which there is no window is omitted and marked dirty.
   std::vector<BroadPhase::Starter> choose_windows(std::span<const std::uint32_t> numbers,
                                                   std::span<const int> held, WindowPolicy::Sample& round);
-  /// They get capsules, and all pairs that may change before a window ends become hot. Returns how many pairs
-  /// are near. With `others`, by number, pairs are not counted whose first body is one of these.
+  /// Registers swept spheres, and certifies all pairs that may change before the earlier window end. Returns
+  /// the number of near pairs. If `others` is given, by number, pairs whose first body is marked there are
+  /// not counted.
   std::uint64_t start(std::span<const BroadPhase::Starter> starters,
                       const std::vector<std::uint8_t>* others = nullptr);
 

@@ -28,7 +28,7 @@ BodyId World::WorldEditor::add_static(const StaticDefinition& definition) {
   return bodies().id_of(number);
 }
 
-/// The body is where `bound` says. The next advance looks what it meets there.
+/// Sets the bound of the body and marks it as relocated. The next advance searches for its neighbours.
 void World::WorldEditor::insert_at(std::uint32_t number, const Bound& bound) {
   Body& body = state_.bodies[number];
   body.bound = bound;
@@ -37,14 +37,14 @@ void World::WorldEditor::insert_at(std::uint32_t number, const Bound& bound) {
   if (windows.contains(number)) windows.leave(number);
   main_.invalidate(number);
   if (bodies().definition().allow_overlap) return;
-  // Others that are added before then have to find it.
+  // Bodies added before the next advance must be able to find it.
   const Window window = body.is_static() ? Window::endless() : Window::at(time(), Window::shortest);
   if (bodies().space().repeats()) state_.bodies.wrap_to_primary(number, time(), 0.0);
   windows.enter(number, inflated_bound(bodies(), number, time()), time(), window);
   windows.tidy();
 }
 
-/// The body's contacts end, and nobody finds it any more.
+/// Ends the body's contacts and removes it from the broad phase.
 void World::WorldEditor::detach(std::uint32_t number) {
   end_contacts(number, [](const Event&) { return true; });
   if (state_.broad_phase.contains(number)) state_.broad_phase.leave(number);
@@ -67,8 +67,8 @@ void World::WorldEditor::remove(BodyId id) {
   state_.bodies.remove(number);
 }
 
-/// Another bound takes the place of the body's. Contacts that it certainly ends are over with the states
-/// before.
+/// Replaces the bound of the body. Contacts that this certainly ends are ended with the states before the
+/// change.
 void World::WorldEditor::replace(std::uint32_t number, const Bound& bound) {
   const double apart = state_.contacts.rule().separation_distance();
   const auto ends = [&](const Event& end) {
@@ -113,7 +113,7 @@ void World::WorldEditor::set_motion_limits(BodyId id, const MotionLimits& promis
 
 void World::WorldEditor::disable(BodyId id) {
   Body& body = state_.bodies[id.index];
-  // It will come back awake.
+  // An enabled body is awake.
   if (body.is_sleeping()) sleeping().resume(id.index);
   sleeping().wake(id.index);
   detach(id.index);
@@ -157,10 +157,10 @@ void World::WorldEditor::set_sensor_class(BodyId id, SensorClass sensor_class) {
   refresh_filter(id);
 }
 
-/// Nothing is known any more of who may touch or sense the body.
+/// Discards what is known about the bodies that this body may touch or sense.
 void World::WorldEditor::refresh_filter(BodyId id) {
   const std::uint32_t number = id.index;
-  // Also of one that is disabled: it may be enabled again before they are delivered.
+  // Events of a disabled body are dropped too, since it may be enabled again before they are delivered.
   main_.events().drop_pending(number, [this](const Event& event) { return may_hold(event); });
   if (!bodies()[number].present()) return;
   end_contacts(number, [this](const Event& end) { return !may_hold(end); });
@@ -168,7 +168,7 @@ void World::WorldEditor::refresh_filter(BodyId id) {
   main_.invalidate(number);
 }
 
-/// Whether the contact or crossing that an event is about is possible at all.
+/// Returns true if the filters and sensors permit the contact or overlap of the event.
 bool World::WorldEditor::may_hold(const Event& event) const {
   if (event.second == no_body) return true;
   const std::uint32_t a = event.first.index;

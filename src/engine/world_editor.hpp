@@ -1,4 +1,5 @@
-// Changes that the caller makes: bodies come and go, and their place, shape, promise or filter changes.
+// WorldEditor applies changes by the caller: bodies are added and removed, and change their position, shape,
+// motion limits or filter.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +14,8 @@
 
 namespace kinesphere {
 
-/// To be made while nothing else goes on. Their input has been checked (world/check.hpp).
+/// Not thread-safe; must not be used during advance(). Precondition: the arguments have been validated
+/// (world/preconditions.hpp).
 class World::WorldEditor {
  public:
   WorldEditor(WorldState& tables, EventProcessor& main) : state_(tables), main_(main) {}

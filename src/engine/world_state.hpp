@@ -1,4 +1,4 @@
-// What a world keeps, whoever moves it on.
+// WorldState is the part of a world that all event processors share.
 #pragma once
 
 #include "broadphase/broad_phase.hpp"

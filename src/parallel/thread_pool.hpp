@@ -1,4 +1,4 @@
-// The workers inside: items of work that are done by several threads at the same time.
+// Internal interface of Workers: parallel loops over ranges of items.
 #pragma once
 
 #include <atomic>
@@ -12,7 +12,7 @@
 
 namespace kinesphere {
 
-/// A function of (begin, end, worker) that outlives its use here.
+/// A reference to a function of (begin, end, worker). The function must outlive the reference.
 class RangeFunction {
  public:
   template <class F>
@@ -30,15 +30,15 @@ class RangeFunction {
   void (*call_)(void*, std::size_t, std::size_t, std::size_t);
 };
 
-/// The items of one for_each(): whoever is free takes the next range of them, so that unequal items balance.
+/// The items of one parallel_for(). Each free worker takes the next range, which balances unequal items.
 class SharedRange {
  public:
   SharedRange(std::size_t items, std::size_t range, RangeFunction work)
       : items_(items), range_(range), work_(work) {}
 
-  /// Takes ranges until none is left, or one has failed.
+  /// Processes ranges until none is left or one has failed. Thread-safe.
   void work(std::size_t worker);
-  /// Throws what the first range threw that did. All must have stopped.
+  /// Throws the exception of the first range that failed, if any. Precondition: all workers have stopped.
   void rethrow() const {
     if (failure_) std::rethrow_exception(failure_);
   }
@@ -49,7 +49,7 @@ class SharedRange {
   RangeFunction work_;
   std::atomic<std::size_t> next_ = 0;
   std::atomic<bool> failed_ = false;
-  std::mutex mutex_;  ///< of what follows
+  std::mutex mutex_;  ///< protects the members below
   std::exception_ptr failure_;
   std::size_t failed_at_ = 0;
 };
@@ -62,11 +62,11 @@ class ThreadPool {
   ThreadPool& operator=(const ThreadPool&) = delete;
 
   virtual int count() const = 0;
-  /// Has the items worked on by the calling thread, as worker 0, and by others, each with a number less than
-  /// count() of its own. Returns when all have stopped.
+  /// Processes all items on the calling thread, as worker 0, and on others, each with its own number less
+  /// than count(). Returns when all have stopped.
   virtual void run(SharedRange& items) = 0;
 
-  /// Of Workers that have not been moved from.
+  /// Returns the pool of `workers`. Precondition: they have not been moved from.
   static ThreadPool& of(Workers& workers) { return *workers.pool_; }
   static Workers made(std::unique_ptr<ThreadPool> pool) { return Workers(std::move(pool)); }
 
@@ -75,8 +75,8 @@ class ThreadPool {
   std::atomic<bool> busy_ = false;
 };
 
-/// The crew is taken for as long as this lives, unless it was already. Without workers, the calling thread
-/// works alone.
+/// Acquires the pool for the lifetime of the lease, if it is free. Without workers, the calling thread works
+/// alone.
 class PoolLease {
  public:
   explicit PoolLease(Workers* workers = nullptr);
@@ -86,16 +86,16 @@ class PoolLease {
     if (pool_) pool_->busy_ = false;
   }
 
-  /// It was free. Nothing else may be asked otherwise.
+  /// True if the pool was acquired, or if there are no workers; all other members require it.
   explicit operator bool() const { return free_; }
-  /// How many may work at the same time.
+  /// Returns the maximum number of concurrent workers.
   std::size_t count() const { return pool_ ? static_cast<std::size_t>(pool_->count()) : 1; }
 
-  /// Calls f(begin, end, worker) for ranges that together cover all items once, on up to count() threads at
-  /// the same time; each thread has a number `worker` less than count() of its own. Ranges have at least
-  /// `least_range` items (but for the last), and are begun in their order. Returns when all are done. When
-  /// one throws, no more are begun, and that of the first range that threw passes through: always the same
-  /// one, as those before it have been begun earlier. Must not be called inside f.
+  /// Calls f(begin, end, worker) for disjoint ranges that cover all items, on up to count() threads
+  /// concurrently; each thread has its own number `worker` less than count(). Ranges have at least
+  /// `least_range` items, except for the last one, and begin in order. Returns when all are done. If f
+  /// throws, no further ranges begin, and the exception of the first range that threw is rethrown. It is
+  /// always the same one, since earlier ranges began before it. Must not be called inside f.
   template <class F>
   void parallel_for(std::size_t items, std::size_t least_range, F&& f) {
     const std::size_t range = least_range > 0 ? least_range : 1;

@@ -13,7 +13,7 @@
 namespace kinesphere {
 namespace {
 
-/// Threads that sleep until there are items, and again when none have come for a moment.
+/// Threads that sleep until there are items, and again after a short wait without items.
 class Threads final : public ThreadPool {
  public:
   explicit Threads(int count) {
@@ -42,7 +42,7 @@ class Threads final : public ThreadPool {
     if (any_asleep) wake_.notify_all();
     items.work(0);
     {
-      // Whoever has not come by now has nothing left to do, and is not waited for.
+      // A worker that has not started by now has no items left, and is not waited for.
       const std::lock_guard lock(mutex_);
       items_ = nullptr;
     }
@@ -72,7 +72,8 @@ class Threads final : public ThreadPool {
     }
   }
 
-  /// Returns when that comes, or after a moment: whoever looks out learns of it sooner than who sleeps.
+  /// Returns when the condition is true, or after a short time. Polling notices the condition sooner than a
+  /// sleeping thread would.
   template <class Comes>
   static void look_out(Comes comes) {
     constexpr int looks = 100;
@@ -88,19 +89,20 @@ class Threads final : public ThreadPool {
     for (std::thread& thread : threads_) thread.join();
   }
 
-  std::mutex mutex_;  ///< of all that follows but the threads; what is atomic is read without it, too
+  /// Protects all members below except threads_; atomic members are also read without it.
+  std::mutex mutex_;
   std::condition_variable wake_;
   std::condition_variable done_;
-  SharedRange* items_ = nullptr;          ///< while there are some to begin with
-  std::atomic<std::uint64_t> round_ = 0;  ///< which items these are
+  SharedRange* items_ = nullptr;          ///< nullptr if no items are left to start with
+  std::atomic<std::uint64_t> round_ = 0;  ///< number of the current set of items
   std::atomic<int> working_ = 0;
   int asleep_ = 0;
   std::atomic<bool> leaving_ = false;
   std::vector<std::thread> threads_;
 };
 
-/// A task of one item for each worker, in which it takes ranges as long as there are some: so it does not
-/// matter in which threads, and how many of them at the same time, a task system works on it.
+/// Runs one task per worker on a task system. Each task takes ranges as long as there are any, so the threads
+/// and the number of concurrent tasks do not matter.
 class Tasks final : public ThreadPool {
  public:
   explicit Tasks(const TaskSystem& system) : system_(system) {}
