@@ -36,6 +36,7 @@ class BroadPhase {
   /// Returns the end of the body's window, until which its swept sphere contains the body. Precondition:
   /// contains(number).
   double end_of(std::uint32_t number) const { return registrations_[number].end; }
+  /// Returns the window in which the body is registered. Precondition: contains(number).
   Window window_of(std::uint32_t number) const { return levels_[registrations_[number].level].window; }
   /// Returns a box that contains the body from `now` until its window ends. Precondition: contains(number).
   Box box_of(std::uint32_t number, double now) const;
@@ -62,6 +63,7 @@ class BroadPhase {
   /// k-th arrival at its time, and is called by several threads concurrently.
   template <class BoundOf>
   void enter_all(std::span<const Arrival> arrivals, BoundOf bound_of, PoolLease& shift);
+  /// Removes the body's registration. Precondition: contains(number).
   void leave(std::uint32_t number);
   /// Sorts each grid level that many bodies have entered or left one by one, so that searches are fast again.
   /// Slots in these levels change.
@@ -157,8 +159,7 @@ class BroadPhase {
   SizeClasses size_classes_;
   Vec3 base_{};  ///< base of the frames of levels opened from now on
   bool has_base_ = false;
-  double next_end_ =
-      infinity;  ///< least end of the windows that hold a body, or have held one since end_windows()
+  double next_end_ = infinity;  ///< see next_end()
 };
 
 template <class BoundOf>

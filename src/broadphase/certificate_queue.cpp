@@ -65,6 +65,7 @@ void CertificateQueue::clear() {
 /// Divides the times from `first` to `last` into buckets of about 16 certificates each, for `pairs`
 /// certificates, and makes bucket 0 the current one. Precondition: no certificate is in a later bucket.
 void CertificateQueue::divide(double first, double last, std::size_t pairs) {
+  // Mean number of certificates per bucket.
   constexpr std::size_t in_a_slice = 16;
   constexpr std::size_t most = std::size_t{1} << 18;
   const std::size_t slices = std::clamp<std::size_t>(pairs / in_a_slice, 1, most) + 1;

@@ -70,6 +70,7 @@ class CertificateQueue {
   /// Sets the order. Precondition: the queue is empty.
   void order_by(const CertificateOrder& order) { order_ = order; }
   const CertificateOrder& order() const { return order_; }
+  /// Number of certificates, stale ones included.
   std::size_t size() const { return (sorted_.size() - next_) + heap_.size() + waiting_; }
   /// Moves on to the next bucket that holds a certificate, if the current one is used up.
   /// is_void(certificate) returns true for a stale one. Must be called after each change, before next_time()
@@ -87,7 +88,9 @@ class CertificateQueue {
   /// Returns the first certificate, which may be stale. Preconditions: open(), and the queue is not empty.
   /// Invalidated by each change of the queue.
   const PairCertificate& first() const { return heap_comes_first() ? heap_.front() : sorted_[next_]; }
+  /// Removes first(), under the preconditions of first().
   void drop_first();
+  /// Adds a certificate. Cost: O(1), or O(log of the heap) if it belongs to the current bucket.
   void add(const PairCertificate& pair);
   /// Adds all of `pairs`, which may be in any order, and clears `pairs`. If they are many, all buckets are
   /// divided anew.
@@ -119,6 +122,7 @@ class CertificateQueue {
       for (std::uint32_t at = head; at != none; at = nodes_[at].next) visit(nodes_[at].pair);
   }
 
+  /// Memory reserved for certificates, in bytes.
   std::size_t bytes() const {
     return (sorted_.capacity() + heap_.capacity()) * sizeof(PairCertificate) +
            nodes_.capacity() * sizeof(Node) + heads_.capacity() * sizeof(std::uint32_t);
@@ -167,7 +171,7 @@ class CertificateQueue {
   std::size_t waiting_ = 0;
   std::size_t bucket_ = 0;  ///< index of the current bucket
   double begin_ = 0.0;      ///< time at which bucket 0 begins
-  double per_time_ = 0.0;
+  double per_time_ = 0.0;   ///< buckets per unit of time; 0 if all are due at once
 };
 
 /// Failure times of certificates, looked up by their bodies.

@@ -74,9 +74,8 @@ class Grid {
   std::uint32_t index_of(const Cell& cell) const;
   /// Returns, among the cells with this index, the one nearest to the cell `to`.
   Cell nearest_image(std::uint32_t index, const Cell& to) const;
-  /// Returns the looseness: how far the box reaches out of the cell. The result is slightly enlarged (factor
-  /// 1
-  /// + 2^-20), because sums and differences with it are rounded.
+  /// Returns the looseness: how far the box reaches out of the cell. The result is slightly enlarged,
+  /// by 2^-20 of itself, because sums and differences with it are rounded.
   float looseness(const Cell& cell, const FloatAabb& aabb) const;
   Box box_of(const Cell& cell) const;
 

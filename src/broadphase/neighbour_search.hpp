@@ -28,9 +28,9 @@ class NeighbourSearch {
                                    const InflatedBound& bound, double now, double end);
 
   /// Returns the pairs of a started body, with an index k <= index < last below BroadPhase::started(), and a
-  /// body that near() finds for it. Calls for all indices together yield each pair of two started bodies once.
-  /// bound_of(number) is called only if there are several grid levels or space repeats. Precondition: the
-  /// levels are as BroadPhase::start() left them.
+  /// body that near() finds for it. Calls for all indices together yield each pair of two started bodies
+  /// once. bound_of(number) is called only if there are several grid levels or space repeats. Precondition:
+  /// the levels are as BroadPhase::start() left them.
   template <class BoundOf>
   std::span<const BodyPair> near_started(const BroadPhase& windows, std::size_t k, std::size_t last,
                                          double now, BoundOf bound_of) {

@@ -46,7 +46,9 @@ int SizeClasses::size_class_to_enter(int level) const {
 
 /// Joins a size class to the next larger one if a search there would find few of its bodies.
 void SizeClasses::merge(const std::map<int, std::size_t>& bodies, double volume, bool flat) {
+  // Size classes are joined while a search of the joined level would find fewer bodies than this.
   constexpr double few_found = 48.0;
+  // Width of the space that a search covers, in least widths of the next larger size class.
   constexpr double units_searched = 10.0;
   next_merged_.clear();
   std::vector<int> together;

@@ -5,7 +5,7 @@
 #include <array>
 #include <bit>
 
-// Highway 1.0 does not compile without this macro for a processor on which these are the best vectors.
+// Without this macro, Highway 1.0 does not compile for a processor with AVX3_DL vectors and no better ones.
 #ifndef HWY_WANT_AVX3_DL
 #define HWY_WANT_AVX3_DL
 #endif

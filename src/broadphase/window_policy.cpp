@@ -20,8 +20,8 @@ constexpr double search_cost = 36.0;
 constexpr double cost_of_near_pair = 100.0;
 /// Cost of a near pair with the rechecks and reports that follow from it.
 constexpr double price_of_near_pair = 260.0;
-/// Factor by which the bodies that a search tests are farther apart than those that it finds, since cells are
-/// cubes and swept spheres are not.
+/// A search tests bodies up to this factor farther apart than those it has to find, since cells are cubes and
+/// swept spheres are not.
 constexpr double farther_in_cells = 5.0;
 // Costs of a search whose swept sphere is large compared with the cells.
 constexpr double cost_of_row = 4.0;

@@ -46,7 +46,7 @@ class MotionStatistics {
  public:
   void note(const Vec3& centre, const SpeedBound& speed_bound);
   /// Returns the approximate distance between neighbours (length), if the bodies are spread evenly along a
-  /// line, or in a layer or a cube if their box is thick enough for that. The result is equal on all
+  /// line, or in a plane or a cube if their box is thick enough for that. The result is equal on all
   /// machines.
   double spacing() const;
   /// Returns the median speed and the mean acceleration, each to within a factor of two.
