@@ -1,4 +1,5 @@
-// Values to bytes and back, little-endian. A class lists its fields once, for both ways:
+// Archives convert values to bytes and back, little-endian. A class lists its fields once, for writing and
+// reading:
 //
 //   struct Appointment {
 //     double time;
@@ -10,8 +11,8 @@
 //     }
 //   };
 //
-// `archive` is a ByteWriter, and Self const, or a ByteReader. Classes without such a member have a function
-// serialize(self, archive) beside them.
+// `archive` is a ByteWriter (then Self is const) or a ByteReader. A class without such a member has a free
+// function serialize(self, archive) beside it.
 #pragma once
 
 #include <algorithm>
@@ -34,21 +35,21 @@ namespace kinesphere {
 
 namespace detail {
 
-/// The unsigned number that stands for a value of this size.
+/// Unsigned integer type with the given size in bytes.
 template <std::size_t size>
 using Word =
     std::conditional_t<size == 1, std::uint8_t,
                        std::conditional_t<size == 2, std::uint16_t,
                                           std::conditional_t<size == 4, std::uint32_t, std::uint64_t>>>;
 
-/// std::size_t has 64 bits in every archive.
+/// Type with which archives store a T; std::size_t has 64 bits in every archive.
 template <class T>
 using WordOf = Word<std::same_as<T, std::size_t> ? 8 : sizeof(T)>;
 
 template <class T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-/// The number whose bytes here are those of `word` on a little-endian machine; its own inverse.
+/// Converts between native and little-endian byte order; its own inverse.
 template <class Word>
 constexpr Word little_endian(Word word) {
   if constexpr (std::endian::native == std::endian::little) return word;
@@ -79,7 +80,7 @@ class ByteWriter {
   void append(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
   const std::vector<std::byte>& bytes() const { return bytes_; }
   std::vector<std::byte> take() { return std::move(bytes_); }
-  /// Begins anew, in the same memory.
+  /// Discards the bytes written, and keeps the memory for reuse.
   void clear() { bytes_.clear(); }
 
  private:
@@ -139,9 +140,9 @@ class ByteWriter {
   std::vector<std::byte> bytes_;
 };
 
-/// Reads bytes that nobody vouches for: what cannot be read fails, and everything after it, and memory is
-/// taken only for elements that are there. Numbers come as they are: whether they make sense is the caller's
-/// question.
+/// Reads untrusted bytes. A value that cannot be read sets failed(), and every later read fails too. Memory
+/// is allocated only for elements that are present. Numbers are not checked for plausibility; that is up to
+/// the caller.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}

@@ -15,7 +15,7 @@ constexpr std::uint64_t prime_3 = 0x165667B19E3779F9u;
 constexpr std::uint64_t prime_4 = 0x85EBCA77C2B2AE63u;
 constexpr std::uint64_t prime_5 = 0x27D4EB2F165667C5u;
 
-/// Takes the next number out of the front of the bytes.
+/// Removes the next little-endian number from the front of the bytes. Precondition: there are enough bytes.
 template <class Word>
 Word take(std::span<const std::byte>& bytes) {
   Word word;
@@ -28,7 +28,7 @@ std::uint64_t mixed(std::uint64_t lane, std::uint64_t word) {
   return std::rotl(lane + word * prime_2, 31) * prime_1;
 }
 
-/// What whole stripes of 32 bytes come to; they are taken out of the bytes.
+/// Returns the sum of all whole 32-byte stripes, and removes them from the bytes.
 std::uint64_t sum_of_stripes(std::span<const std::byte>& bytes, std::uint64_t seed) {
   std::array<std::uint64_t, 4> lanes{seed + prime_1 + prime_2, seed + prime_2, seed, seed - prime_1};
   while (bytes.size() >= 32)

@@ -1,8 +1,8 @@
-// The checksum of saved bytes: XXH64, which shows damage and is no protection against malice.
+// The checksum of saved bytes: XXH64, which detects damage and does not protect against malice.
 //
-// XXH64 is the 64-bit hash of Yann Collet's xxHash, as https://github.com/Cyan4973/xxHash
-// (doc/xxhash_spec.md) specifies it. Every bit of the input reaches every bit of the sum, so damage of any
-// kind goes unnoticed with a chance of about 2^-64.
+// XXH64 is the 64-bit hash of Yann Collet's xxHash, specified at https://github.com/Cyan4973/xxHash
+// (doc/xxhash_spec.md). Every bit of the input affects every bit of the sum, so damage of any kind goes
+// undetected with a probability of about 2^-64.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace kinesphere {
 
-/// XXH64 of the bytes. With the sum over what came before as `seed`, it stands for all of it. Cost: about a
-/// quarter of a nanosecond a byte.
+/// Returns the XXH64 of the bytes. With the checksum of earlier bytes as `seed`, the result covers them as
+/// well. Cost: about a quarter of a nanosecond per byte.
 std::uint64_t checksum(std::span<const std::byte> bytes, std::uint64_t seed = 0);
 
 }  // namespace kinesphere

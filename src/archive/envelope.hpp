@@ -1,4 +1,5 @@
-// What stands around the content of every saved format, so that foreign, cut and damaged bytes are refused:
+// The envelope around the content of every saved format, by which foreign, truncated and damaged bytes are
+// refused:
 //   mark (8 bytes), format version (4), length of the content (8), content, checksum of all before (8).
 #pragma once
 
@@ -17,16 +18,17 @@ namespace kinesphere {
 struct Envelope {
   std::array<std::uint8_t, 8> mark;  ///< ends with "\r\n", which a transfer as text would change
   std::uint32_t format_version;
-  std::string_view noun;  ///< what is inside: "world"
-  // For messages: who opens it, and the name and error code of what is handed in.
+  std::string_view noun;  ///< kind of content, as in "world"
+  // For error messages: the call that opens the envelope, and the name and error code of its argument.
   std::string_view call;
   std::string_view argument;
   ErrorCode code;
 
   std::vector<std::byte> seal(std::span<const std::byte> content) const;
-  /// The content of bytes that are what they should be as a whole.
+  /// Returns the content, or an error if the mark, version, length or checksum is wrong. The span points into
+  /// `bytes`.
   Result<std::span<const std::byte>> open(std::span<const std::byte> bytes) const;
-  /// "<call>: <argument> <what>".
+  /// Returns an error with the message "<call>: <argument> <what>".
   Error refusal(const std::string& what) const;
 };
 

@@ -1,5 +1,5 @@
-// The fields of the public structs, for archives. A field that is added to one of them does not compile until
-// it is added here too.
+// Serialization of the public structs. A field that is added to one of them does not compile until it is
+// added here too.
 #pragma once
 
 #include <concepts>
@@ -18,7 +18,7 @@
 
 namespace kinesphere {
 
-/// T or const T.
+/// Satisfied by T and const T.
 template <class Self, class T>
 concept Some = std::same_as<std::remove_const_t<Self>, T>;
 
@@ -36,7 +36,7 @@ void serialize(Self& self, Archive& archive) {
 
 template <Some<BodyId> Self, class Archive>
 void serialize(Self& self, Archive& archive) {
-  // The tag of the world would make equal histories differ.
+  // The tag of the world is left out, because it would make equal histories differ.
   auto& [index, generation, world] = self;
   archive(index, generation);
 }

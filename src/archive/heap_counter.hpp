@@ -1,4 +1,5 @@
-// An archive (archive.hpp) that only counts the memory behind a value: what it has asked of the allocator.
+// An archive (archive.hpp) that only counts the heap memory behind a value: what it has requested from the
+// allocator.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +18,7 @@ class HeapCounter {
   std::size_t bytes() const { return bytes_; }
 
  private:
-  /// What allocators usually take for themselves.
+  /// Bytes that allocators usually add to each block.
   static constexpr std::size_t block_overhead = 16;
   static constexpr std::size_t node_overhead = 4 * sizeof(void*);
 
@@ -57,7 +58,7 @@ class HeapCounter {
   std::size_t bytes_ = 0;
 };
 
-/// Of all of them.
+/// Returns the estimated heap memory of all values together, in bytes.
 template <class... Values>
 std::size_t heap_bytes(const Values&... values) {
   HeapCounter counter;

@@ -29,13 +29,14 @@ double BroadPhase::least_width() const {
   return least;
 }
 
-/// The layer of this window and level, which may be without a frame yet, if it is empty.
+/// Returns the index of the grid level with this window and size class. If there is none, an unused level is
+/// taken or one is added; it has no frame until open().
 std::uint32_t BroadPhase::level_for(const Window& window, int level) {
   std::uint32_t free = none;
   for (std::uint32_t k = 0; k < levels_.size(); ++k) {
     const GridLevel& layer = levels_[k];
     if (layer.is_of(window, level)) return k;
-    // One that is over, though others go on, is of no use to anybody.
+    // An empty level whose window has ended can be reused, even while other windows last.
     const bool over =
         !layer.fresh && layer.is_empty() && window.end < infinity && layer.window.end <= window.begin();
     if ((layer.window.end == -infinity || over) && free == none) free = k;
@@ -76,14 +77,14 @@ BroadPhase::Entry BroadPhase::prepare(std::uint32_t number, const InflatedBound&
   return entry;
 }
 
-/// Several threads may do that at the same time, for different bodies.
+/// Thread safety: concurrent calls for different bodies are safe.
 void BroadPhase::replace(const Entry& entry, double now, SweptSphereGrid::Growth& growth) {
   GridLevel& layer = levels_[entry.level];
   layer.spheres.replace(entry.slot, entry.sphere, layer.time(now), entry.looseness, growth);
 }
 
-/// As the body is of the same size for the same window, whenever in it the body enters, and as a layer has
-/// the same frame, whoever enters first, searches find the same in whatever order bodies enter.
+/// The order in which bodies enter does not change what searches find: a body's size class depends on its
+/// window, but not on when in it the body enters, and a level has the same frame whichever body enters first.
 void BroadPhase::enter(std::uint32_t number, const InflatedBound& bound, double now, const Window& window) {
   const Entry entry = prepare(number, bound, now, window);
   if (entry.level != none) {

@@ -1,6 +1,6 @@
-// Who may be where until when. Each body is registered, with a capsule, in one window, which suits its speed,
-// until that window ends. Bodies that share a window and are of about one size share a layer. Bodies that
-// stand still have a window that never ends.
+// The broad phase: registers each body, with a swept sphere, in one window of time until that window ends.
+// The window suits the body's speed; bodies that stand still get the window that never ends. Bodies with one
+// window and about one size share a grid level.
 #pragma once
 
 #include <algorithm>
@@ -27,70 +27,80 @@ class BroadPhase {
 
   void reserve(std::size_t bodies) { registrations_.reserve(bodies); }
   const Space& space() const { return space_; }
-  /// In no order; some may be empty.
+  /// Grid levels in no particular order; some may be empty. Invalidated by enter(), enter_all() and start(),
+  /// which may add levels.
   std::span<const GridLevel> levels() const { return levels_; }
   bool contains(std::uint32_t number) const {
     return number < registrations_.size() && registrations_[number].level != none;
   }
-  /// Of one that is registered: it stays in its capsule until then.
+  /// Returns the end of the body's window, until which its swept sphere contains the body. Precondition:
+  /// contains(number).
   double end_of(std::uint32_t number) const { return registrations_[number].end; }
+  /// Returns the window in which the body is registered. Precondition: contains(number).
   Window window_of(std::uint32_t number) const { return levels_[registrations_[number].level].window; }
-  /// Contains the body from `now` on until its window ends.
+  /// Returns a box that contains the body from `now` until its window ends. Precondition: contains(number).
   Box box_of(std::uint32_t number, double now) const;
-  /// Bodies that are registered.
+  /// Number of registered bodies.
   std::size_t size() const;
-  /// Those of them in windows that end.
+  /// Number of registered bodies in windows that end.
   std::size_t moving() const;
-  /// When the next window ends that holds a body.
+  /// Lower bound on the end of every window that holds a body; +infinity if there is none. A window that
+  /// bodies have left still counts until the next end_windows().
   double next_end() const { return next_end_; }
-  /// Of the smallest capsules, about; +infinity where there are none.
+  /// Returns the least of the levels' greatest swept-sphere widths (length), about the width of the smallest
+  /// swept spheres; +infinity if no body is registered.
   double least_width() const;
 
-  /// Registers a body in a window from `now` on, perhaps anew.
+  /// Registers a body in a window from `now` on. An earlier registration of the body is replaced.
   void enter(std::uint32_t number, const InflatedBound& bound, double now, const Window& window);
-  /// A body that enters a window at a time.
+  /// Argument of enter_all(): a body, the time at which it enters, and its window.
   struct Arrival {
     std::uint32_t number;
     double time;
     Window window;
   };
-  /// The same for many bodies, each of them once. bound_of(k) gives that of the k-th at its time; it is asked
-  /// by several threads.
+  /// Registers many bodies as enter() does; no body may occur twice. bound_of(k) returns the bound of the
+  /// k-th arrival at its time, and is called by several threads concurrently.
   template <class BoundOf>
   void enter_all(std::span<const Arrival> arrivals, BoundOf bound_of, PoolLease& shift);
+  /// Removes the body's registration. Precondition: contains(number).
   void leave(std::uint32_t number);
-  /// Makes searches fast again, if many have entered or left one by one.
+  /// Sorts each grid level that many bodies have entered or left one by one, so that searches are fast again.
+  /// Slots in these levels change.
   void tidy(PoolLease& shift);
   void tidy() {
     PoolLease alone;
     tidy(alone);
   }
 
-  // New windows for many bodies at once: end_windows(), then start().
+  // Bulk restart of windows: end_windows(), then start().
 
-  /// The bodies whose windows have ended by `now` or, if `all`, whose windows end ever, in the order of
-  /// their numbers. What starts in this order makes the same layers, whatever has happened before.
+  /// Returns the numbers, in ascending order, of the bodies whose windows end at `now` or before or, if
+  /// `all`, end at all. Bodies that start in this order make equal grid levels, whatever the history.
   std::vector<std::uint32_t> ended(double now, bool all) const;
-  /// Those bodies are registered nowhere any more, and wait for start().
+  /// Unregisters the bodies that ended(now, all) returns; start() registers them again. From then on the
+  /// merged size classes that the last start chose are in use.
   void end_windows(double now, bool all);
-  /// The tiers of windows that hold bodies whose windows have not been ended.
+  /// Returns the rungs of the windows that hold bodies and were not ended by end_windows(). A rung may occur
+  /// several times.
   std::vector<int> held_rungs() const;
-  /// A body that starts, in which window, and of what size its capsule is (SizeClasses::size_class_of).
+  /// Argument of start(): a body, its size class (SizeClasses::size_class_of) and its window.
   struct Starter {
     std::uint32_t number;
     int size_class;
     Window window;
   };
-  /// They start, in windows that are free, in the order in which they are given; bound_of(number) is asked by
-  /// several threads. Ends what end_windows() has begun.
+  /// Registers the starters in the given order. Preconditions: end_windows() came before; the windows are
+  /// free (Window::free_at). bound_of(number) is called by several threads concurrently.
   template <class BoundOf>
   void start(std::span<const Starter> starters, double now, BoundOf bound_of, PoolLease& shift);
-  /// How many have started since windows ended.
+  /// Number of bodies that have started since the last end_windows().
   std::size_t started() const;
 
-  /// For one that is registered: what is wrong with its place, if anything is.
+  /// Returns a description of what is wrong with the body's registration, or nothing. Precondition:
+  /// contains(number).
   std::optional<std::string> check(std::uint32_t number) const;
-  /// For one that was read, in a world of this many bodies.
+  /// True if the deserialized state is consistent in a world with `bodies` bodies.
   bool is_valid(std::size_t bodies) const;
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
@@ -110,8 +120,8 @@ class BroadPhase {
       archive(until, its_layer, its_place);
     }
   };
-  /// How a body may enter: of what level its capsule is and, unless the layer is none, that it may have the
-  /// place that it has.
+  /// Result of prepare(): the body's size class and, unless `level` is none, the slot that the body has
+  /// already and can keep with the new swept sphere.
   struct Entry {
     int size_class = 0;
     std::uint32_t level = none;
@@ -119,13 +129,13 @@ class BroadPhase {
     SweptSphere sphere{};
     float looseness = 0.0f;
   };
-  /// A layer that so many start in; the first one of them.
+  /// A grid level in which `bodies` bodies start, and the number of the first of them.
   struct Opening {
     std::uint32_t level;
     std::uint32_t first;
     std::size_t bodies;
   };
-  /// How many bodies are of each level.
+  /// Number of bodies by size class.
   using Sizes = std::map<int, std::size_t>;
 
   Entry prepare(std::uint32_t number, const InflatedBound& bound, double now, const Window& window) const;
@@ -144,12 +154,12 @@ class BroadPhase {
   void merge_size_classes(const Sizes& sizes);
 
   Space space_;
-  std::vector<Registration> registrations_;  ///< by body
+  std::vector<Registration> registrations_;  ///< indexed by body number
   std::vector<GridLevel> levels_;
   SizeClasses size_classes_;
-  Vec3 base_{};  ///< of layers that bodies open by entering
+  Vec3 base_{};  ///< base of the frames of levels opened from now on
   bool has_base_ = false;
-  double next_end_ = infinity;  ///< of the windows that hold a body, or held one
+  double next_end_ = infinity;  ///< see next_end()
 };
 
 template <class BoundOf>
@@ -172,7 +182,7 @@ void BroadPhase::enter_all(std::span<const Arrival> arrivals, BoundOf bound_of, 
                      });
   for (const std::vector<SweptSphereGrid::Growth>& of_layers : growth)
     for (std::size_t layer = 0; layer < of_layers.size(); ++layer) levels_[layer].grow(of_layers[layer]);
-  // In the same order whoever has done what.
+  // Sorted, so that the order of entering does not depend on which thread prepared which arrival.
   std::vector<std::size_t> rest;
   for (const std::vector<std::size_t>& some : others) rest.insert(rest.end(), some.begin(), some.end());
   std::sort(rest.begin(), rest.end());

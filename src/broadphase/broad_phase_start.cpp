@@ -1,5 +1,5 @@
-// Windows end for many bodies at once, which start in others: they are sorted into layers that are filled as
-// a whole.
+// Bulk restart of windows: the bodies whose windows end start in others. They are sorted into grid levels,
+// each of which is filled as a whole.
 #include <algorithm>
 
 #include "broadphase/broad_phase.hpp"
@@ -7,14 +7,15 @@
 namespace kinesphere {
 namespace {
 
-/// A layer that lasts while others start is sorted with them if more than this has changed in it, and more
-/// than a half.
+/// A grid level that lasts through a restart is sorted again if its changes since the last sort exceed this
+/// number plus half of its bodies.
 constexpr std::uint64_t least_changes = 64;
 
 }  // namespace
 
-/// Calls visit(number) for the bodies whose windows have ended: if these are many, in the order of their
-/// numbers. Else going through all would take longer than sorting them.
+/// Calls visit(number) for each body whose window has ended. The order is ascending if the levels that end
+/// hold at least a sixteenth of all registrations; otherwise it is unspecified, because a scan of all bodies
+/// would take longer than sorting the few.
 template <class Visit>
 void BroadPhase::for_each_ended(double now, bool all, Visit visit) const {
   const auto has_ended = [=](double end) { return all ? end < infinity : end <= now; };
@@ -74,10 +75,10 @@ std::size_t BroadPhase::started() const {
   return all;
 }
 
-/// Gives each its place in what is to become a layer.
+/// Assigns each starter a grid level and a slot in it, and counts the starters by size class in `sizes`.
 std::vector<BroadPhase::Opening> BroadPhase::choose_levels(std::span<const Starter> starters, Sizes& sizes) {
   std::vector<Opening> openings;
-  // Most are like the one before.
+  // Most starters go where the previous one went, so that level and size class are tried first.
   std::size_t at = 0;
   auto size = sizes.end();
   for (const Starter& starter : starters) {
@@ -103,7 +104,8 @@ std::vector<BroadPhase::Opening> BroadPhase::choose_levels(std::span<const Start
   return openings;
 }
 
-/// Of the layers that bodies start in, which are empty, the capsules are given.
+/// Fills the grid levels in which bodies start, which are empty, and sorts the lasting levels that have
+/// changed much.
 void BroadPhase::finish_start(const std::vector<UnsortedSweptSpheres>& unsorted, PoolLease& shift) {
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     GridLevel& layer = levels_[k];
@@ -119,7 +121,8 @@ void BroadPhase::finish_start(const std::vector<UnsortedSweptSpheres>& unsorted,
   }
 }
 
-/// What is known of the layer from now on is the same, whatever has been changed in which order.
+/// Sorts a level from the coarseness recorded in size_classes_, so that the result does not depend on what
+/// has changed in the level or in which order.
 template <class Sort>
 void BroadPhase::sort_to_start(GridLevel& layer, Sort sort_layer) {
   const float before = size_classes_.coarseness(layer.window.rung, layer.size_class);
@@ -130,7 +133,7 @@ void BroadPhase::sort_to_start(GridLevel& layer, Sort sort_layer) {
   if (after != before) size_classes_.set_coarseness(layer.window.rung, layer.size_class, after);
 }
 
-/// For the next start, if most bodies have started now.
+/// Chooses merged size classes for the next start, if at least half of all bodies have started now.
 void BroadPhase::merge_size_classes(const Sizes& sizes) {
   const bool flat = space_.is_flat();
   double volume = 0.0;

@@ -7,7 +7,7 @@
 namespace kinesphere {
 namespace {
 
-/// The order of a heap.
+/// Reversed order, with which the standard heap algorithms keep the earliest certificate in front.
 auto later_by(const CertificateOrder& order) {
   return [order](const PairCertificate& a, const PairCertificate& b) { return order(b, a); };
 }
@@ -20,7 +20,7 @@ std::size_t CertificateQueue::bucket_of(double time) const {
   return static_cast<std::size_t>(slices < last ? std::max(slices, 0.0) : last);
 }
 
-/// In a slice that comes.
+/// Puts a certificate into a bucket after the current one. Precondition: its bucket index exceeds bucket_.
 void CertificateQueue::wait(const PairCertificate& pair) {
   std::uint32_t node = free_;
   if (node == none) {
@@ -62,8 +62,10 @@ void CertificateQueue::clear() {
   bucket_ = 0;
 }
 
-/// Slices from now on, for so many pairs between these times. Nothing waits.
+/// Divides the times from `first` to `last` into buckets of about 16 certificates each, for `pairs`
+/// certificates, and makes bucket 0 the current one. Precondition: no certificate is in a later bucket.
 void CertificateQueue::divide(double first, double last, std::size_t pairs) {
+  // Mean number of certificates per bucket.
   constexpr std::size_t in_a_slice = 16;
   constexpr std::size_t most = std::size_t{1} << 18;
   const std::size_t slices = std::clamp<std::size_t>(pairs / in_a_slice, 1, most) + 1;
@@ -88,7 +90,7 @@ void CertificateQueue::add_all(std::vector<PairCertificate>& pairs) {
     waiting_ = 0;
     const auto [first, last] = std::minmax_element(pairs.begin(), pairs.end());
     divide(first->failure_time, last->failure_time, pairs.size());
-    // What is due first makes the present slice.
+    // Certificates of bucket 0 form the current bucket; the others go to later buckets.
     for (const PairCertificate& pair : pairs) {
       if (bucket_of(pair.failure_time) > 0) {
         wait(pair);
@@ -108,7 +110,7 @@ CertificateTimes::CertificateTimes(std::vector<PairCertificate> pairs) : pairs_(
 }
 
 double CertificateTimes::of(std::uint32_t a, std::uint32_t b) const {
-  // The walls have the greatest number.
+  // PairCertificate::walls is the greatest number, so it is always second.
   const auto [first, second] = std::minmax(a, b);
   const auto found = std::partition_point(
       pairs_.begin(), pairs_.end(), [first = first, second = second](const PairCertificate& pair) {

@@ -1,4 +1,4 @@
-// The agenda: which pairs are to be looked at before a window ends, and when.
+// The certificate queue: which pairs have to be rechecked before a window ends, and when.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +12,12 @@
 
 namespace kinesphere {
 
-/// Two bodies about which nothing changes before `time`, or a body and the walls or its window. It is void
-/// once one of the two has another stamp.
+/// A certificate that nothing changes between two bodies, or between a body and the walls or its window,
+/// before failure_time. The certificate is stale once the revision of one of its bodies differs.
 struct PairCertificate {
-  /// In place of the second body: the walls.
+  /// Value of `second` in a certificate between a body and the walls.
   static constexpr std::uint32_t walls = std::numeric_limits<std::uint32_t>::max();
-  /// In place of the second body: the end of a window that the first one has for itself.
+  /// Value of `second` in a certificate for the end of a window that the first body has for itself.
   static constexpr std::uint32_t window_end = walls - 1;
   bool has_second() const { return second < window_end; }
 
@@ -38,12 +38,12 @@ struct PairCertificate {
   }
 };
 
-/// The order of hot pairs that are due at the same time is that of their bodies: by their numbers or, where
-/// bodies have names, by these.
+/// Order of certificates: by failure time, then by their bodies. Bodies compare by name if they have names,
+/// otherwise by number.
 class CertificateOrder {
  public:
   CertificateOrder() = default;
-  /// Names by number, which must outlive this.
+  /// Orders by names. `names` is indexed by body number and must outlive this object.
   explicit CertificateOrder(const std::vector<std::uint32_t>& names) : names_(&names) {}
 
   bool operator()(const PairCertificate& a, const PairCertificate& b) const {
@@ -59,37 +59,47 @@ class CertificateOrder {
   const std::vector<std::uint32_t>* names_ = nullptr;
 };
 
-/// In the order of their times, then of their bodies. Most pairs become void before they are due, so those
-/// that are not due soon are kept in slices of time, in no order; a slice is sorted when it begins, without
-/// those that have become void. Cost: O(1) for each pair and, for those that come to be due, O(log of the
-/// size of a slice).
+/// A priority queue of certificates in CertificateOrder: a ladder queue (Tang, Goh and Thng 2005, ACM
+/// Transactions on Modeling and Computer Simulation 15) with a single row of buckets. Most certificates
+/// become stale before they are due, so later buckets are not sorted. A bucket is sorted, without its stale
+/// certificates, when it becomes the current one; certificates that are added to the current bucket
+/// afterwards are kept in a heap. Cost: O(1) for each certificate, and O(log of the size of a bucket) for
+/// each that becomes due.
 class CertificateQueue {
  public:
-  /// Of an agenda that is empty.
+  /// Sets the order. Precondition: the queue is empty.
   void order_by(const CertificateOrder& order) { order_ = order; }
   const CertificateOrder& order() const { return order_; }
+  /// Number of certificates, stale ones included.
   std::size_t size() const { return (sorted_.size() - next_) + heap_.size() + waiting_; }
-  /// Needed before next_time() and first(), after each change: goes on to the next slice that holds a pair,
-  /// if nothing is left of this one.
+  /// Moves on to the next bucket that holds a certificate, if the current one is used up.
+  /// is_void(certificate) returns true for a stale one. Must be called after each change, before next_time()
+  /// and first().
   template <class IsVoid>
   void open(IsVoid is_void) {
     while (next_ == sorted_.size() && heap_.empty() && waiting_ > 0) begin_bucket(is_void);
   }
-  /// +infinity when nothing is due.
+  /// Returns the failure time of the first certificate, or +infinity if the queue is empty. Precondition:
+  /// open().
   double next_time() const {
     const double of_sorted = next_ < sorted_.size() ? sorted_[next_].failure_time : infinity;
     return heap_.empty() ? of_sorted : std::min(of_sorted, heap_.front().failure_time);
   }
-  /// Needs that there is one.
+  /// Returns the first certificate, which may be stale. Preconditions: open(), and the queue is not empty.
+  /// Invalidated by each change of the queue.
   const PairCertificate& first() const { return heap_comes_first() ? heap_.front() : sorted_[next_]; }
+  /// Removes first(), under the preconditions of first().
   void drop_first();
+  /// Adds a certificate. Cost: O(1), or O(log of the heap) if it belongs to the current bucket.
   void add(const PairCertificate& pair);
-  /// All of them, in any order. Leaves `pairs` empty.
+  /// Adds all of `pairs`, which may be in any order, and clears `pairs`. If they are many, all buckets are
+  /// divided anew.
   void add_all(std::vector<PairCertificate>& pairs);
 
   void clear();
-  /// Moves those that come before `end`, and no later than `last`, to `pairs`, but of different times no more
-  /// than `most`. Returns when the next one comes, at `end` or before.
+  /// Moves certificates that fail before `end`, and no later than `last`, to `pairs`, without stale ones.
+  /// Once `pairs` holds `most`, only certificates with the failure time of its last one follow. Returns the
+  /// failure time of the next certificate if it stopped at `most`, otherwise `end`.
   template <class IsVoid>
   double take_until(double last, double end, std::size_t most, std::vector<PairCertificate>& pairs,
                     IsVoid is_void) {
@@ -103,7 +113,7 @@ class CertificateQueue {
     }
   }
 
-  /// Void ones too.
+  /// Visits all certificates, stale ones included, in no particular order.
   template <class Visit>
   void for_each(Visit visit) const {
     std::for_each(sorted_.begin() + static_cast<std::ptrdiff_t>(next_), sorted_.end(), visit);
@@ -112,6 +122,7 @@ class CertificateQueue {
       for (std::uint32_t at = head; at != none; at = nodes_[at].next) visit(nodes_[at].pair);
   }
 
+  /// Memory reserved for certificates, in bytes.
   std::size_t bytes() const {
     return (sorted_.capacity() + heap_.capacity()) * sizeof(PairCertificate) +
            nodes_.capacity() * sizeof(Node) + heads_.capacity() * sizeof(std::uint32_t);
@@ -121,7 +132,7 @@ class CertificateQueue {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   struct Node {
     PairCertificate pair;
-    std::uint32_t next;  ///< of its slice, or of those that are free
+    std::uint32_t next;  ///< next node of the bucket or of the free list
   };
 
   bool heap_comes_first() const {
@@ -150,26 +161,27 @@ class CertificateQueue {
   }
 
   CertificateOrder order_;
-  std::vector<PairCertificate> sorted_;  ///< of the present slice
+  std::vector<PairCertificate> sorted_;  ///< the current bucket, in order from next_ on
   std::size_t next_ = 0;
-  std::vector<PairCertificate> heap_;  ///< that have been added to it since
-  // Of the slices that come.
+  std::vector<PairCertificate> heap_;  ///< certificates added to the current bucket since it was sorted
+  // The later buckets: a linked list for each.
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> heads_;
   std::uint32_t free_ = none;
   std::size_t waiting_ = 0;
-  std::size_t bucket_ = 0;  ///< the present one
-  double begin_ = 0.0;      ///< of slice 0
-  double per_time_ = 0.0;
+  std::size_t bucket_ = 0;  ///< index of the current bucket
+  double begin_ = 0.0;      ///< time at which bucket 0 begins
+  double per_time_ = 0.0;   ///< buckets per unit of time; 0 if all are due at once
 };
 
-/// The times of hot pairs, found by their bodies.
+/// Failure times of certificates, looked up by their bodies.
 class CertificateTimes {
  public:
   explicit CertificateTimes(std::vector<PairCertificate> pairs);
-  /// The first one of the pair; the second may be PairCertificate::walls. +infinity where there is none.
+  /// Returns the earliest failure time of the pair's certificates, or +infinity if it has none. One of the
+  /// numbers may be PairCertificate::walls. Cost: O(log n).
   double of(std::uint32_t a, std::uint32_t b) const;
-  /// By their bodies.
+  /// Certificates sorted by their bodies, then by failure time.
   const std::vector<PairCertificate>& pairs() const { return pairs_; }
 
  private:

@@ -1,4 +1,4 @@
-// The box around a capsule's ball at the beginning and at the end of a span of time.
+// The axis-aligned box around a swept sphere during a span of time, in single precision.
 #pragma once
 
 #include <algorithm>
@@ -11,14 +11,14 @@
 
 namespace kinesphere {
 
-/// In units of the capsule's frame. Some of them may be infinite or no numbers.
+/// Box in units of the swept sphere's frame. Coordinates may be infinite or NaN.
 struct FloatAabb {
   std::array<float, 3> lower;
   std::array<float, 3> upper;
 
   float middle(std::size_t axis) const { return 0.5f * (lower[axis] + upper[axis]); }
   float width(std::size_t axis) const { return upper[axis] - lower[axis]; }
-  /// On any axis; infinite for what is not a number.
+  /// Returns the greatest width on any axis; +infinity if the widths are NaN.
   float widest() const {
     float widest = 0.0f;
     for (std::size_t axis = 0; axis < 3; ++axis)

@@ -10,10 +10,10 @@
 namespace kinesphere {
 namespace {
 
-/// Whole numbers of cells stay below this, so that sums of some do not overflow.
+/// Limit of the absolute values of cell coordinates, so that sums of several do not overflow.
 constexpr float most_cells = 0x1p29f;
 constexpr std::int32_t most_along_an_axis = 1 << 20;
-/// So few are in one cell: a search looks at all of them.
+/// A grid for at most this number of swept spheres has a single cell; a search tests all of them.
 constexpr std::size_t few = 32;
 
 }  // namespace
@@ -87,7 +87,7 @@ std::int32_t Grid::cell_of(float coordinate, std::size_t axis) const {
   return cut - (within < static_cast<float>(cut) ? 1 : 0);
 }
 
-/// The index along the axis.
+/// Returns the cell's index along the axis, 0 <= index < count_[axis].
 std::int32_t Grid::wrapped(std::int32_t cell, std::size_t axis) const {
   const std::int32_t way = cell - first_[axis];
   if (0 <= way && way < count_[axis]) return way;
@@ -132,7 +132,7 @@ float Grid::looseness(const Cell& cell, const FloatAabb& aabb) const {
     const auto here = static_cast<float>(cell[axis]);
     const float below = here * edge_[axis] - aabb.lower[axis];
     const float above = aabb.upper[axis] - (here + 1.0f) * edge_[axis];
-    // What is not a number reaches everywhere.
+    // A NaN does not compare, and counts as a greater value.
     for (const float out : {below, above})
       if (!(out <= most)) most = out;
   }
@@ -150,7 +150,8 @@ Box Grid::box_of(const Cell& cell) const {
 }
 
 std::optional<Grid::CellRange> Grid::cells_near(const FloatAabb& aabb, float reach) const {
-  // Not copied at the end: a copy would wait for what has just been written in other pieces.
+  // The range is built in place and not copied at the end: a copy would wait for the separate writes to its
+  // parts.
   std::optional<CellRange> range(std::in_place);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::int32_t all = count_[axis];
@@ -159,7 +160,7 @@ std::optional<Grid::CellRange> Grid::cells_near(const FloatAabb& aabb, float rea
     const float cells = (aabb.width(axis) + 2.0f * reach) * per_edge_[axis];
     std::int32_t begin = 0;
     std::int32_t count = all;
-    // Else all: also where a corner is infinite or not a number.
+    // Otherwise all cells of the axis, also if a coordinate is infinite or NaN.
     if (cells < most_cells) {
       if (folded_[axis]) {
         count = std::min(last - first + 1, all);

@@ -1,4 +1,4 @@
-// The grid of a layer: which cell a capsule belongs to, and which cells a search has to read.
+// The grid of a SweptSphereGrid: which cell a swept sphere belongs to, and which cells a search has to read.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace kinesphere {
 
-/// Where the middles of some capsules are, and how wide the widest is; but for those that are too large for
-/// whole numbers of cells.
+/// Collects the range of the boxes' centres and the width of the widest box, leaving out values that are too
+/// large for cell coordinates.
 class SweptSphereSpread {
  public:
   SweptSphereSpread();
@@ -23,11 +23,11 @@ class SweptSphereSpread {
   const std::array<float, 3>& lower() const { return lower_; }
   const std::array<float, 3>& upper() const { return upper_; }
   float widest() const { return widest_; }
-  /// The widest of all, however large.
+  /// Width of the widest box, including the boxes that are too large for cell coordinates.
   float largest() const { return largest_; }
-  /// A middle that is too large for whole numbers of cells may lie beyond lower() and upper().
+  /// True if a centre was too large for cell coordinates; it may lie outside lower() and upper().
   bool is_exceeded() const { return exceeded_; }
-  /// The longest edge of the box around the middles, but no less than the widest.
+  /// Returns the longest edge of the box around the centres, but no less than widest().
   float extent() const;
 
  private:
@@ -38,56 +38,56 @@ class SweptSphereSpread {
   bool exceeded_ = false;
 };
 
-/// Divides space into cells, which have indices. Those with coordinates in [i, i + 1) times the edge are cell
-/// i of an axis. Where the axis is folded, cell i shares its index, and so its capsules, with all cells
-/// i + k count; else all capsules are in `count` cells from the first on. Cells are cubes cut into slices
-/// along x: rows of cells are read as a whole, so that thin slices cost nothing, and less is read of rows
-/// that are not needed as a whole. Lengths are in units of a frame.
+/// Divides space into cells and gives them indices. Cell i of an axis holds the coordinates in [i, i + 1)
+/// times the edge. On a folded axis, cell i shares its index, and so its swept spheres, with all cells i + k
+/// count; on any other axis all swept spheres are in `count` cells from the first on. A cell is a cube cut
+/// into slices along x: searches read rows of cells as a whole, so thin slices cost nothing, and less is read
+/// of rows that are needed only in part. Lengths are in units of a frame.
 class Grid {
  public:
   using Cell = std::array<std::int32_t, 3>;
   static constexpr std::size_t slices = 4;
 
-  /// On each axis `count` > 0 cells from the index `begin` on; those beyond the last one of the axis are the
-  /// first ones.
+  /// A range of cells: on each axis `count` > 0 cells from the index `begin` on. Past the last cell of an
+  /// axis the range continues at the first one.
   struct CellRange {
     std::array<std::uint32_t, 3> begin;
     std::array<std::uint32_t, 3> count;
   };
 
   Grid() = default;
-  /// For so many capsules: cubes as wide as the widest, times `coarseness`, over the box that holds all
-  /// middles; folded where a middle may lie beyond that, or where there would be far more cells than
-  /// capsules. Few capsules get one cell.
+  /// Makes a grid for `spheres` swept spheres: cubes as wide as the widest one, times `coarseness`, over the
+  /// box that holds all centres. An axis is folded where a centre may lie beyond that box, or where there
+  /// would be far more cells than swept spheres. A few swept spheres (at most 32) get a single cell.
   Grid(const SweptSphereSpread& error, std::size_t spheres, float coarseness);
 
-  /// Of a cube.
+  /// Edge of a cube.
   float edge() const { return edge_[1]; }
   std::size_t cells() const {
     return std::size_t(count_[0]) * std::size_t(count_[1]) * std::size_t(count_[2]);
   }
   std::size_t cells_in_a_row() const { return std::size_t(count_[0]); }
-  /// In which the middle is.
+  /// Returns the cell that contains the box's centre.
   Cell cell_around(const FloatAabb& aabb) const;
-  /// Less than cells(); those along x follow each other. Where an axis is not folded, of one of its `count`
-  /// cells.
+  /// Returns the cell's index, less than cells(); cells along x have successive indices. Precondition: on an
+  /// axis that is not folded, the cell is one of its `count` cells.
   std::uint32_t index_of(const Cell& cell) const;
-  /// Of the cells with this index the one that is nearest to another.
+  /// Returns, among the cells with this index, the one nearest to the cell `to`.
   Cell nearest_image(std::uint32_t index, const Cell& to) const;
-  /// How far corners reach out of a cell; a little more, as what is added to it or taken from it may be lost
-  /// in rounding.
+  /// Returns the looseness: how far the box reaches out of the cell. The result is slightly enlarged,
+  /// by 2^-20 of itself, because sums and differences with it are rounded.
   float looseness(const Cell& cell, const FloatAabb& aabb) const;
   Box box_of(const Cell& cell) const;
 
-  /// The cells that may hold a capsule that has a point in common with the corners, if none reaches farther
-  /// than `reach` out of its cell.
+  /// Returns the cells that may hold a swept sphere whose box has a point in common with `aabb`, or nothing
+  /// if there are none. Precondition: no swept sphere's box reaches farther than `reach` out of its cell.
   std::optional<CellRange> cells_near(const FloatAabb& aabb, float reach) const;
-  /// Some of the cells are beyond the last ones of an axis: for_each_row() does not visit them in the order
-  /// of their indices.
+  /// True if the range continues at the first cell of an axis; for_each_row() then does not visit cells in
+  /// ascending order of index.
   bool wraps(const CellRange& range) const {
     return end_of(range, 0) > along(0) || end_of(range, 1) > along(1) || end_of(range, 2) > along(2);
   }
-  /// Calls visit(first, last) for each piece of a row, cells with first <= index < last.
+  /// Calls visit(first, last) for each contiguous piece of a row: the cells with first <= index < last.
   template <class Visit>
   void for_each_row(const CellRange& range, Visit visit) const {
     const std::uint32_t begin = range.begin[0];
@@ -104,7 +104,7 @@ class Grid {
     }
   }
 
-  /// For one that was read.
+  /// True if the deserialized state is consistent.
   bool is_valid() const;
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {

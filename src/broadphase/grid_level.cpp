@@ -28,7 +28,8 @@ SweptSphereQuery GridLevel::query(const InflatedBound& bound, double now, double
   float from = 0.0f;
   float to = 0.0f;
   if (end < infinity && window.end == infinity) {
-    // What stands still has no times of its own.
+    // The frame of the endless window has no time scale, so the query brings its own: from now on, ending at
+    // 2 or before.
     frame.origin = now;
     frame.per_time =
         power_of_two(-std::clamp(exponent_of(end - now), -Window::longest_rung, Window::longest_rung));

@@ -1,5 +1,5 @@
-// A layer and whose it is: the bodies of about one size in one window, whose times and lengths it turns into
-// those of its capsules.
+// A grid level: the swept spheres of the bodies of about one size in one window. It converts the bodies'
+// times and lengths to the units of the level's frame.
 #pragma once
 
 #include <cstdint>
@@ -12,38 +12,39 @@
 
 namespace kinesphere {
 
-/// It stays until windows end, even if all of its bodies leave.
+/// A level stays until windows end (BroadPhase::end_windows()), even if all its bodies leave.
 struct GridLevel {
-  Window window{.end = -infinity};  ///< ends at -infinity if it is nobody's
+  Window window{.end = -infinity};  ///< ends at -infinity if the level is unused
   int size_class = 0;
-  bool has_frame = false;  ///< without one it is empty
-  bool fresh = false;      ///< all in it have started since windows ended
+  bool has_frame = false;  ///< a level without a frame is empty
+  bool fresh = false;      ///< all bodies in it have started since the last BroadPhase::end_windows()
   SweptSphereGrid spheres{};
-  std::uint64_t changes = 0;  ///< since it was last sorted as windows started
+  std::uint64_t changes = 0;  ///< entries, replacements and removals since the last sort at a restart
 
   bool is_of(const Window& its_window, int its_level) const {
     return window == its_window && size_class == its_level;
   }
-  /// The order in which layers search each other.
+  /// Strict order of grid levels. Of two fresh levels, the bodies of the lesser one search the other level.
   bool is_before(const GridLevel& other) const {
     return std::tie(window.rung, size_class, window.end) <
            std::tie(other.window.rung, other.size_class, other.window.end);
   }
   bool is_empty() const { return spheres.size() == 0; }
 
-  /// Gives an empty layer a frame: lengths from `base`, times from `origin` until the window ends.
+  /// Gives an empty level a frame: lengths count from `base`, times from `origin` until the window ends.
   void open(const Vec3& base, double origin, float coarseness);
-  /// Of a body from now on until the window ends.
+  /// Returns the swept sphere of a body from `now` until the window ends, in units of the frame.
   SweptSphere swept_sphere(const InflatedBound& bound, double now) const;
-  /// In the frame.
+  /// Converts a time to units of the frame; 0 in the endless window.
   float time(double now) const;
-  /// Whom this bound may touch from now on until `end` or until the window ends.
+  /// Returns a query for the bodies that `bound` may touch from `now` until `end` or until the window ends,
+  /// whichever is earlier.
   SweptSphereQuery query(const InflatedBound& bound, double now, double end) const;
-  /// No capsule is wider (length).
+  /// Upper limit of the widths of the level's swept spheres (length).
   double widest() const { return spheres.widest() / spheres.frame().per_length; }
-  /// Contains the body from `now` on until the window ends.
+  /// Returns a box that contains the body at a slot from `now` until the window ends.
   Box box_at(std::uint32_t place, double now) const;
-  /// Calls visit(box, number of bodies) for each cell that holds any.
+  /// Calls visit(box, number of bodies) for each cell that holds a body.
   template <class Visit>
   void for_each_cell(Visit visit) const {
     const SweptSphereFrame& frame = spheres.frame();
@@ -58,7 +59,7 @@ struct GridLevel {
     spheres.grow(growth);
   }
 
-  /// For one that was read.
+  /// True if the deserialized state is consistent.
   bool is_valid() const;
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {

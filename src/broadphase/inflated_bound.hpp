@@ -1,4 +1,4 @@
-// A body's bound as searches need it: with the room around it that is to be kept free.
+// A body's bound as searches need it: with a margin around it that has to be kept free.
 #pragma once
 
 #include <algorithm>
@@ -9,10 +9,11 @@
 namespace kinesphere {
 
 struct InflatedBound {
-  BoundAt moved;  ///< moved on to the present
+  BoundAt moved;  ///< bound at the present time
   double margin;  ///< length
 
-  /// Around its way straight on for this long, in its largest size.
+  /// Returns the box around the body's straight path during `duration`, with the largest radius in that time
+  /// plus the margin.
   Box box_of_way(double duration) const {
     const Vec3 end = moved.centre + moved.velocity * duration;
     const double half = moved.radius_after(duration) + margin;

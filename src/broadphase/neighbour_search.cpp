@@ -21,8 +21,9 @@ void NeighbourSearch::clear_searches() {
   images_.clear();
 }
 
-/// Adds searches of one layer, in all images, for the k-th of some bodies, from now on until `end` or until
-/// the window of the layer ends. False where that would not do: all that are there may be near.
+/// Adds searches of one grid level, in all images, for the k-th body of a batch, from `now` until `end` or
+/// until the level's window ends. Returns false, without adding any, if the body's box is not narrower than a
+/// period: every body of the level may then be near.
 bool NeighbourSearch::add_searches(const Space& space, const GridLevel& layer, std::uint32_t k,
                                    const InflatedBound& bound, double now, double end) {
   const auto add = [&](const Vec3& shift) {
@@ -36,7 +37,7 @@ bool NeighbourSearch::add_searches(const Space& space, const GridLevel& layer, s
     return true;
   }
   const Box box = bound.box_of_way(duration_until(end, now));
-  // It may overlap several images of all: a search of one would not do.
+  // A box this wide may overlap several images of another; a search with one of them would not suffice.
   if (!is_within_a_period(box, space)) return false;
   space.for_each_image(box, layer.widest(), [&](const Box&, const Vec3& shift) { add(shift); });
   return true;
@@ -84,14 +85,14 @@ std::span<const std::uint32_t> NeighbourSearch::in_box(const BroadPhase& windows
   return numbers_;
 }
 
-/// Those that have started may have neighbours elsewhere than in their own layer as it is.
+/// True if started bodies may have neighbours outside the present image of their own grid level.
 bool NeighbourSearch::has_several_images(const BroadPhase& windows) {
   const auto layers = windows.levels();
   const auto empty = std::count_if(layers.begin(), layers.end(), std::mem_fn(&GridLevel::is_empty));
   return windows.space().repeats() || std::ssize(layers) > empty + 1;
 }
 
-/// From the k-th on, no more than so many.
+/// Returns successive started bodies of one grid level from the k-th on, at most `most`.
 NeighbourSearch::Started NeighbourSearch::started_at(std::span<const GridLevel> layers, std::size_t k,
                                                      std::size_t most) {
   const auto holds = [&k](const GridLevel& layer) {
@@ -107,7 +108,7 @@ NeighbourSearch::Started NeighbourSearch::started_at(std::span<const GridLevel> 
   return {*found, static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(std::min(behind, most))};
 }
 
-/// Those behind them in their own layer.
+/// Finds neighbours of the bodies `some` among the later slots of their own grid level.
 void NeighbourSearch::search_behind(const Started& some) {
   const SweptSphereGrid& layer = some.own.spheres;
   clear_searches();
@@ -118,7 +119,7 @@ void NeighbourSearch::search_behind(const Started& some) {
   });
 }
 
-/// Those in other layers and, of their own, other images.
+/// Finds neighbours of the bodies `some` in other grid levels and in other images of their own level.
 void NeighbourSearch::search_other_levels(const BroadPhase& windows, const Started& some, double now) {
   for (const GridLevel& other : windows.levels()) {
     const bool is_own = &other == &some.own;

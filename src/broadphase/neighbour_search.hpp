@@ -1,4 +1,4 @@
-// Searches for the neighbours of bodies in all layers, and in all images where space repeats.
+// Searches for the neighbours of bodies in all grid levels and, where space repeats, in all images.
 #pragma once
 
 #include <algorithm>
@@ -11,24 +11,26 @@
 
 namespace kinesphere {
 
-/// Two bodies.
+/// Numbers of two different bodies.
 struct BodyPair {
   std::uint32_t first;
   std::uint32_t second;
 };
 
-/// What a search finds is kept here, good until the next one. One for each thread: several may search the
-/// same windows at the same time.
+/// A search for neighbours, with its buffers. Results stay valid until the object's next search. Thread
+/// safety: use one object per thread; several objects may search one BroadPhase concurrently.
 class NeighbourSearch {
  public:
-  /// The bodies other than `number` whose registered capsule may touch, before their windows end, that which
-  /// `number` would have from now until `end`. The list may be changed.
+  /// Returns the bodies other than `number` whose registered swept sphere may touch, before the window of
+  /// either ends, the swept sphere that `number` would have from `now` until `end`. The caller may change the
+  /// list.
   std::vector<std::uint32_t>& near(const BroadPhase& windows, std::uint32_t number,
                                    const InflatedBound& bound, double now, double end);
 
-  /// Pairs of one that has started, from the k-th of Windows::started() to before the last, and one that
-  /// near() finds for it: going through all of them finds each pair of two of them once. bound_of(number) is
-  /// asked where there are several layers, or space repeats.
+  /// Returns the pairs of a started body, with an index k <= index < last below BroadPhase::started(), and a
+  /// body that near() finds for it. Calls for all indices together yield each pair of two started bodies
+  /// once. bound_of(number) is called only if there are several grid levels or space repeats. Precondition:
+  /// the levels are as BroadPhase::start() left them.
   template <class BoundOf>
   std::span<const BodyPair> near_started(const BroadPhase& windows, std::size_t k, std::size_t last,
                                          double now, BoundOf bound_of) {
@@ -49,18 +51,18 @@ class NeighbourSearch {
     return pairs_;
   }
 
-  /// The bodies whose capsules may reach into a box now, and perhaps some near it; where space repeats
-  /// perhaps several times.
+  /// Returns the bodies whose swept spheres may reach into a box at `now`, perhaps with some near the box.
+  /// Where space repeats, a body may occur several times.
   std::span<const std::uint32_t> in_box(const BroadPhase& windows, const Box& box, double now);
 
  private:
-  /// Some that have started, at successive places of a layer.
+  /// Started bodies at successive slots of a grid level.
   struct Started {
     const GridLevel& own;
     std::uint32_t slot;
     std::uint32_t count;
   };
-  /// A search for the k-th of some bodies, where it is or in another image.
+  /// A search for the k-th body of a batch, in its own place or shifted to another image.
   struct ImageSearch {
     std::uint32_t k;
     bool shifted;
@@ -74,8 +76,8 @@ class NeighbourSearch {
                     double now, double end);
   void clear_searches();
 
-  SweptSphereSearches searches_;     ///< of one layer
-  std::vector<ImageSearch> images_;  ///< for whom each of them is
+  SweptSphereSearches searches_;     ///< queries for one grid level
+  std::vector<ImageSearch> images_;  ///< body and image of each query
   std::vector<InflatedBound> bounds_;
   std::vector<std::uint32_t> numbers_;
   std::vector<BodyPair> pairs_;

@@ -9,7 +9,7 @@
 namespace kinesphere {
 namespace {
 
-/// Levels differ by this many powers of two in the width of capsules.
+/// Successive size classes differ by this many powers of two in the width of swept spheres.
 constexpr int powers_in_a_size_class = 3;
 constexpr int largest_size_class = 300;
 
@@ -44,9 +44,11 @@ int SizeClasses::size_class_to_enter(int level) const {
   return level;
 }
 
-/// Bodies are to share the layer of the next larger ones if searches there find few of them.
+/// Joins a size class to the next larger one if a search there would find few of its bodies.
 void SizeClasses::merge(const std::map<int, std::size_t>& bodies, double volume, bool flat) {
+  // Size classes are joined while a search of the joined level would find fewer bodies than this.
   constexpr double few_found = 48.0;
+  // Width of the space that a search covers, in least widths of the next larger size class.
   constexpr double units_searched = 10.0;
   next_merged_.clear();
   std::vector<int> together;

@@ -1,5 +1,5 @@
-// The sizes of capsules by levels: which levels share a layer, and how wide the cells of a layer have to be.
-// Both are learned when windows start, for the next ones.
+// Size classes of swept spheres: which classes share a grid level, and how coarse a level's cells have to be.
+// These facts are measured when windows start, and used at the next start.
 #pragma once
 
 #include <cstddef>
@@ -11,31 +11,33 @@
 
 namespace kinesphere {
 
-/// Widths of one level differ by less than a factor of 8. Levels that few bodies have are merged with larger
-/// ones: each layer costs a search of its own.
+/// Swept spheres of one size class differ in width by less than a factor of 8. A class with few bodies is
+/// merged into a larger one, because each grid level costs a search of its own.
 class SizeClasses {
  public:
-  /// By the size of its capsule for the whole window, however much of it has passed.
+  /// Returns the size class of the body's swept sphere for the whole window, however much of it has passed.
   static int size_class_of(const InflatedBound& bound, const Window& window);
-  /// The least width of a level (length), a power of two.
+  /// Returns the least width of a size class (length), a power of two.
   static double unit_of(int level);
   static bool is_size_class(int level);
 
-  /// The level whose layer a body of this level starts in, with many others.
+  /// Returns the size class whose grid level a body of this class starts in, at a start of many bodies.
   int size_class_to_start(int level) const;
-  /// The same for one that enters by itself: few do that, for whom alone no layer is worth while.
+  /// Returns the size class whose grid level a body of this class enters alone. Few bodies enter alone, and a
+  /// grid level just for them does not pay.
   int size_class_to_enter(int level) const;
-  /// What merge() has found holds from now on.
+  /// Puts the result of the last merge() into effect.
   void use_merged() { merged_ = next_merged_; }
-  /// Chooses which levels will share a layer from the numbers of bodies of all that have them. `volume` is
-  /// that of the space in which the bodies are, or its area if `flat`.
+  /// Chooses which size classes will share a grid level. `bodies` holds the number of bodies of each class
+  /// that has any. `volume` is the volume of the space in which the bodies are, or its area if `flat`.
   void merge(const std::map<int, std::size_t>& bodies, double volume, bool flat);
 
-  /// Layer::coarseness() that such a layer has turned out to need; at first 1.
+  /// Returns the SweptSphereGrid::coarseness() that grid levels of this rung and size class have turned out
+  /// to need; at first 1.
   float coarseness(int rung, int level) const;
   void set_coarseness(int rung, int level, float coarseness);
 
-  /// For one that was read.
+  /// True if the deserialized state is consistent.
   bool is_valid() const;
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
@@ -66,9 +68,9 @@ class SizeClasses {
     }
   };
 
-  std::vector<Merged> merged_;       ///< by level
-  std::vector<Merged> next_merged_;  ///< the same from the next start on
-  std::vector<Coarseness> coarse_;   ///< where it is not 1
+  std::vector<Merged> merged_;       ///< ascending by size class
+  std::vector<Merged> next_merged_;  ///< merged_ from the next start on
+  std::vector<Coarseness> coarse_;   ///< entries other than 1
 };
 
 }  // namespace kinesphere

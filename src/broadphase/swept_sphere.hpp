@@ -1,4 +1,4 @@
-// A body over a window of time as a search sees it: a ball that moves straight on, in single precision.
+// A body over a window of time as a search sees it: a sphere that moves straight on, in single precision.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 
 namespace kinesphere {
 
-/// The units in which the capsules of one layer are given: lengths count from `base`, times from `origin`,
-/// and both are multiplied so that numbers are of moderate size in worlds of all scales.
+/// The units of the swept spheres of one grid level. Lengths count from `base`, times from `origin`. Scale
+/// factors keep the numbers at a moderate size in worlds of all scales.
 struct SweptSphereFrame {
   Vec3 base{};
   double origin = 0.0;
@@ -28,8 +28,8 @@ struct SweptSphereFrame {
   }
 };
 
-/// At time s (in units of its frame) the body lies within `radius` of centre + velocity s, from when the
-/// capsule was made until its end.
+/// A sphere that moves straight on. At time s (in units of its frame) the body lies within `radius` of
+/// centre + velocity s, from when the swept sphere was made until its end.
 struct SweptSphere {
   std::array<float, 3> centre{};
   std::array<float, 3> velocity{};
@@ -38,11 +38,12 @@ struct SweptSphere {
   friend bool operator==(const SweptSphere&, const SweptSphere&) = default;
 };
 
-/// A capsule that contains a body from `now`, the time to which `moved` has been moved on, for `duration`,
-/// with `room` around it. The radius has 2^-18 of the size of all numbers that go into a search beyond that,
-/// which covers its roundings, and 2^-100 units, which cover what underflows (docs/guarantee.md, "The
-/// search"). Where the numbers are so large that a search could not compute with them, the capsule is
-/// everywhere: where the square of a velocity overflows, a search does not see that bodies meet.
+/// Returns a swept sphere that contains a body, with `margin` around it, from `now` for `duration`.
+/// Precondition: `moved` is the body's bound at `now`. The radius is enlarged by 2^-18 of the sum of all
+/// lengths that go into a search, which covers the roundings of the search, and by 2^-100 units, which cover
+/// underflow (docs/guarantee.md, "The search"). The swept sphere is everywhere (its radius is infinite) if
+/// the numbers are too large for a search to compute with: where the square of a velocity overflows, a search
+/// would miss bodies that meet.
 inline SweptSphere swept_sphere_of(const BoundAt& moved, double now, double duration, double margin,
                                    const SweptSphereFrame& frame) {
   constexpr double part_lost = 0x1p-18;

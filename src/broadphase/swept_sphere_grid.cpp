@@ -10,7 +10,8 @@
 namespace kinesphere {
 namespace {
 
-/// Cells are to hold about as many, where they hold any.
+/// Range of the mean number of swept spheres in a cube that holds any; outside this range, sorting changes
+/// the coarseness.
 constexpr std::size_t too_few_in_a_cell = 3;
 constexpr std::size_t too_many_in_a_cell = 24;
 
@@ -35,7 +36,7 @@ std::uint32_t SweptSphereGrid::add(std::uint32_t number, const SweptSphere& sphe
 std::optional<float> SweptSphereGrid::looseness_at(std::uint32_t place, const SweptSphere& sphere,
                                                    float from) const {
   assert(table_.number_at(place) != SweptSphereTable::nobody);
-  // Those that were added later have no cell.
+  // Swept spheres added since the last sort have no cell.
   if (place >= sorted_) return 0.0f;
   const FloatAabb aabb = float_aabb_of(sphere, from, 1.0f);
   const Grid::Cell here = grid_.nearest_image(cells_[place], grid_.cell_around(aabb));
@@ -63,11 +64,12 @@ SweptSphereSpread SweptSphereGrid::spread_of(const UnsortedSweptSpheres& all, Po
   return error;
 }
 
-/// Makes cells coarse enough to hold some each, and counts by them.
+/// Chooses a grid with cells coarse enough that each filled one holds several swept spheres, and counts by
+/// its cells.
 void SweptSphereGrid::choose_grid(const UnsortedSweptSpheres& all, const SweptSphereSpread& error,
                                   std::vector<std::uint32_t>& cells, PoolLease& shift) {
   const std::size_t count = cells.size();
-  // Larger ones would be of no use.
+  // Cells wider than 4 times the extent of all swept spheres would separate nothing.
   const auto is_of_use = [&error](float coarseness) {
     return coarseness == 1.0f || coarseness * error.widest() <= 4.0f * error.extent();
   };
@@ -83,7 +85,7 @@ void SweptSphereGrid::choose_grid(const UnsortedSweptSpheres& all, const SweptSp
   if (count > too_many_in_a_cell * filled_ && coarseness_ > 1.0f) coarseness_ *= 0.5f;
 }
 
-/// Of cells that have been counted.
+/// Returns the number of cubes that hold any swept sphere. Precondition: count_by_cells().
 std::uint32_t SweptSphereGrid::filled_cubes(PoolLease& shift) const {
   const std::size_t along = grid_.cells_in_a_row();
   const std::size_t rows = grid_.cells() / along;
@@ -108,8 +110,8 @@ double SweptSphereGrid::density(bool flat) const {
   return sorted_ / (filled_ * (flat ? edge * edge : edge * edge * edge));
 }
 
-/// Counts how many are in each cell, starts_[cell], tells in which cell each is, and finds out how far they
-/// stick out of them.
+/// Writes the cell of each swept sphere to `cells`, the number in each cell to starts_[cell], and the
+/// greatest looseness to reach_.
 void SweptSphereGrid::count_by_cells(const UnsortedSweptSpheres& all, std::vector<std::uint32_t>& cells,
                                      PoolLease& shift) {
   std::vector<float> reaches(shift.count());
@@ -124,7 +126,7 @@ void SweptSphereGrid::count_by_cells(const UnsortedSweptSpheres& all, std::vecto
     reaches[worker] = std::max(reaches[worker], reach);
   });
   reach_ = *std::max_element(reaches.begin(), reaches.end());
-  // Growing alone would make room for twice as many.
+  // resize() alone may allocate twice the memory.
   starts_.reserve(grid_.cells() + 1);
   starts_.resize(grid_.cells() + 1);
   starts_.back() = 0;
@@ -135,8 +137,8 @@ void SweptSphereGrid::count_by_cells(const UnsortedSweptSpheres& all, std::vecto
   });
 }
 
-/// Calls visit(from, to) for ranges of cells that together are all, one for each of some threads if there are
-/// many capsules: each of them goes through all of these.
+/// Calls visit(from, to) for disjoint ranges that together are all cells. Many swept spheres get one range
+/// per thread, but at most 8, because each call goes through all swept spheres; few get a single range.
 template <class Visit>
 void SweptSphereGrid::for_each_range(std::size_t spheres, PoolLease& shift, Visit visit) const {
   const std::size_t cells = grid_.cells();
@@ -149,12 +151,12 @@ void SweptSphereGrid::for_each_range(std::size_t spheres, PoolLease& shift, Visi
   });
 }
 
-/// Gives each its place among those of its cell, in the order in which they stand, in the cells that have
-/// been counted.
+/// Assigns each swept sphere its slot: by cell and, within a cell, in the order given. Precondition:
+/// count_by_cells().
 void SweptSphereGrid::choose_places(const std::vector<std::uint32_t>& cells,
                                     std::vector<std::uint32_t>& places, PoolLease& shift) {
-  // Cells tell of the ends of their parts first, and of their begins when the last one has been taken from
-  // there.
+  // Each entry of starts_ is at first the end of its cell, and counts down to the cell's begin as slots are
+  // taken from the back.
   std::uint32_t sum = 0;
   for (std::uint32_t& start : starts_) start = sum += start;
   for_each_range(cells.size(), shift, [&](std::uint32_t from, std::uint32_t to) {
@@ -163,7 +165,7 @@ void SweptSphereGrid::choose_places(const std::vector<std::uint32_t>& cells,
   });
 }
 
-/// Returns how wide the widest is.
+/// Fills the table with `all`, sorted by cell, and returns the width of the widest swept sphere.
 float SweptSphereGrid::arrange(const UnsortedSweptSpheres& all, PoolLease& shift) {
   const auto count = static_cast<std::uint32_t>(all.numbers.size());
   std::vector<std::uint32_t> cells(count);
@@ -184,15 +186,16 @@ float SweptSphereGrid::arrange(const UnsortedSweptSpheres& all, PoolLease& shift
   return error.largest();
 }
 
-/// A query, and the sorted capsules that may meet its own, but for those before a place.
+/// Adds a query, and ranges of sorted slots from `first_place` on that hold all swept spheres which may meet
+/// the query's own.
 void SweptSphereGrid::add_runs(const SweptSphereQuery& query, std::uint32_t first_place,
                                SweptSphereSearches& searches) const {
   const auto number = static_cast<std::uint32_t>(searches.queries.size());
   searches.queries.push_back(query);
   const auto cells = grid_.cells_near(float_aabb_of(query.sphere, query.from, query.to), reach_);
   if (!cells) return;
-  // Two runs that take no fewer vectors than both with all between them are read as one; unless what is
-  // between them may have been read already.
+  // Two ranges become one, with all slots between them, if that takes no more vectors than reading them
+  // separately. Cells must come in ascending order, or the slots between may have been read already.
   const bool in_order = !grid_.wraps(*cells);
   const auto vectors = [](const SlotRange& run) {
     return (run.end - run.begin + search_lanes - 1) / search_lanes;

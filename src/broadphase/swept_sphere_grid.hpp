@@ -1,5 +1,5 @@
-// A layer: capsules of about one size and one window, sorted by the cells of a grid so that a search reads
-// whole rows of them at once.
+// A grid of swept spheres of about one size and one window, sorted by cell so that a search reads whole rows
+// of them at once.
 #pragma once
 
 #include <algorithm>
@@ -16,11 +16,12 @@
 
 namespace kinesphere {
 
-/// Each capsule has a place in the table, which stays the same until the layer is sorted anew or cleared.
-/// Those that were added since the layer was sorted are behind the others, and every search looks at them.
+/// Each swept sphere has a slot in the table, which stays the same until the next sort(), fill() or clear().
+/// Swept spheres added since the last sort are behind the sorted ones, and every search tests all of them.
 class SweptSphereGrid {
  public:
-  /// Many times the widest capsule, which may be far less wide than a unit.
+  /// Greatest coarseness(). It is many times the width of the widest swept sphere, which may be far less wide
+  /// than a unit.
   static constexpr float coarsest = 0x1p100f;
 
   SweptSphereGrid() = default;
@@ -28,44 +29,48 @@ class SweptSphereGrid {
 
   const SweptSphereFrame& frame() const { return frame_; }
   const SweptSphereTable& table() const { return table_; }
-  /// Bodies that are there.
+  /// Number of bodies in the grid.
   std::size_t size() const { return table_.bodies(); }
-  /// No capsule is wider, on any axis, from the time on that it holds (in units of the frame).
+  /// Upper limit of the widths, on any axis, of all swept spheres from the times at which they start to hold
+  /// (in units of the frame).
   float widest() const { return widest_; }
-  /// Empties the layer, for capsules of another frame.
+  /// Empties the grid, for swept spheres of another frame.
   void clear(const SweptSphereFrame& frame);
-  /// Edge of the cells, in widths of the largest capsule, a power of two: sorting doubles it where cells have
-  /// held few, and the next time it is halved where they have held many.
+  /// Edge of the cells in widths of the widest swept sphere; a power of two. Sorting doubles it while cells
+  /// hold few swept spheres, and halves it for the next sort where they hold many.
   float coarseness() const { return coarseness_; }
   void set_coarseness(float coarseness) { coarseness_ = coarseness; }
 
-  /// A capsule that holds from time `from` of the frame until 1. Returns its place.
+  /// Adds a swept sphere that holds from time `from` of the frame until 1, and returns its slot.
   std::uint32_t add(std::uint32_t number, const SweptSphere& sphere, float from);
-  /// How far another one for the same body, which holds from time `from` until 1, would stick out of its
-  /// cell. Nothing if that is so far that searches would cost more.
+  /// Returns the looseness (how far out of its cell) of another swept sphere for the body at a slot, which
+  /// would hold from time `from` until 1. Returns nothing if it exceeds the edge of a cell: searches would
+  /// then cost more. Precondition: the slot is not free.
   std::optional<float> looseness_at(std::uint32_t place, const SweptSphere& sphere, float from) const;
-  /// How much more room capsules that have taken places need, and how many they are.
+  /// Accumulates, over replaced swept spheres, the greatest looseness and width, and their number.
   struct Growth {
     float reach = 0.0f;
     float widest = 0.0f;
     std::uint64_t replaced = 0;
   };
-  /// It takes the place. Several threads may do that at the same time, in different places; nothing may be
-  /// searched before grow().
+  /// Replaces the swept sphere at a slot; `looseness` is what looseness_at() returned. Thread safety:
+  /// concurrent calls for different slots, each with a `growth` of its own, are safe. Precondition of the
+  /// next search: grow().
   void replace(std::uint32_t place, const SweptSphere& sphere, float from, float looseness, Growth& growth);
   void grow(const Growth& growth) {
     reach_ = std::max(reach_, growth.reach);
     widest_ = std::max(widest_, growth.widest);
   }
-  /// Leaves a hole.
+  /// Makes the slot free.
   void remove(std::uint32_t place) { table_.remove(place); }
 
-  /// So many were added, or left holes, that searches will cost less once the layer is sorted.
+  /// True if searches would cost less after a sort, because many swept spheres are behind the sorted ones or
+  /// many slots are free.
   bool is_untidy() const {
     return table_.slots() - sorted_ > most_behind_ || table_.free_slots() > 64 + table_.slots() / 2;
   }
-  /// Makes these all that there are, sorted by cells. They hold from time 0 of the frame until 1.
-  /// moved(number, place) is told of each, by several threads. Cost: linear.
+  /// Replaces the contents by `all`, sorted by cell. The swept spheres hold from time 0 of the frame until 1.
+  /// moved(number, slot) is called for each body, by several threads concurrently. Cost: linear.
   template <class Moved>
   void fill(const UnsortedSweptSpheres& all, PoolLease& shift, Moved moved) {
     widest_ = arrange(all, shift);
@@ -74,24 +79,26 @@ class SweptSphereGrid {
         moved(table_.number_at(place), place);
     });
   }
-  /// Sorts all by cells, and leaves no holes. Places change: moved(number, place) is told of each. Cost:
-  /// linear.
+  /// Sorts all swept spheres by cell and removes free slots. Slots change: moved(number, slot) is called for
+  /// each body. Cost: linear.
   template <class Moved>
   void sort(PoolLease& shift, Moved moved) {
     arrange(table_.all(), shift);
     for (std::uint32_t place = 0; place < table_.slots(); ++place) moved(table_.number_at(place), place);
   }
 
-  /// Adds a search for all that a capsule may touch during the query's span; it may find holes too.
+  /// Adds a search for all swept spheres that the query's may touch during its span; it may find free slots
+  /// too.
   void add_search(const SweptSphereQuery& query, SweptSphereSearches& searches) const;
-  /// The same among those behind the place of a capsule of this layer, which has to be sorted, from time 0 to
-  /// 1: going through all places finds each pair once.
+  /// Adds a search, among the slots behind `place`, for all that the swept sphere at `place` may touch from
+  /// time 0 to 1. Searches from all slots find each pair once. Precondition: all slots are sorted (none added
+  /// since).
   void add_search_behind(std::uint32_t place, SweptSphereSearches& searches) const;
-  /// Makes them.
+  /// Runs the searches.
   void make(SweptSphereSearches& searches) const { searches.make(table_.columns()); }
 
-  /// Calls visit(box, number of capsules), in units of the frame, for each cell in which the middle of a
-  /// capsule lies.
+  /// Calls visit(box, number of swept spheres), in units of the frame, for each cell that contains the centre
+  /// of a swept sphere's box.
   template <class Visit>
   void for_each_cell(Visit visit) const {
     std::map<Grid::Cell, std::size_t> filled;
@@ -100,10 +107,10 @@ class SweptSphereGrid {
         ++filled[grid_.cell_around(float_aabb_of(table_.swept_sphere_at(place), 0.0f, 1.0f))];
     for (const auto& [cell, count] : filled) visit(grid_.box_of(cell), count);
   }
-  /// How many are in a unit of volume (or of area, if `flat`), where there are any. Of a layer that was
-  /// sorted.
+  /// Returns the number of swept spheres per unit of volume (of area, if `flat`) in the cubes that hold any.
+  /// Precondition: the grid has been sorted.
   double density(bool flat) const;
-  /// For one that was read.
+  /// True if the deserialized state is consistent.
   bool is_valid() const;
 
   template <class Self, class Archive>
@@ -114,7 +121,7 @@ class SweptSphereGrid {
 
  private:
   static constexpr std::uint32_t least_behind = 64;
-  /// So many are worth the while of a thread.
+  /// Minimum swept spheres per parallel chunk; below this, dispatch costs more than the work.
   static constexpr std::size_t many = 1024;
 
   static SweptSphereSpread spread_of(const UnsortedSweptSpheres& all, PoolLease& shift);
@@ -132,14 +139,14 @@ class SweptSphereGrid {
 
   SweptSphereFrame frame_;
   SweptSphereTable table_;
-  std::vector<std::uint32_t> cells_;   ///< of the sorted ones, by place
-  std::vector<std::uint32_t> starts_;  ///< the first place of each cell, and the end of the last one
-  std::uint32_t sorted_ = 0;           ///< the first so many places
+  std::vector<std::uint32_t> cells_;   ///< cell of each sorted slot
+  std::vector<std::uint32_t> starts_;  ///< first slot of each cell, and the end of the last cell
+  std::uint32_t sorted_ = 0;           ///< slots below this are sorted
   Grid grid_;
-  float reach_ = 0.0f;  ///< how far a sorted one sticks out of its cell, at most
+  float reach_ = 0.0f;  ///< greatest looseness of a sorted swept sphere
   float widest_ = 0.0f;
   std::uint32_t most_behind_ = least_behind;
-  std::uint32_t filled_ = 0;  ///< cubes that hold any
+  std::uint32_t filled_ = 0;  ///< cubes that held any swept sphere at the last sort
   float coarseness_ = 1.0f;
 };
 

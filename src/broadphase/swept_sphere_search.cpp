@@ -1,11 +1,11 @@
-// One kernel for all vector widths, compiled once for each. Its plain twin, in swept_sphere_search_plain.cpp,
-// says what it computes.
+// The kernel of near_swept_spheres(), written once and compiled for each vector width.
+// near_swept_spheres_plain() in swept_sphere_search_plain.cpp defines what it computes.
 #include "broadphase/swept_sphere_search.hpp"
 
 #include <array>
 #include <bit>
 
-// Without it, Highway 1.0 cannot be compiled for a processor that has these vectors and no better ones.
+// Without this macro, Highway 1.0 does not compile for a processor with AVX3_DL vectors and no better ones.
 #ifndef HWY_WANT_AVX3_DL
 #define HWY_WANT_AVX3_DL
 #endif
@@ -19,9 +19,9 @@ namespace kinesphere::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// No fused operations: every processor has to round alike. Nothing branches on what is found: whether a
-// capsule is near cannot be foretold, and the processor would wait for the whole chain of operations each
-// time that it has guessed wrong.
+// The kernel uses no fused operations, because every processor has to round alike. It does not branch on what
+// it finds: whether a swept sphere is near is unpredictable, and each misprediction would wait for the whole
+// chain of operations.
 void near_swept_spheres(const float* const* table, const SweptSphereQuery* queries, const SlotRange* runs,
                         std::size_t run_count, std::uint64_t* words) {
   const hn::CappedTag<float, search_lanes> d;

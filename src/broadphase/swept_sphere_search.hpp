@@ -1,4 +1,4 @@
-// Which capsules of a table may come near a given one? The inner loop of every search.
+// The inner loop of every search: which swept spheres of a table may come near a given one.
 #pragma once
 
 #include <array>
@@ -12,46 +12,48 @@
 
 namespace kinesphere {
 
-/// A piece of a table, places begin <= k < end, and which query it is searched for.
+/// The slots begin <= k < end of a table, and the index of the query for which they are searched.
 struct SlotRange {
   std::uint32_t begin;
   std::uint32_t end;
   std::uint32_t query = 0;
 };
 
-/// Seven columns of one length: the centres, velocities and radii of capsules of one frame. Behind the last
-/// one there must be room to read `capsule_lanes` numbers, as many as are looked at at a time.
+/// Seven columns of one length: the centres, velocities and radii of swept spheres of one frame. Precondition
+/// of a search: `search_lanes` numbers behind the last slot can be read, since that many are tested at a
+/// time.
 using SweptSphereColumns = std::array<const float*, 7>;
 inline constexpr std::size_t search_lanes = 16;
 
-/// What a search finds in a run: a bit for each place, 64 to a word, from the run's begin on.
+/// The result of a search in a slot range has a bit for each slot, 64 to a word, from the range's begin on.
 inline constexpr std::uint32_t slots_in_a_word = 64;
 inline std::size_t words_for(const SlotRange& run) {
   return (std::size_t{run.end} - run.begin + slots_in_a_word - 1) / slots_in_a_word;
 }
 
 namespace swept_sphere_search {
-/// What is added to squares, as those of small numbers are lost.
+/// Added to squares, because the squares of small numbers underflow.
 inline constexpr float least_square = 0x1p-100f;
 }  // namespace swept_sphere_search
 
-/// A capsule, and a span of time in which to look at it, from <= to, both in the frame of the table.
+/// A swept sphere and the span of time, from <= to, in which it is compared; each in the frame of the table.
 struct SweptSphereQuery {
   SweptSphere sphere;
   float from;
   float to;
 };
 
-/// Writes the words of all runs, one run after the other: a bit is set if the capsule at that place may touch
-/// the capsule of the run's query during its span. Every capsule that does touch it is among them, if speeds
-/// are as capsule_of() lets them be. The same on all processors, to the bit: the best vectors of this one are
-/// used (Google Highway), and near_swept_spheres_plain() is the same without.
+/// Writes the words of all ranges, one range after the other. A bit is set if the swept sphere at that slot
+/// may touch the swept sphere of the range's query during its span. Every swept sphere that touches it is
+/// found, if speeds are within the limits of swept_sphere_of(). Results are equal to the bit on all
+/// processors. near_swept_spheres() uses the best vectors of the processor (Google Highway);
+/// near_swept_spheres_plain() uses none.
 void near_swept_spheres(const SweptSphereColumns& table, std::span<const SweptSphereQuery> queries,
                         std::span<const SlotRange> runs, std::uint64_t* words);
 void near_swept_spheres_plain(const SweptSphereColumns& table, std::span<const SweptSphereQuery> queries,
                               std::span<const SlotRange> runs, std::uint64_t* words);
 
-/// Calls visit(query, place) for each bit that is set.
+/// Calls visit(query, slot) for each bit that is set.
 template <class Visit>
 void for_each_near(std::span<const SlotRange> runs, const std::uint64_t* words, Visit visit) {
   for (const SlotRange& run : runs)
@@ -60,11 +62,11 @@ void for_each_near(std::span<const SlotRange> runs, const std::uint64_t* words, 
         visit(run.query, first + static_cast<std::uint32_t>(std::countr_zero(bits)));
 }
 
-/// Searches of one table that are made at once: a processor works on several at the same time.
+/// Searches of one table that run together, so that the processor works on several at a time.
 struct SweptSphereSearches {
   std::vector<SweptSphereQuery> queries;
   std::vector<SlotRange> runs;
-  std::vector<std::uint64_t> words;  ///< what they have found
+  std::vector<std::uint64_t> words;  ///< results, one bit per slot of `runs`
 
   void clear() {
     queries.clear();
@@ -76,7 +78,7 @@ struct SweptSphereSearches {
     if (words.size() < all) words.resize(all);
     near_swept_spheres(table, queries, runs, words.data());
   }
-  /// Calls visit(query, place).
+  /// Calls visit(query, slot) for each swept sphere found.
   template <class Visit>
   void for_each_found(Visit visit) const {
     for_each_near(runs, words.data(), visit);

@@ -1,9 +1,9 @@
-// What a search computes, capsule by capsule: the plain twin of capsule_search.cpp.
+// What a search computes, one swept sphere at a time: the plain counterpart of swept_sphere_search.cpp.
 //
-// Two capsules are apart during the span if the distance of their centres, which is least at a time s that
-// one division gives, is more than the sum of their radii. As squares: no root. Where numbers are too small
-// for their squares nothing is certain; neither where radii are too large for that, or something is not a
-// number: then no comparison holds.
+// Two swept spheres are apart during the span if the distance of their centres exceeds the sum of their
+// radii. The distance is least at a time s that one division gives. Squares are compared, so no root is
+// needed. Nothing is certain, and the bit is set, where numbers are too small or radii too large for their
+// squares, or where a number is NaN: then the comparison does not hold.
 #include <algorithm>
 
 #include "broadphase/swept_sphere_search.hpp"

@@ -6,7 +6,7 @@
 namespace kinesphere {
 namespace {
 
-/// A capsule of nobody: nothing comes near it but what comes near everything.
+/// Swept sphere of a free slot: only what comes near everything comes near it.
 constexpr SweptSphere empty_slot{{0x1p55f, 0x1p55f, 0x1p55f}, {}, 0.0f};
 
 }  // namespace
@@ -62,7 +62,7 @@ void SweptSphereTable::remove(std::uint32_t place) {
 }
 
 void SweptSphereTable::resize(std::uint32_t places, std::uint32_t more) {
-  // Without reserving, one that is added would make vectors twice as large.
+  // Without reserve(), the first addition would double the vectors.
   for (std::vector<float>& column : columns_) {
     column.reserve(places + more + search_lanes);
     column.resize(places + search_lanes);

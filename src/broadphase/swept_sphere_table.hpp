@@ -1,4 +1,4 @@
-// A table of capsules, each of a body, as searches read them: by columns.
+// A table of swept spheres, each of a body, stored by columns as searches read them.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace kinesphere {
 
-/// Capsules in no order, each of a body.
+/// Swept spheres and the numbers of their bodies, in no particular order.
 struct UnsortedSweptSpheres {
   std::vector<std::uint32_t> numbers;
   std::vector<SweptSphere> spheres;
@@ -20,43 +20,44 @@ struct UnsortedSweptSpheres {
   explicit UnsortedSweptSpheres(std::size_t size = 0) : numbers(size), spheres(size) {}
 };
 
-/// Each capsule has a place, which it keeps until the table is filled anew. Bodies that go leave holes.
+/// Each swept sphere has a slot, which it keeps until the next resize() or clear(). Removed bodies leave free
+/// slots.
 class SweptSphereTable {
  public:
-  /// In place of the number of a body: nobody's.
+  /// Body number of a free slot.
   static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 
-  /// Places are less than this.
+  /// Number of slots, free ones included.
   std::uint32_t slots() const { return static_cast<std::uint32_t>(numbers_.size()); }
   std::uint32_t free_slots() const { return free_slots_; }
-  /// Bodies that are there.
+  /// Number of slots that are not free.
   std::size_t bodies() const { return numbers_.size() - free_slots_; }
-  /// Of a body, or nobody.
+  /// Returns the number of the body at a slot, or `nobody` if the slot is free.
   std::uint32_t number_at(std::uint32_t place) const { return numbers_[place]; }
-  /// That of a hole is far away.
+  /// Returns the swept sphere at a slot; a free slot has one that is far away.
   SweptSphere swept_sphere_at(std::uint32_t place) const;
-  /// Good until a capsule is added.
+  /// Returns pointers to the columns. Invalidated by add(), resize() and clear().
   SweptSphereColumns columns() const;
-  /// All but the holes.
+  /// Returns the swept spheres of all slots that are not free.
   UnsortedSweptSpheres all() const;
 
   void clear();
-  /// Returns its place, behind all others.
+  /// Adds a swept sphere in a new slot behind all others, and returns the slot.
   std::uint32_t add(std::uint32_t number, const SweptSphere& sphere);
-  /// Another capsule for the body at a place. Several threads may do that at the same time, at different
-  /// places.
+  /// Replaces the swept sphere of the body at a slot. Precondition: the slot is not free. Thread safety:
+  /// concurrent calls for different slots are safe.
   void replace(std::uint32_t place, const SweptSphere& sphere);
-  /// Leaves a hole.
+  /// Makes the slot free. Precondition: it is not free yet.
   void remove(std::uint32_t place);
-  /// Makes so many places, at each of which fill() puts a body before anything else is asked, and keeps
-  /// memory for `more` that are added later.
+  /// Sets the number of slots, none of them free, and reserves memory for `more` slots that are added later.
+  /// Precondition of all other calls: fill() has been called for each slot.
   void resize(std::uint32_t places, std::uint32_t more);
   void fill(std::uint32_t place, std::uint32_t number, const SweptSphere& sphere) {
     numbers_[place] = number;
     store(place, sphere);
   }
 
-  /// For one that was read.
+  /// True if the deserialized state is consistent.
   bool is_valid() const;
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
@@ -73,7 +74,7 @@ class SweptSphereTable {
     columns_[6][place] = sphere.radius;
   }
 
-  std::array<std::vector<float>, 7> columns_;  ///< with room behind the last place for a search to read
+  std::array<std::vector<float>, 7> columns_;  ///< with search_lanes readable numbers behind the last slot
   std::vector<std::uint32_t> numbers_;
   std::uint32_t free_slots_ = 0;
 };

@@ -9,7 +9,8 @@
 namespace kinesphere {
 namespace {
 
-/// The shortest window at a time may not be shorter than what its multiples can tell.
+/// Windows at time t are no shorter than 2^-digits times the power of two of t; double precision could not
+/// represent multiples of shorter lengths.
 constexpr int digits = 50;
 
 }  // namespace

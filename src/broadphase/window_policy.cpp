@@ -9,32 +9,33 @@
 namespace kinesphere {
 namespace {
 
-// Costs in looks at a capsule, fitted to measured times.
-/// To start a body, apart from its search.
+// Costs, in units of one test of a swept sphere; fitted to measured times.
+/// Cost of starting a body, without its search.
 constexpr double start_cost = 120.0;
-/// A search that finds nothing looks at so many capsules,
+/// Number of swept spheres that a search which finds nothing tests.
 constexpr double search_spheres = 24.0;
-/// and costs this with the rows in which they are.
+/// Cost of such a search, with the reading of the rows that it tests.
 constexpr double search_cost = 36.0;
-/// A search finds a near pair, which mostly becomes hot.
+/// Cost of finding a near pair in a search; most near pairs become certificates.
 constexpr double cost_of_near_pair = 100.0;
-/// The same with the looks and reports that come of it.
+/// Cost of a near pair with the rechecks and reports that follow from it.
 constexpr double price_of_near_pair = 260.0;
-/// Cells are cubes, capsules are not: so many times as far apart are bodies at which a search looks.
+/// A search tests bodies up to this factor farther apart than those it has to find, since cells are cubes and
+/// swept spheres are not.
 constexpr double farther_in_cells = 5.0;
-// Of a search among cells that are small beside its capsule.
+// Costs of a search whose swept sphere is large compared with the cells.
 constexpr double cost_of_row = 4.0;
 constexpr double spheres_in_cell = 2.0;
 
-/// Another length has to be so much cheaper.
+/// Another window length is chosen only if it costs less than this part of the present cost.
 constexpr double enough_cheaper = 0.9;
-/// A body is much faster than most if it goes so many times as far.
+/// A body is much faster than most if it travels more than this many typical ways in a main window.
 constexpr double much_farther = 4.0;
 constexpr int most_powers = 300;
 constexpr double shortest_way = power_of_two(-most_powers);
-/// At once, to shorter windows.
+/// Greatest step to shorter windows at one start, in powers of two.
 constexpr int most_change = 6;
-/// Those that are much faster than most change what they do after so many starts.
+/// Starts of much faster bodies after which the length of their windows is adapted.
 constexpr std::uint64_t enough_starts = 64;
 
 double length_of(int rung) { return power_of_two(rung); }
@@ -53,7 +54,7 @@ void MotionStatistics::Magnitudes::note(double value) {
   ++all_;
 }
 
-/// Of the smallest and the largest ones it is 0 and infinity.
+/// Returns the value that stands for the k-th power of two: 0 for the smallest, infinity for the largest.
 double MotionStatistics::Magnitudes::value_of(std::size_t k) const {
   if (k == 0) return 0.0;
   return k + 1 == counts_.size() ? infinity : 1.5 * power_of_two(static_cast<int>(k) + least);
@@ -90,7 +91,7 @@ double MotionStatistics::spacing() const {
   if (!(sides[1] > on_line)) return on_line;
   const double in_layer = std::sqrt(sides[1] * on_line);
   if (!(sides[2] > in_layer)) return in_layer;
-  // The mathematical library has no cubic root that is the same everywhere.
+  // The math library has no cube root that is equal on all machines; the root is rounded to a power of two.
   return sides[0] * power_of_two(-exponent_of(static_cast<double>(bodies_)) / 3);
 }
 
@@ -123,16 +124,16 @@ double WindowPolicy::Starts::cost_of_finding(double factor, int dimensions) cons
   return power(farther_in_cells * slenderness, dimensions - 1);
 }
 
-/// At how many capsules so many searches look that find so many near pairs, among those in main windows, if
-/// these were so many times as long; at no more than there are.
+/// Returns the number of swept-sphere tests in `searches` searches that find `found` near pairs, if main
+/// windows were `times_longer` times as long; at most one test per search and body.
 double WindowPolicy::looks(std::uint64_t searches, double found, double times_longer) const {
   return std::min(found * main_.cost_of_finding(times_longer, dimensions_),
                   static_cast<double>(searches) * static_cast<double>(bodies_));
 }
 
-/// The cost of a time as long as a main window, if these were so many times as long and there were so many
-/// kicks in so many windows. Cells become larger with the capsules, so that searches that find nothing cost
-/// the same. Those that start find each pair once, and kicks do not.
+/// Returns the cost of a time as long as a present main window, if main windows were `times_longer` times as
+/// long and `updates` occurred in `windows` windows. Cells grow with the swept spheres, so searches that find
+/// nothing cost the same. Bodies that start together find each pair once; individual updates do not.
 double WindowPolicy::main_rate(double times_longer, const RenewalCounts& updates, double windows) const {
   const auto pairs = [&](std::uint64_t searches, std::uint64_t near) {
     const double found = static_cast<double>(near) * main_.times_larger(times_longer, dimensions_);
@@ -145,7 +146,8 @@ double WindowPolicy::main_rate(double times_longer, const RenewalCounts& updates
   return starts / times_longer + of_kicks / windows;
 }
 
-/// The same for those that are much faster than most, whose cells are those of others.
+/// Returns the cost that main_rate() returns, for the bodies that are much faster than most. They search the
+/// cells of the other bodies.
 double WindowPolicy::fast_rate(double times_longer) const {
   const double width = fast_.long_side(times_longer) / static_cast<double>(fast_.bodies);
   const double cells = 1.0 + width / std::max(price_.long_side, typical_way_);
@@ -163,14 +165,14 @@ void WindowPolicy::start_main(double now, const RenewalCounts& updates) {
   main_start_ = now;
 }
 
-/// Far less than the typical way.
+/// Returns the length of a quantum: a power of two, about 2^-12 of the typical way.
 double WindowPolicy::Sample::quantum() const {
   constexpr int quanta_in_way = 12;
   return power_of_two(exponent_of(std::max(policy_->typical_way_, shortest_way)) - quanta_in_way);
 }
 
-/// Lengths far beyond the typical way say no more than that they are, and those far below it no less; 2^30 of
-/// the longest still have a sum.
+/// Returns a length in quanta, rounded up and at most 2^33. Lengths far beyond the typical way are cut to
+/// that, and those far below it count as one quantum; a sum of 2^30 of the longest still fits 64 bits.
 std::uint64_t WindowPolicy::Sample::quanta_in(double length) const {
   constexpr double most = 0x1p33;
   const double quanta = std::ceil(length / quantum());
@@ -190,7 +192,7 @@ void WindowPolicy::Sample::add(double width, const SpeedBound& speed_bound, doub
 
 void WindowPolicy::Sample::note(const SpeedBound& speed_bound, double width, int rung) {
   ++bodies_;
-  // Where times cannot be told apart so well, windows are longer than they should be.
+  // Windows are longer than requested where double precision cannot distinguish their ends.
   if (rung >= policy_->main_rung_) ++in_main_;
   if (!most_) return add(width, speed_bound, length_of(rung), policy_->longest_way_);
   const double time = length_of(policy_->main_rung_);
@@ -211,7 +213,7 @@ WindowPolicy::Sample& WindowPolicy::Sample::operator+=(const Sample& more) {
   return *this;
 }
 
-/// What a round adds to those that have started.
+/// Adds a sample to the bodies that have started.
 WindowPolicy::Starts& WindowPolicy::Starts::operator+=(const Sample& round) {
   bodies += round.bodies_;
   in_main += round.in_main_;
@@ -245,7 +247,7 @@ void WindowPolicy::note_price() {
   if (along < infinity && across > 0.0) price_ = {across, along, pairs / count};
 }
 
-/// As times_larger() has it; the cells stay as they are.
+/// Swept spheres grow as in times_larger(), but the cells stay as they are.
 double WindowPolicy::cost_of_width(double more) const {
   const auto& [across, along, pairs] = price_;
   if (!(across > 0.0)) return 0.0;
@@ -258,7 +260,7 @@ double WindowPolicy::cost_of_width(double more) const {
 void WindowPolicy::adapt_main(const RenewalCounts& updates, double windows) {
   int change = 0;
   double least = enough_cheaper * main_rate(1.0, updates, windows);
-  // Longer ones have to be tried: what searches find in them is not known well.
+  // Only one longer length is tried, because what searches will find in longer windows is not known well.
   const bool may_grow = 2 * main_.in_main > main_.bodies && 2.0 * typical_way_ <= longest_way_;
   for (int powers = may_grow ? 1 : -1; powers >= -most_change; --powers) {
     const double changed = main_rate(power_of_two(powers), updates, windows);
@@ -268,7 +270,7 @@ void WindowPolicy::adapt_main(const RenewalCounts& updates, double windows) {
   }
   change = std::clamp(change, -most_powers - main_rung_, most_powers - main_rung_);
   main_rung_ += change;
-  // An eighth of the bodies may be faster than most.
+  // At most an eighth of the bodies may exceed the typical way.
   std::size_t magnitude = magnitudes - 1;
   for (std::uint64_t faster = main_.ways_gone[magnitude]; 8 * faster <= main_.bodies && magnitude > 0;)
     faster += main_.ways_gone[--magnitude];
@@ -279,12 +281,12 @@ void WindowPolicy::adapt_main(const RenewalCounts& updates, double windows) {
   fast_way_ = std::clamp(fast_way, typical_way_, longest_way_);
 }
 
-/// Their windows differ by factors.
+/// Adapts the windows of the fast bodies by a factor of 2^powers_between_rungs.
 void WindowPolicy::adapt_fast() {
   const double factor = power_of_two(powers_between_rungs);
   const double least = enough_cheaper * fast_rate(1.0);
   if (2 * fast_.in_main > fast_.bodies) {
-    // Most bodies are in windows that are longer than the main one, which must be far too short.
+    // Most fast bodies are in windows no shorter than the main one, which must be far too short.
     main_rung_ = std::min(main_rung_ + powers_between_rungs, most_powers);
     typical_way_ = std::min(typical_way_ * factor, longest_way_);
   } else if (fast_rate(factor) < least) {

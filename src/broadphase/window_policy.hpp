@@ -1,6 +1,6 @@
-// The tempo: how long windows are. A cost model, which counts and measures no time, so that it is the same on
-// all machines; and which knows of bodies and of pairs that may meet alone, not of the order of bodies nor of
-// where capsules are kept, so that it is the same wherever they are.
+// The window policy: how long windows are. It is a cost model that counts and never measures time, so it
+// chooses alike on all machines. It depends on bodies and on pairs that may meet, not on the order of bodies
+// or on where swept spheres are kept, so it chooses alike wherever bodies are stored.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace kinesphere {
 
-/// How a body moves during a window: the way in a time t is at most speed t + acceleration t^2 / 2.
+/// Bound on how far a body moves in a window: in a time t at most speed t + acceleration t^2 / 2.
 struct SpeedBound {
   double speed;
   double acceleration;
@@ -23,8 +23,8 @@ struct SpeedBound {
   double way(double time) const { return (speed + 0.5 * acceleration * time) * time; }
 };
 
-/// Bodies that have got another capsule by themselves, within a window, and how many near pairs their
-/// searches have found: two bodies that may meet before the window of either ends.
+/// Counts individual updates: bodies that got another swept sphere by themselves within a window, and near
+/// pairs that their searches found. A near pair is two bodies that may meet before the window of either ends.
 struct RenewalCounts {
   std::uint64_t bodies = 0;
   std::uint64_t near = 0;
@@ -41,17 +41,18 @@ struct RenewalCounts {
   }
 };
 
-/// Where bodies are and how fast, about, before anything is known of them.
+/// Statistics of where bodies are and how fast they move, for the first choice of windows.
 class MotionStatistics {
  public:
   void note(const Vec3& centre, const SpeedBound& speed_bound);
-  /// About the distance between neighbours (length), if they are spread evenly along a line or in a layer, if
-  /// their box is thinner than that, or in a cube around it. The same on all machines.
+  /// Returns the approximate distance between neighbours (length), if the bodies are spread evenly along a
+  /// line, or in a plane or a cube if their box is thick enough for that. The result is equal on all
+  /// machines.
   double spacing() const;
-  /// The speed of the body in the middle, and the mean acceleration, each to within a factor of two.
+  /// Returns the median speed and the mean acceleration, each to within a factor of two.
   SpeedBound typical() const;
-  /// Of a part of the bodies becomes that of all: sum(numbers) and least(numbers) put in the place of each
-  /// number the sum, or the least, of those of all parts.
+  /// Combines the statistics of parts of the bodies into those of all bodies. sum(numbers) and least(numbers)
+  /// replace each number by the sum, or the least, over all parts.
   template <class Sum, class Least>
   void reduce(Sum sum, Least least) {
     sum(std::span(&bodies_, 1));
@@ -63,7 +64,7 @@ class MotionStatistics {
   }
 
  private:
-  /// How many numbers there are of each power of two.
+  /// Histogram of numbers by power of two.
   class Magnitudes {
    public:
     void note(double value);
@@ -89,31 +90,34 @@ class MotionStatistics {
   Magnitudes accelerations_;
 };
 
-/// Most bodies share windows of one length, the main one, 2^main_tier. In longer windows searches find more,
-/// in shorter ones all bodies start more often. Those that are much faster than most have windows 8, 64, ...
-/// times shorter, in which they may go farther than most if there is little in their way.
+/// Chooses the window of each body. Most bodies share windows of one length, the main one, 2^main_rung.
+/// Searches find more in longer windows; all bodies start more often in shorter ones. Bodies that are much
+/// faster than most have windows 8, 64, ... times shorter, in which they may go farther than most if there is
+/// little in their way.
 class WindowPolicy {
  public:
   static constexpr int powers_between_rungs = 3;
 
-  /// No body goes more than four times as far in a window as `longest_way` (length, > 0) if there is a
+  /// No body goes more than four times as far as `longest_way` (length, > 0) in a window, if there is a
   /// shorter one.
   WindowPolicy(double longest_way, int dimensions) : longest_way_(longest_way), dimensions_(dimensions) {}
 
   bool is_chosen() const { return typical_way_ > 0.0; }
-  /// Before anything is known: windows in which a body of this pace goes this way (> 0) or the longest one.
+  /// Chooses windows before any statistics of starts exist: a body with the speed bound `typical` goes `way`
+  /// (length, > 0), or the longest way if that is less, in a main window.
   void choose(double way, const SpeedBound& typical);
   int rung_for(const SpeedBound& speed_bound) const;
-  /// Few bodies go farther in a main window (length).
+  /// Way in a main window that few bodies exceed (length).
   double typical_way() const { return typical_way_; }
 
   class Sample;
-  /// Most bodies are going to start. Chooses the length of the main windows, knowing how many near pairs
-  /// those that started last time have found, and how many have been kicked since then.
+  /// Chooses the length of the main windows, when most bodies are about to start. The choice depends on the
+  /// near pairs found at the last such start, and on the individual updates since then.
   void start_main(double now, const RenewalCounts& updates);
-  /// All of a round have started, so that there are so many bodies, and found so many near pairs.
+  /// Records that all bodies of a sample have started, that their searches found `near` near pairs, and that
+  /// there are `bodies` bodies in all windows.
   void finish_start(const Sample& round, std::uint64_t near, std::uint64_t bodies);
-  /// What it costs that the capsule of a typical body is so much wider (length), in looks at a capsule.
+  /// Returns the cost of widening a typical body's swept sphere by `more` (length), in swept-sphere tests.
   double cost_of_width(double more) const;
 
   template <class Self, class Archive>
@@ -121,32 +125,32 @@ class WindowPolicy {
     auto& [longest, dimensions, tier, way, fast_way, bodies, main, fast, start, price] = self;
     archive(tier, way, fast_way, bodies, main, fast, start, price);
   }
-  /// For one that was read.
+  /// True if the deserialized state is consistent.
   bool is_valid() const;
 
  private:
   static constexpr int least_magnitude = 40;
   static constexpr std::size_t magnitudes = 64;
 
-  /// Bodies that have started, and what that has cost.
+  /// Sums over bodies that have started, and what their start has cost.
   struct Starts {
     std::uint64_t bodies = 0;
-    std::uint64_t in_main = 0;  ///< of them, in a window no shorter than the main one
-    /// How many went about 2^(k - least_magnitude) times the typical way, or less for k = 0.
+    std::uint64_t in_main = 0;  ///< bodies in a window no shorter than the main one
+    /// Number of bodies that went about 2^(k - least_magnitude) times the typical way, or less for k = 0.
     std::array<std::uint64_t, magnitudes> ways_gone{};
-    // Sums of what makes capsules large.
+    // Sums of the lengths that make swept spheres large.
     double widths = 0.0;
-    double ways = 0.0;       ///< straight on
-    double growths = 0.0;    ///< on all sides, by what acceleration may do
-    std::uint64_t near = 0;  ///< pairs that they found
+    double ways = 0.0;       ///< ways straight on
+    double growths = 0.0;    ///< growth on all sides, by what acceleration may do
+    std::uint64_t near = 0;  ///< near pairs found
 
     Starts& operator+=(const Sample& round);
-    /// What they would be if windows were so many times as long.
+    /// Sums of the short and the long sides of the swept spheres, if windows were `factor` times as long.
     double short_side(double factor) const { return widths + growths * factor * factor; }
     double long_side(double factor) const { return short_side(factor) + ways * factor; }
-    /// In how much more space they would be.
+    /// Returns the factor by which the volume of the swept spheres (the area, in two dimensions) would grow.
     double times_larger(double factor, int dimensions) const;
-    /// What a search for one of them costs for each near pair that it finds, in looks at a capsule.
+    /// Returns the cost of a search for each near pair that it finds, in swept-sphere tests.
     double cost_of_finding(double factor, int dimensions) const;
 
     template <class Self, class Archive>
@@ -156,11 +160,11 @@ class WindowPolicy {
     }
   };
 
-  /// What those that started last as most did tell of wider capsules.
+  /// Mean sides of the swept spheres, and mean cost of near pairs, at the last start of most bodies.
   struct PriceOfWidth {
     double short_side = 0.0;
     double long_side = 0.0;
-    double pairs = 0.0;  ///< the price of those of a body, in looks at a capsule
+    double pairs = 0.0;  ///< cost of a body's near pairs, in swept-sphere tests
 
     template <class Self, class Archive>
     static void serialize(Self& self, Archive& archive) {
@@ -180,24 +184,27 @@ class WindowPolicy {
   int dimensions_;
   int main_rung_ = 0;
   double typical_way_ = 0.0;
-  double fast_way_ = 0.0;     ///< those that are much faster than most go no farther in their windows
-  std::uint64_t bodies_ = 0;  ///< in all windows
-  Starts main_;               ///< when most bodies started
-  Starts fast_;               ///< of those that have started between
-  double main_start_ = 0.0;   ///< when most did
+  double fast_way_ = 0.0;     ///< upper limit of the way of much faster bodies in their windows
+  std::uint64_t bodies_ = 0;  ///< number of bodies in all windows
+  Starts main_;               ///< starts of most bodies together
+  Starts fast_;               ///< starts of other bodies in between
+  double main_start_ = 0.0;   ///< time of the last start of most bodies
   PriceOfWidth price_;
 };
 
-/// Bodies that start together, or some of them: rounds may be made side by side, and added up in any order.
+/// Statistics of bodies that start together, or of a part of them. Samples of parts can be made concurrently
+/// and added up in any order.
 class WindowPolicy::Sample {
  public:
-  /// Needs the tempo to stay as it is. `most`: of all bodies, after start_main().
+  /// Makes an empty sample. `most` is true if most bodies start, after start_main(). Precondition: the policy
+  /// does not change while the sample is in use.
   Sample(const WindowPolicy& window_policy, bool most) : policy_(&window_policy), most_(most) {}
 
-  /// A body starts in a window; `width` is that of its capsule without its way.
+  /// Adds a body that starts in a window of this rung. `width` (length) is the width of its swept sphere
+  /// without its way.
   void note(const SpeedBound& speed_bound, double width, int rung);
   Sample& operator+=(const Sample& more);
-  /// Of a part of the bodies becomes that of all, as Survey::reduce() has it.
+  /// Combines the samples of parts of the bodies into that of all bodies, as MotionStatistics::reduce() does.
   template <class Sum>
   void reduce(Sum sum) {
     std::vector<std::uint64_t> all{bodies_, in_main_, widths_, ways_, growths_};
@@ -222,7 +229,7 @@ class WindowPolicy::Sample {
   std::uint64_t bodies_ = 0;
   std::uint64_t in_main_ = 0;
   std::array<std::uint64_t, magnitudes> ways_gone_{};
-  // Lengths in whole quanta, the sums of which do not depend on their order.
+  // Lengths in whole quanta; integer sums do not depend on the order of addition.
   std::uint64_t widths_ = 0;
   std::uint64_t ways_ = 0;
   std::uint64_t growths_ = 0;

@@ -1,4 +1,4 @@
-// std::bit_cast, also where the standard library does not have it yet (that of emscripten 3.1).
+// std::bit_cast, with a substitute for standard libraries that lack it (such as emscripten 3.1's).
 #pragma once
 
 #include <bit>

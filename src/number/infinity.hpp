@@ -1,4 +1,4 @@
-// A time that never comes, a distance that has no end.
+// Infinity: the time of what never happens, and an unlimited distance.
 #pragma once
 
 #include <limits>

@@ -1,5 +1,5 @@
-// Random numbers that take more than one rounding. They are made here, and not in their header, so that
-// whoever compiles that header gets the same numbers.
+// Random numbers that take more than one rounding. They are defined here and not in the header, so that every
+// compiler of user code yields equal numbers.
 #include "kinesphere/random.hpp"
 
 namespace kinesphere {
@@ -8,7 +8,8 @@ double Random::uniform(double lower, double upper) { return lower + (upper - low
 
 Vec3 Random::point_in_ball() {
   for (;;) {
-    // In this order: arguments of a call would be drawn in any.
+    // Braces fix the order in which the coordinates are drawn; arguments of a call would be evaluated in any
+    // order.
     const Vec3 point{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
     if (norm_squared(point) <= 1.0) return point;
   }

@@ -1,4 +1,4 @@
-// Images of points and boxes, and the search for the images of a box.
+// Periodic images of points and boxes.
 #include "space/space.hpp"
 
 #include <algorithm>
@@ -6,7 +6,8 @@
 namespace kinesphere {
 namespace {
 
-/// More than the few roundings of a shifted coordinate, relative to what went into it.
+/// Relative error of a shifted coordinate, with respect to the numbers that go into it; more than its few
+/// roundings.
 constexpr double shift_margin = 0x1p-50;
 
 }  // namespace
@@ -33,14 +34,14 @@ Space::Wrapped Space::wrapped(const Vec3& point) const {
     if (!repeats(axis) || (lower_[axis] <= position && position < upper_[axis])) continue;
     images = std::floor(way[axis] * per_period_[axis]);
     position = point[axis] - images * period_[axis];
-    // Rounding may have taken it across the border.
+    // Rounding may have moved the position across the upper border.
     if (position >= upper_[axis]) ++images;
     if (!(lower_[axis] <= position && position < upper_[axis])) position = lower_[axis];
   }
   return result;
 }
 
-/// Rounded outward.
+/// Returns the box shifted by `shift`, rounded outward.
 Box Space::moved(const Box& box, const Vec3& shift) {
   Box image = box;
   for (int axis = 0; axis < 3; ++axis) {
@@ -58,8 +59,8 @@ bool Space::is_narrow(const Box& box) const {
   return true;
 }
 
-/// Boxes with their centre in the primary box stick out of it by at most half of their own width. A box that
-/// is as wide as the period overlaps an image of each of them.
+/// A box with its centre in the primary box reaches out of it by at most half of its own width. A box that is
+/// as wide as the period overlaps an image of each such box.
 Space::Images Space::images_near(const Box& box, double largest_extent) const {
   Images images{within(box)};
   const double half_width = 0.5 * largest_extent;
@@ -69,7 +70,7 @@ Space::Images Space::images_near(const Box& box, double largest_extent) const {
     const double reach = std::min(half_width, 0.5 * period_[axis]) + shift_margin * size;
     const double lower = lower_[axis] - reach;
     const double upper = upper_[axis] + reach;
-    // Far from both borders there is one image only.
+    // A box far from both borders has only one image that matters.
     if (upper - period_[axis] < box.lower[axis] && box.upper[axis] < lower + period_[axis]) continue;
     if (!(box.upper[axis] - box.lower[axis] < period_[axis])) {
       images.box.lower[axis] = lower;
@@ -79,7 +80,7 @@ Space::Images Space::images_near(const Box& box, double largest_extent) const {
     const double margin = 4.0 * shift_margin * (size + std::abs(box.lower[axis]) + std::abs(box.upper[axis]));
     images.first[axis] = std::ceil((lower - box.upper[axis] - margin) * per_period_[axis]);
     const double last = std::floor((upper - box.lower[axis] + margin) * per_period_[axis]);
-    // Never more than four, whatever rounding does to numbers that are too large for any promise.
+    // At most four images, whatever rounding does to numbers that are beyond any guarantee.
     const double count = last - images.first[axis] + 1.0;
     images.count[static_cast<std::size_t>(axis)] = static_cast<int>(std::clamp(count, 0.0, 4.0));
   }

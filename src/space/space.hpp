@@ -1,20 +1,20 @@
-// The space that bodies move in: all of it, a plane, or a box that repeats.
+// The space in which bodies move: unbounded, a plane, or a box that repeats.
 //
-// On an axis that repeats, with the box's size L there as its period, a body at x is at x + n L for all whole
-// n: its images. A body is kept in one of them: that in which the box around its way in its window, with the
-// radius at the end of it and room for what the body senses, has its centre in the primary box. Two rules,
-// the first on bodies and the second on these boxes, make sure that a pair has to be looked at in one image
-// only. With r the radius of a body and how far it senses, e0 the error of its reports, and h the gap at
-// which a contact has certainly ended (separation distance and tolerance):
+// On an axis that repeats, the box's size L there is the period. A body at x is also at x + n L for all whole
+// n: its images. The world keeps one image of each body. For that image, take the box around the body's way
+// in its window, with the radius at the window's end and the margin for what the body senses: the centre of
+// this box lies in the primary box. Two rules, (1) on bodies and (2) on these boxes, ensure that a pair has
+// to be examined in one image only. Let r be the radius of a body plus its sensing distance, e0 the error of
+// its reports, and h the gap at which a contact has certainly ended (separation distance and tolerance):
 //   (1) 2 r + 6 e0 + h <= 3/8 L, which a body with a third of the box for its diameter obeys;
 //   (2) the box is narrower than L/2 - h - 4 e0: by (1) that leaves at least L/8 to move in (a little less,
-//       for rounding: docs/guarantee.md). Windows are chosen so short that it is.
-// By (2) the centres of two boxes that overlap are less than L/2 apart on every axis that repeats, so they
-// overlap in one image at most, and it is that in which the centres are nearest. The same image is the one in
-// which the bodies touch, also where they have moved apart up to h and their boxes do not overlap any more:
-// reports are within e0 of the bodies, so the centres of the boxes are at most half of both widths, h and
-// 2 e0 of each body apart, which is less than L/2 again. By (1) two bodies that touch in one image, with
-// their centres at most 3/8 L apart, are at least 5/8 L apart in all others.
+//       for rounding: docs/guarantee.md). Windows are chosen so short that rule (2) holds.
+// By (2) the centres of two boxes that overlap are less than L/2 apart on every axis that repeats. The boxes
+// therefore overlap in at most one image, the one in which their centres are nearest. Bodies that touch do so
+// in this image too, even when they have moved apart up to h and their boxes no longer overlap: reports are
+// within e0 of the bodies, so the centres of the boxes are at most half of the two widths, h and 2 e0 of each
+// body apart, which is again less than L/2. By (1) two bodies that touch in one image, with their centres at
+// most 3/8 L apart, are at least 5/8 L apart in all others.
 #pragma once
 
 #include <algorithm>
@@ -27,18 +27,18 @@ namespace kinesphere {
 
 class Space {
  public:
-  /// All of it.
+  /// Unbounded space with three dimensions.
   Space() = default;
-  /// Of a world whose definition has been checked.
+  /// Space of a world. Precondition: the definition has been checked.
   explicit Space(const WorldDefinition& definition);
 
   bool is_flat() const { return flat_; }
   bool repeats() const { return repeats_; }
   bool repeats(int axis) const { return period_[axis] > 0.0; }
-  /// Zero on axes that do not repeat.
+  /// Period of each axis (length); 0 on axes that do not repeat.
   const Vec3& period() const { return period_; }
 
-  /// Whole periods that bring `from` to its image nearest to `to`: a shift, to be added to `from`.
+  /// Returns the shift, in whole periods, that added to `from` gives its image nearest to `to`.
   Vec3 shift_to_nearest(const Vec3& from, const Vec3& to) const {
     Vec3 shift;
     if (!repeats_) return shift;
@@ -47,7 +47,8 @@ class Space {
         shift[axis] = std::floor((to[axis] - from[axis]) * per_period_[axis] + 0.5) * period_[axis];
     return shift;
   }
-  /// The same for points in the primary box, or hardly outside.
+  /// Returns the shift that shift_to_nearest() returns, by comparisons only. Precondition: the points lie in
+  /// the primary box, or hardly outside.
   Vec3 shift_between_homes(const Vec3& from, const Vec3& to) const {
     const auto shift = [](double way, double period) {
       if (way > 0.5 * period) return -period;
@@ -61,28 +62,29 @@ class Space {
   Vec3 shift_of(const Vec3& images) const {
     return {images.x * period_.x, images.y * period_.y, images.z * period_.z};
   }
-  /// A point as its image in the primary box, lower <= position < upper, and the shift from there to where it
-  /// is, in whole periods: point = position + shift_of(images).
+  /// A point given by its image in the primary box, lower <= position < upper, and the number of whole
+  /// periods from there to the point: point = position + shift_of(images).
   struct Wrapped {
     Vec3 position;
     Vec3 images;
   };
   Wrapped wrapped(const Vec3& point) const;
 
-  /// The part of a box that is in space.
+  /// Returns the part of a box that lies in this space.
   Box within(Box box) const {
     if (flat_) box.lower.z = box.upper.z = 0.0;
     return box;
   }
-  /// Narrower than half the period.
+  /// True if the box is narrower than half the period on each axis that repeats.
   bool is_narrow(const Box& box) const;
-  /// Calls visit(shift) for each shift in whole periods that makes `box` overlap `other`. Both are at most a
-  /// few periods wide.
+  /// Calls visit(shift) for each shift in whole periods that makes `box` overlap `other`. Precondition: each
+  /// box is at most a few periods wide.
   template <class Visit>
   void for_each_shift(const Box& box, const Box& other, Visit visit) const;
 
-  /// Calls visit(image, shift) for each image of a box that may overlap one of this extent at most with its
-  /// centre in the primary box: the box itself where space does not repeat.
+  /// Calls visit(image, shift) for each image of `box` that may overlap a box whose extent is at most
+  /// `largest_extent` and whose centre lies in the primary box. Where space does not repeat, that is `box`
+  /// itself.
   template <class Visit>
   void for_each_image(const Box& box, double largest_extent, Visit visit) const {
     if (!repeats_) return visit(within(box), Vec3{});
@@ -96,10 +98,10 @@ class Space {
   }
 
  private:
-  /// Those of a box that come near the primary box.
+  /// The images of a box that come near the primary box.
   struct Images {
     Box box;
-    Vec3 first{};  ///< shift in periods
+    Vec3 first{};  ///< shift of the first image, in periods
     std::array<int, 3> count{1, 1, 1};
   };
 
@@ -109,7 +111,7 @@ class Space {
   Vec3 lower_{};
   Vec3 upper_{};
   Vec3 period_{};
-  Vec3 per_period_{};  ///< 1 / period; 0 where there is none
+  Vec3 per_period_{};  ///< 1 / period; 0 on axes that do not repeat
   bool repeats_ = false;
   bool flat_ = false;
 };
