@@ -84,6 +84,8 @@ class QuickReject {
   }
 
  private:
+  /// Limits of the iteration in curved_meeting(): more rounds and a smaller least gain, relative to the
+  /// total, give later times for more work. Any values are safe.
   static constexpr int most_rounds = 16;
   static constexpr double negligible_gain = 0x1p-7;
 

@@ -12,8 +12,8 @@ namespace {
 
 using rounding::margin;
 
-/// Half-space whose complement contains the shape, for any normal: its plane is raised by the possible
-/// rounding error.
+/// Returns a plane, for any normal, with the shape on its far side (n.x <= offset): it is raised by the
+/// possible rounding error.
 template <class Solid>
 HalfSpace supporting_plane(const Solid& solid, const Vec3& normal) {
   return {normal, reach(solid, normal) + margin * size_of(solid)};

@@ -38,11 +38,11 @@ struct TriangleSide {
   PlaneVector direction;  ///< unit vector
   double length;
 
-  /// beyond() is the distance of a point from the side's line, positive outside the triangle. outward() is
-  /// the component of a vector in that direction.
+  /// Outward component of a vector, across the side's line.
   double outward(const PlaneVector& vector) const {
     return direction.across * vector.along - direction.along * vector.across;
   }
+  /// Distance of a point from the side's line; positive outside the triangle, negative inside.
   double beyond(const PlaneVector& place) const { return outward(place - start); }
 };
 

@@ -96,6 +96,7 @@ void describe(Event& event, const Sphere& sphere, const Box& box) {
 }
 
 double approach_error(const Event& event, double arm) {
+  // Covers a few units in the last place, relative to the coordinates.
   constexpr double part_lost = 0x1p-49;
   const auto& [position_a, velocity_a] = event.first_state;
   const auto& [position_b, velocity_b] = event.second_state;

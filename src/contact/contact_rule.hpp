@@ -11,7 +11,7 @@ class ContactRule {
  public:
   explicit ContactRule(const WorldDefinition& definition);
 
-  /// `release` is an end without an event: two bouncing bodies that no longer approach.
+  /// `release` is an end without an event: two bouncing bodies that have parted or no longer approach.
   enum class Change { none, begin, end, release };
   /// Decides the change of a pair. `gap` is a length, speeds are length / time. `approach_error` bounds the
   /// rounding error of the approach speed (approach_error() in contact_event.hpp): for impacts, an approach

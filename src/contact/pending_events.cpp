@@ -44,8 +44,8 @@ void PendingEvents::queue(const Event& event) {
   if (!delivered_guards_.contains(event)) pending_.insert(event);
 }
 
-/// Applies the event to the contact graph, after recomputing it from velocity changes at the present time.
-/// Returns false, and changes nothing in the graph, if the event no longer holds.
+/// Applies the event to the contact graph, after recomputing it from the present states. Returns false, and
+/// leaves the graph unchanged, if the event no longer holds.
 bool PendingEvents::take_effect(ContactGraph& book, Event& event, const Sphere& first, const Sphere& second,
                                 const std::optional<Box>& box) {
   if (event.kind == EventKind::zeno_guard) delivered_guards_.insert(event);

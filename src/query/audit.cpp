@@ -135,7 +135,7 @@ class World::Engine::Audit {
     if (!engine_.bodies().walls() || b.is_static() || !settled(number, number) ||
         engine_.contacts().walls_of(number) != 0 || !exact(b))
       return;
-    // As for pairs, bouncing bodies within the tolerance follow the contact rule instead.
+    // Bouncing bodies within the tolerance follow the contact rule instead, as in checkable().
     if (impacts() && until_reports_of_walls(engine_.contacts().rule(), b.bound, *engine_.bodies().walls(),
                                             now_, infinity) <= now_)
       return;

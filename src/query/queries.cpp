@@ -14,6 +14,8 @@ namespace {
 /// Exceeds the summed rounding errors of a distance or a ray, relative to the operands' magnitudes.
 constexpr double part_lost = 0x1p-45;
 
+/// Maximum pieces into which a ray is split. More pieces make each search smaller, and let a cast stop sooner
+/// after a hit, but cost more searches.
 constexpr int most_pieces = 64;
 
 double distance_to_box(const Vec3& point, const Box& box) {

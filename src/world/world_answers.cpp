@@ -10,6 +10,8 @@
 namespace kinesphere {
 namespace {
 
+/// Maximum rounds of probing for an answer about the whole world. More rounds give later times for more
+/// probes.
 constexpr std::size_t max_rounds_of_world = 32;
 constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
 
