@@ -1,4 +1,4 @@
-// Bounds of bodies, and the boxes and gaps that follow from them.
+// Time-varying bounds of bodies, with their swept boxes and the gaps between them.
 #include "kinesphere/bound.hpp"
 
 #include "bound/relative_motion.hpp"
@@ -19,7 +19,7 @@ Bound bound_of(const BodyDefinition& body, const State& state, double time) {
 
 namespace {
 
-/// Upper bound of p + v s + 1/2 a s^2 over [s0, s1], 0 <= s0 <= s1.
+/// Upper bound of p + v s + 1/2 a s^2 over s in [s0, s1]. Precondition: 0 <= s0 <= s1.
 double greatest(double p, double v, double a, double s0, double s1) {
   const auto at = [=](double s) { return p + (v + 0.5 * a * s) * s; };
   double top = std::max(at(s0), at(s1));
@@ -32,7 +32,7 @@ double greatest(double p, double v, double a, double s0, double s1) {
   return size <= limits::largest_size ? top + size * rounding::margin : infinity;
 }
 
-/// Of a gap to which growth, up or down, and rounding, relative to the size, have still to be added.
+/// Returns the limits of a gap, widened in either direction by `growth` and by the rounding margin of `size`.
 GapLimits limits_around(double gap, double growth, double size) {
   if (!(size <= limits::largest_size)) return {.lower = -infinity, .upper = infinity};
   const double margin = rounding::margin * size;

@@ -14,7 +14,7 @@ std::optional<BoundViolation> bound_violation(const Bound& before, const Bound& 
   const double change_limit =
       (kicked_to ? 0.0 : before.growth_acceleration * s) + (before.growth_speed + after.growth_speed);
   const double position_slack = contact_tolerance / 16.0;
-  // Nearly all reports are faithful: no root for them.
+  // Fast path without square roots: nearly all reports satisfy the bound.
   if (norm_squared(way) <= deviation_limit * deviation_limit &&
       norm_squared(turn) <= change_limit * change_limit)
     return std::nullopt;

@@ -1,4 +1,4 @@
-// A report held against the promise of its body.
+// Checks a report against the bound that the previous report and the motion limits imply.
 #pragma once
 
 #include <optional>
@@ -7,17 +7,18 @@
 
 namespace kinesphere {
 
-/// By how much a report lies outside what was promised; each zero when it is within it.
+/// Distance of a report from its bound, for position and velocity; each is zero if the bound holds.
 struct BoundViolation {
   double position_excess = 0.0;  ///< length
   double velocity_excess = 0.0;  ///< length / time
 };
 
-/// Nothing for a faithful report. The bounds of a body of this radius are `before` and `after` it: the one
-/// tells what was promised at the report before, the other what is promised now, and they differ in the
-/// errors when the caller has changed them since. `kicked_to`: the velocity that the body was given since its
-/// report before, which was at this very time or is only good for its position. What rounding may do to a
-/// faithful report, up to 1/16 of `contact_tolerance`, is no violation: the tolerance covers it.
+/// Compares a report of a body of this radius with the bound of the previous report. Returns nullopt if the
+/// report satisfies it. `before` and `after` are the bounds made from the previous and from the present
+/// report; their error limits differ if the caller has changed them in between. `kicked_to` is the velocity
+/// that the caller has set since the previous report: then that report was made at this very time, or only
+/// its position counts. Rounding errors up to 1/16 of `contact_tolerance` are not a violation, as the
+/// tolerance covers them.
 std::optional<BoundViolation> bound_violation(const Bound& before, const Bound& after, double radius,
                                               const std::optional<Vec3>& kicked_to, double contact_tolerance);
 

@@ -1,4 +1,5 @@
-// Certified earliest times. The method, and why no answer is late: bound.hpp.
+// Certified earliest times of contact, separation and exit. The method and the proof that no answer is late:
+// bound.hpp.
 #include "bound/relative_motion.hpp"
 #include "bound/rounding.hpp"
 #include "bound/safe_steps.hpp"
@@ -10,23 +11,24 @@ namespace {
 
 using rounding::margin;
 
-/// For the certificates that are one quadratic: c + b d + 1/2 a d^2 > 0 is what holds now.
+/// Solves certificates that are one quadratic: the claim holds while c + b d + 1/2 a d^2 > 0, with d the time
+/// after `from`.
 double time_of_crossing(double from, double until, double c, double b, double a) {
   const double time = rounding::sum_down(from, rounding::first_crossing(c, b, a));
   if (time > until) return infinity;
   return time > from ? time : from;
 }
 
-/// Position, velocity and acceleration of a bound along one direction, moved on to `from`.
+/// Position, velocity and acceleration of a bound along one direction, advanced to time `from`.
 struct Projection {
   Projection(const Bound& bound, const Vec3& normal, double from)
       : Projection(from - bound.time, dot(normal, bound.position), dot(normal, bound.velocity),
                    dot(normal, bound.planned_acceleration), bound) {
-    // The products of a dot product may cancel, so the sizes come from the vectors.
+    // The terms of a dot product may cancel, so the rounding sizes come from the vectors.
     add_up(norm_one(bound.position), norm_one(bound.velocity), norm_one(bound.planned_acceleration), bound);
   }
 
-  /// Along one coordinate axis.
+  /// Projects on one coordinate axis.
   Projection(const Bound& bound, int axis, double from)
       : Projection(from - bound.time, bound.position[axis], bound.velocity[axis],
                    bound.planned_acceleration[axis], bound) {
@@ -62,7 +64,7 @@ double earliest_meeting(const Bound& a, const Bound& b, double from, double unti
   const double reach = motion.radii + distance;
   return advance_by_safe_steps(from, until, [&](double d) {
     const Vec3 centre = motion.centre_at(d);
-    // Where its square underflows there is no unit vector. With none, |C(d)| >= 0 remains.
+    // If the squared length underflows, there is no unit vector. Without one, |C(d)| >= 0 is used.
     const double measured = norm(centre);
     const double length = measured > 0x1p-500 ? measured : 0.0;
     const Vec3 n = length > 0.0 ? centre / length : Vec3{};
@@ -91,7 +93,8 @@ double earliest_separation(const Bound& a, const Bound& b, double from, double u
     const double alpha = motion.growth_acceleration;
     const double length = norm(centre) + margin * size;
 
-    // p(d + e) = q0 + q1 e + q2 e^2 + q3 e^3 + q4 e^4, each lowered by what it may be wrong.
+    // p(d + e) = q0 + q1 e + q2 e^2 + q3 e^3 + q4 e^4, each coefficient lowered by its possible rounding
+    // error.
     const double wrong = 4.0 * margin;
     const double q0 = (slack - length) * (slack + length) - wrong * (slack + length) * size;
     const double q1 =
@@ -104,8 +107,8 @@ double earliest_separation(const Bound& a, const Bound& b, double from, double u
     const double q4 = 0.25 * (alpha * alpha - norm_squared(acceleration)) -
                       wrong * motion.acceleration_size * motion.acceleration_size;
 
-    // Replace the cubic and quartic terms by their least values over a range: the one that the quadratic
-    // part asks for or, where that never reaches zero, the one in which they cannot outweigh its q2.
+    // Replaces the cubic and quartic terms by their minima over a range of e. The range is the one that the
+    // quadratic part suggests or, if that part never reaches zero, the one in which they cannot outweigh q2.
     if (!std::isfinite(q3 + q4)) return 0.0;
     const double fall3 = std::max(0.0, -q3);
     const double fall4 = std::max(0.0, -q4);
@@ -122,7 +125,8 @@ double earliest_separation(const Bound& a, const Bound& b, double from, double u
       return std::min(reach_of_step, rounding::first_crossing(q0, q1, 2.0 * (q2 + higher)));
     };
     const double gain = step_within(range);
-    // Where the quadratic part hardly falls, its range is far too long, and the step far too short.
+    // If the quadratic part hardly falls, `range` is far too long and the step far too short. The geometric
+    // mean of the two is tried as a second range.
     return std::max(gain, step_within(std::sqrt(range * gain)));
   });
 }
@@ -159,7 +163,7 @@ double earliest_exit(const Bound& bound, const Box& box, double from, double unt
       const double c = distance - bound.radius - p.growth - margin * (p.position_size + std::abs(wall));
       const double b = velocity - speed_margin;
       const double a = acceleration - acceleration_margin;
-      // Where it bends down it is least at the ends.
+      // A concave function has its minimum at an end of the interval.
       const double left = c + (b + 0.5 * a * span) * span;
       if (a <= 0.0 && c > 0.0 && left > margin * (c + (std::abs(b) - a * span) * span)) return infinity;
       return rounding::first_crossing(c, b, a);

@@ -1,8 +1,9 @@
-// Two bounds seen from one instant on, in the engine's inner loop: do they certainly stay apart for a while,
+// Quick rejection of a pair of bounds, in the engine's inner loop: are they certainly apart for a duration,
 // and if not, when may they meet?
 //
-// This is earliest_meeting() without its sizes: all rounding is covered by `room`, which is added to the
-// radii. Where positions and ways are at most L, errors stay below 2^-49 L.
+// This is earliest_meeting() without rounding sizes. All rounding is covered by the parameter `margin`
+// (length), which is added to the radii. Precondition: with positions and displacements up to L, errors stay
+// below 2^-49 L, so `margin` must be at least that.
 #pragma once
 
 #include <cmath>
@@ -13,7 +14,7 @@
 
 namespace kinesphere {
 
-/// A bound moved on to an instant; d is the time after it.
+/// A bound advanced to time `from`, as functions of the time d after it:
 ///   centre + velocity d + 1/2 acceleration d^2,   radius + speed d + 1/2 growth d^2
 struct BoundAt {
   Vec3 centre, velocity, acceleration;
@@ -32,8 +33,8 @@ struct BoundAt {
     speed = bound.growth_speed + growth * s;
   }
 
-  /// Around the centre of one that had moved straight on: with what has been added to the radius, and what
-  /// the way has turned, by then.
+  /// Radius at time d of a sphere around centre + velocity d that contains the bound: the grown radius plus
+  /// the deviation of the centre from a straight line.
   double radius_after(double d) const {
     return radius + (speed + 0.5 * (growth + norm_one(acceleration)) * d) * d;
   }
@@ -49,11 +50,12 @@ class QuickReject {
         speed_(a.speed + b.speed),
         growth_(a.growth + b.growth) {}
 
-  /// No two points of the bodies come within `room` for this time. On straight lines the least of |X + V d|
-  /// is |X|, its value at the end, or |X x V| / |V|: no root, no division. Radii count as they are at the
-  /// end, and half of what the centres turn by then is added to them.
+  /// True if no two points of the bodies come within `margin` during `duration`. On straight lines, the
+  /// minimum of |X + V d| is |X|, its value at the end, or |X x V| / |V|; the test needs neither root nor
+  /// division. The radii are taken at the end, plus 1/2 |A| d^2 for the curvature of the relative path.
+  /// Conservative: false means unknown.
   [[gnu::always_inline]] bool stay_apart(double duration, double margin) const {
-    // Where squares of squares underflow nothing is known.
+    // Below this, products of squares underflow, and the answer is unknown.
     constexpr double least = 0x1p-400;
     const double radii =
         radii_ + margin + (speed_ + 0.5 * (growth_ + norm_one(acceleration_)) * duration) * duration;
@@ -67,13 +69,14 @@ class QuickReject {
     return norm_squared(cross(offset_, velocity_)) > limit * speed && speed > least;
   }
 
-  /// They come within `room` now, perhaps.
+  /// True if the bodies may be within `margin` now.
   bool is_near(double margin) const {
     const double radii = radii_ + margin;
     return !(norm_squared(offset_) > radii * radii);
   }
 
-  /// They cannot come within `room` before this time has passed, or not within `duration` if it is +infinity.
+  /// Returns a time d before which the bodies cannot come within `margin`; +infinity if they cannot within
+  /// `duration`.
   double meeting(double duration, double margin) const {
     const double d =
         acceleration_ == Vec3{} ? straight_meeting(duration, margin) : curved_meeting(0.0, duration, margin);
@@ -81,12 +84,15 @@ class QuickReject {
   }
 
  private:
+  /// Limits of the iteration in curved_meeting(): more rounds and a smaller least gain, relative to the
+  /// total, give later times for more work. Any values are safe.
   static constexpr int most_rounds = 16;
   static constexpr double negligible_gain = 0x1p-7;
 
-  /// Of centres that go straight on: where F(d) = |X + V d|^2 - R(d)^2 first is zero. Were the growth of the
-  /// radii steady, F would be a quadratic, whose root is late. If F is convex until then, the tangent there
-  /// lies below F and meets zero early, and one from where it does hardly so.
+  /// Solves for centres on straight lines: the first zero of F(d) = |X + V d|^2 - R(d)^2. With R growing at
+  /// constant speed, F would be a quadratic; its root `latest` is too late, as R grows faster. If F is convex
+  /// up to there, the tangent at `latest` lies below F, so its zero is early. The tangent from that zero is
+  /// hardly early.
   double straight_meeting(double duration, double margin) const {
     const double radii = radii_ + margin;
     const double v2 = norm_squared(velocity_);
@@ -112,12 +118,13 @@ class QuickReject {
     return curved_meeting(0.0, duration, margin);
   }
 
-  /// As earliest_meeting() finds it, when the first d are certain; a time after `duration` may be any.
+  /// Iterates like earliest_meeting(), starting from a certified time d. If the result exceeds `duration`, it
+  /// only means that the bodies do not meet within `duration`.
   double curved_meeting(double d, double duration, double margin) const {
     const double radii = radii_ + margin;
     for (int round = 0; round < most_rounds; ++round) {
       const Vec3 centre = offset_ + (velocity_ + acceleration_ * (0.5 * d)) * d;
-      // Where its square underflows there is no unit vector. With none, |C(d)| >= 0 remains.
+      // If the squared length underflows, there is no unit vector. Without one, |C(d)| >= 0 is used.
       const double measured = norm(centre);
       const double length = measured > 0x1p-500 ? measured : 0.0;
       const Vec3 n = length > 0.0 ? centre * (1.0 / length) : Vec3{};

@@ -1,4 +1,4 @@
-// The support function of boxes and triangles, and the size of their coordinates.
+// Support function of boxes and triangles, and the magnitude of their coordinates.
 #pragma once
 
 #include <algorithm>
@@ -7,8 +7,7 @@
 
 namespace kinesphere {
 
-/// How far a shape reaches in a direction: the greatest dot product of the direction and a point of the
-/// shape.
+/// Support function: returns the largest dot product of `direction` and a point of the shape.
 inline double reach(const Box& box, const Vec3& direction) {
   double sum = 0.0;
   for (int axis = 0; axis < 3; ++axis)
@@ -20,7 +19,7 @@ inline double reach(const Triangle& t, const Vec3& direction) {
   return std::max({dot(direction, t.a), dot(direction, t.b), dot(direction, t.c)});
 }
 
-/// What goes into a computation about a shape, for margins. Sums, so that a number that is none spoils them.
+/// Magnitude of a shape's coordinates, for rounding margins. Sums are used, so that any NaN propagates.
 inline double size_of(const Box& box) { return norm_one(box.lower) + norm_one(box.upper); }
 inline double size_of(const Triangle& t) { return norm_one(t.a) + norm_one(t.b) + norm_one(t.c); }
 

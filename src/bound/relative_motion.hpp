@@ -1,5 +1,4 @@
-// Two bounds seen from one instant: their relative motion, their radii, and the sizes of all that
-// went into these, from which rounding margins are taken.
+// Relative motion of two bounds from a time on, with radii, and magnitudes for rounding margins.
 #pragma once
 
 #include "bound/rounding.hpp"
@@ -7,14 +6,15 @@
 
 namespace kinesphere {
 
-/// Relative to `from`, with d = t - from >= 0:
+/// Relative motion in terms of d = t - from >= 0:
 ///   centre difference  C(d) = offset + velocity d + 1/2 acceleration d^2
 ///   growth             Gamma(d) = growth + growth_speed d + 1/2 growth_acceleration d^2
-/// where growth is what has been added to the radii since the reports. The sizes bound the sums of the
-/// magnitudes of the terms of each coefficient, and are widened and capped (rounding.hpp).
+/// Growth is the increase of the two radii since the reports. Each size bounds the sum of the magnitudes of
+/// the terms in its coefficient, and is widened and capped (rounding.hpp). Precondition: `from` is not before
+/// either report.
 struct RelativeMotion {
   Vec3 offset, velocity, acceleration;
-  double radii;  ///< r + e0 of both
+  double radii;  ///< sum of r + e0 over the two bodies
   double growth, growth_speed, growth_acceleration;
   double offset_size, velocity_size, acceleration_size;
 
@@ -28,7 +28,7 @@ struct RelativeMotion {
   double size_at(double d) const { return offset_size + (velocity_size + 0.5 * acceleration_size * d) * d; }
 
  private:
-  /// One bound, moved on to `from`.
+  /// One bound, advanced to `from`.
   struct Part {
     Part(const Bound& bound, double from)
         : s(from - bound.time),

@@ -1,4 +1,4 @@
-// Rounding to the safe side without changing the rounding mode. bound.hpp explains the method.
+// Conservative rounding without changing the rounding mode. The method: bound.hpp.
 #pragma once
 
 #include <cmath>
@@ -8,32 +8,33 @@
 
 namespace kinesphere::rounding {
 
-/// Relative margin, 2^-47 = 64 unit roundoffs: more than all the roundings behind one coefficient.
+/// Relative margin, 2^-47 = 64 unit roundoffs: exceeds all rounding errors in one coefficient. A larger
+/// margin would make certificates shorter.
 inline constexpr double margin = 0x1p-47;
 
-/// A sum of magnitudes, from which margins will be taken, with room for what products lose to underflow. Zero
-/// stays zero, as nothing is lost where there is nothing.
+/// Widens a sum of magnitudes by what products may lose to underflow. Zero stays zero, as products with zero
+/// are exact.
 inline double widened(double size) { return size + (size > 0.0 ? limits::least_size : 0.0); }
 
-/// The same sum; +infinity where products of two of its kind might overflow.
+/// Returns the size unchanged, or +infinity if products of two such sizes might overflow.
 inline double capped(double size) {
   return size <= limits::largest_size ? size : std::numeric_limits<double>::infinity();
 }
 
-/// A lower bound of the exact sum a + b; NaN where the sum of two finite numbers overflows.
+/// Lower bound of the exact sum a + b; NaN if the sum of two finite numbers overflows.
 inline double sum_down(double a, double b) {
   const double sum = a + b;
   if (std::isinf(a) || std::isinf(b)) return sum;
   return sum - std::abs(sum) * 0x1p-52;
 }
 
-/// An upper bound of the exact sum a + b.
+/// Upper bound of the exact sum a + b.
 inline double sum_up(double a, double b) { return -sum_down(-a, -b); }
 
-/// Lower bound of the first d >= 0 with c + b d + 1/2 a d^2 <= 0: +infinity when there certainly is none,
-/// and 0 when c is not above zero, a number on the way is not finite, or c or the root is so small that its
-/// margin underflows. The coefficients are taken as they are: the caller has lowered them by what they may be
-/// wrong. An infinite c is as good as any.
+/// Lower bound of the first d >= 0 with c + b d + 1/2 a d^2 <= 0. Returns +infinity if there certainly is
+/// none. Returns 0 if c <= 0, if an intermediate value is not finite, or if c or the root is so small that
+/// its margin underflows. The coefficients are taken as exact: the caller has lowered them by their possible
+/// errors. An infinite c is permitted.
 inline double first_crossing(double c, double b, double a) {
   // Underflow is an absolute error, which the relative margin does not cover.
   constexpr double underflow = std::numeric_limits<double>::min();

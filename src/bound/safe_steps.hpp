@@ -1,4 +1,4 @@
-// Conservative advancement: on and on by steps that are safe, until they hardly get further.
+// Conservative advancement: repeats certified steps until they gain little.
 #pragma once
 
 #include "bound/rounding.hpp"
@@ -6,12 +6,14 @@
 
 namespace kinesphere {
 
-/// Any number of rounds is safe; more are only nearer to the truth.
+/// Maximum number of steps. Any number is safe; more steps give later certificates for more time.
 inline constexpr int most_rounds = 16;
-/// A round that gains less than this part of the whole is the last.
+/// Stops the iteration when a step gains less than this fraction of the total. Smaller values give slightly
+/// later certificates for more steps.
 inline constexpr double negligible_gain = 0x1p-24;
 
-/// Adds up the safe steps that `step(d)` offers at d after `from`. +infinity if they go beyond `until`.
+/// Sums up the certified steps `step(d)`, where d is the time after `from`. Returns a time >= from, or
+/// +infinity if the sum exceeds `until`.
 template <class SafeStep>
 double advance_by_safe_steps(double from, double until, SafeStep step) {
   double d = 0.0;

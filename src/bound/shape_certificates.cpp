@@ -1,4 +1,4 @@
-// Certified earliest times and gaps of a bound and a box or triangle at rest. The method: shape.hpp.
+// Certified earliest times and gaps between a bound and a box or triangle at rest. The method: shape.hpp.
 #include <optional>
 
 #include "bound/reach.hpp"
@@ -12,7 +12,8 @@ namespace {
 
 using rounding::margin;
 
-/// The shape lies on its far side, whatever the direction: it is raised by what rounding may have lowered it.
+/// Returns a plane, for any normal, with the shape on its far side (n.x <= offset): it is raised by the
+/// possible rounding error.
 template <class Solid>
 HalfSpace supporting_plane(const Solid& solid, const Vec3& normal) {
   return {normal, reach(solid, normal) + margin * size_of(solid)};
@@ -32,15 +33,16 @@ double meeting(const Bound& bound, const Solid& solid, double from, double until
   return time;
 }
 
-/// A point that goes along with the centre of a bound from some time on, as far as the shape lets it.
+/// A point inside the shape that follows the centre of a bound from a time on, for as long as the shape
+/// permits.
 struct Companion {
-  Bound path{};             ///< of radius 0
-  double stays = infinity;  ///< it is in the shape for this long
-  double wrong = 0.0;       ///< and to within this
+  Bound path{};             ///< radius 0
+  double stays = infinity;  ///< time for which the point is inside the shape
+  double wrong = 0.0;       ///< rounding error of that statement (length)
 };
 
-/// How long a companion stays on one side of an end that is `room` away; 0 where it had better stand still,
-/// because it is as good as there: not much farther than `near`, which covers rounding.
+/// Returns how long a companion stays on one side of an end at distance `clearance`. Returns 0, so that it
+/// stands still, if it is hardly farther from the end than `near`, which covers rounding.
 double stay(double clearance, double speed, double acceleration, double near) {
   return clearance > 2.0 * near ? rounding::first_crossing(clearance - near, speed, acceleration) : 0.0;
 }
@@ -52,13 +54,13 @@ Companion companion(const Box& box, const Bound& bound, double now) {
   Companion at{.path = {.time = now}};
   for (int axis = 0; axis < 3; ++axis) {
     const double size = std::abs(centre[axis]) + std::abs(box.lower[axis]) + std::abs(box.upper[axis]);
-    // A number that is none spoils the path, and with it the certificate.
+    // A NaN propagates to the path and thereby makes the certificate void.
     at.path.position[axis] =
         std::isnan(size) ? size : std::clamp(centre[axis], box.lower[axis], box.upper[axis]);
     const double near = 0x1p-40 * size;
     const double stays = std::min(stay(centre[axis] - box.lower[axis], velocity[axis], plan[axis], near),
                                   stay(box.upper[axis] - centre[axis], -velocity[axis], -plan[axis], near));
-    // At an end of the box it stands still on this axis.
+    // At an end of the box, the companion stands still on this axis.
     if (stays == 0.0) continue;
     at.path.velocity[axis] = velocity[axis];
     at.path.planned_acceleration[axis] = plan[axis];
@@ -67,7 +69,8 @@ Companion companion(const Box& box, const Bound& bound, double now) {
   return at;
 }
 
-/// Of the length of what a companion goes along: more than rounding does to where it is on the way.
+/// Minimum distance from an end, relative to the length of the edge or side: exceeds the rounding error of
+/// the companion's position. Larger values make more companions stand still, with shorter certificates.
 constexpr double near_an_end = 0x1p-45;
 
 std::optional<Companion> companion_on_face(const TriangleFrame& frame, const Bound& bound, double now) {
@@ -107,7 +110,7 @@ Companion companion(const Triangle& triangle, const Bound& bound, double now) {
   const TriangleFrame frame(triangle);
   const auto on_face = companion_on_face(frame, bound, now);
   Companion found = on_face ? *on_face : companion_on_side(frame, bound, now);
-  // As long as it stays, each term of its path is at most about eight sides long.
+  // While the companion is inside, each term of its path is at most about eight side lengths.
   found.wrong = 4.0 * margin * size_of(triangle);
   return found;
 }
@@ -128,7 +131,7 @@ double separation(const Bound& bound, const Solid& solid, double from, double un
   return time;
 }
 
-/// Sizes of what goes into the gap at time t.
+/// Centre, growth, and magnitude of all terms of a bound at time t, for a gap.
 struct Reported {
   Reported(const Bound& bound, double t) : centre(bound.centre_at(t)) {
     const double s = t - bound.time;
@@ -148,7 +151,7 @@ double earliest_meeting(const Bound& bound, const Box& shape, double from, doubl
 
 double earliest_meeting(const Bound& bound, const Triangle& shape, double from, double until,
                         double distance) {
-  // A triangle has no inside: a gap is never less than minus the radius.
+  // A triangle has no inside, so a gap is never less than minus the radius.
   const double least =
       bound.radius + distance < 0.0 ? earliest_meeting(bound, HalfSpace{}, from, until, distance) : from;
   return least == infinity ? infinity : meeting(bound, shape, least, until, distance);
@@ -157,8 +160,9 @@ double earliest_meeting(const Bound& bound, const Triangle& shape, double from, 
 double earliest_separation(const Bound& bound, const Box& shape, double from, double until, double distance) {
   const double depth = -(bound.radius + distance);
   if (std::isnan(depth)) return from;
-  // As long as the centre, wherever in its bound, is so deep inside. Without this, a bound that has grown by
-  // more than the distance would certify nothing, however deep in the box it is.
+  // First part: the time for which the centre, anywhere within its bound, is at least `depth` inside the box.
+  // Without it, a bound that has grown by more than the distance would have no certificate, however deep in
+  // the box it is.
   Bound inside = bound;
   inside.radius = depth > 0.0 ? depth + margin * (bound.radius + std::abs(distance)) : 0.0;
   const double out = earliest_exit(inside, shape, from, until);
@@ -181,7 +185,7 @@ GapLimits gap_limits(const Bound& bound, const Triangle& shape, double t) {
   const Reported reported(bound, t);
   const double gap = nearest_point(shape, reported.centre).distance - bound.radius;
   const double wrong = margin * (reported.size + size_of(shape));
-  // There is no inside.
+  // A triangle has no inside.
   return {.lower = std::max(gap - wrong, -bound.radius) - reported.growth - wrong,
           .upper = gap + reported.growth + wrong};
 }

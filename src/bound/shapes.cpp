@@ -1,4 +1,4 @@
-// Shapes at rest: their nearest points, their boxes, and meshes of triangles.
+// Shapes at rest: nearest points, bounding boxes, and triangle meshes.
 #include <limits>
 #include <string>
 
@@ -9,7 +9,7 @@
 namespace kinesphere {
 namespace {
 
-/// Where the square of its length underflows, a vector has no direction.
+/// Below this length the square underflows, so a vector has no direction.
 constexpr double least_length = 0x1p-500;
 
 Box box_of(const Ball& ball, double) {
@@ -23,7 +23,7 @@ Box box_of(const Ball& ball, double) {
 }
 
 Box box_of(const HalfSpace& solid, double limit) {
-  // Of n.x <= offset there remains n_i x_i <= offset - (the least that the other axes can add).
+  // From n.x <= offset follows n_i x_i <= offset - (the minimum of the other axes' terms).
   Box box{{-limit, -limit, -limit}, {limit, limit, limit}};
   const double size = std::abs(solid.offset) + limit * norm_one(solid.normal);
   for (int axis = 0; axis < 3; ++axis) {
@@ -49,7 +49,7 @@ Box box_of(const Triangle& t, double) {
   return box;
 }
 
-/// Of a place inside: the nearest face.
+/// Returns the nearest point on the surface for a position inside the box.
 SurfacePoint nearest_face(const Box& box, const Vec3& from) {
   SurfacePoint nearest{.distance = -std::numeric_limits<double>::infinity()};
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,5 +1,5 @@
-// Which sides of a box may a bound reach in a while? Some sums and products, where earliest_exit() takes
-// roots.
+// Determines which sides of a box a bound may reach within a duration. Needs only sums and products, whereas
+// earliest_exit() needs roots.
 #pragma once
 
 #include "bound/quick_reject.hpp"
@@ -7,10 +7,10 @@
 
 namespace kinesphere {
 
-/// The box, but without end, from -infinity to +infinity, on each axis on which no point of the bound comes
-/// within `room` of a side for this time. The bound counts as one that moves straight on, with
-/// radius_after(duration); that lies between its places now and then. Rounding is covered by `room` as in
-/// QuickReject. A number that is none clears no axis.
+/// Returns the box with infinite limits on each axis on which no point of the bound comes within `margin` of
+/// a side during `duration`. The bound is treated as moving on a straight line with radius_after(duration),
+/// so its extremes are at the start and the end. `margin` covers rounding as in QuickReject. NaN clears no
+/// axis.
 inline Box sides_in_reach(const BoundAt& bound, const Box& box, double duration, double margin) {
   const double reach = bound.radius_after(duration) + margin;
   Box near = box;
@@ -26,7 +26,7 @@ inline Box sides_in_reach(const BoundAt& bound, const Box& box, double duration,
   return near;
 }
 
-/// Whether a box has an end on any axis.
+/// True if a box has finite limits on any axis.
 inline bool has_sides(const Box& box) {
   return box.upper.x != infinity || box.upper.y != infinity || box.upper.z != infinity;
 }

@@ -1,10 +1,9 @@
-// A triangle in an orthonormal frame along its longest side, where its numbers keep their digits however thin
-// it is.
+// A triangle in an orthonormal frame along its longest side, which is accurate for thin triangles too.
 //
-// Coordinates along two sides of a needle do not: the sides are nearly parallel, and what rounding does to
-// such coordinates is larger by the ratio of its length and its thickness. In an orthonormal frame every
-// length errs by a few units in the last place of the lengths that went into it, and so does the distance of
-// a place, which changes by no more than the place and the corners do.
+// Coordinates along two sides of a needle are not: the sides are nearly parallel, which multiplies rounding
+// errors by the ratio of its length to its thickness. In an orthonormal frame, the error of a length is a few
+// units in the last place of the lengths it is computed from. The distance of a point changes by no more than
+// the point and the corners do, so its error is as small.
 #pragma once
 
 #include <algorithm>
@@ -17,10 +16,10 @@
 
 namespace kinesphere {
 
-/// A place or a vector in the plane of a triangle.
+/// A point or a vector in the plane of a triangle.
 struct PlaneVector {
-  double along;   ///< the longest side
-  double across;  ///< it, towards the third corner
+  double along;   ///< parallel to the longest side
+  double across;  ///< normal to the longest side, towards the third corner
 
   friend PlaneVector operator-(const PlaneVector& a, const PlaneVector& b) {
     return {a.along - b.along, a.across - b.across};
@@ -33,24 +32,24 @@ struct PlaneVector {
   }
 };
 
-/// A side of a triangle, seen in its frame.
+/// One side of a triangle, in the coordinates of its frame.
 struct TriangleSide {
   PlaneVector start;
-  PlaneVector direction;  ///< of length 1
+  PlaneVector direction;  ///< unit vector
   double length;
 
-  /// How far a place lies beyond the side, outside the triangle; negative inside. Of a vector: how fast it
-  /// leads there.
+  /// Outward component of a vector, across the side's line.
   double outward(const PlaneVector& vector) const {
     return direction.across * vector.along - direction.along * vector.across;
   }
+  /// Distance of a point from the side's line; positive outside the triangle, negative inside.
   double beyond(const PlaneVector& place) const { return outward(place - start); }
 };
 
-/// The origin is at one end of the longest side. Places and vectors have their coordinates in the frame to
-/// within 24 * 2^-53 times their length (of a place: its distance from the origin), and corners to within as
-/// much of the longest side. A triangle whose corners lie on a line counts as one of height 0; one whose
-/// corners are one place has numbers that are none.
+/// The origin is one end of the longest side. Coordinates of points and vectors have errors up to 24 * 2^-53
+/// times their length (for a point: its distance from the origin); those of corners, up to this times the
+/// longest side. A triangle with collinear corners has height 0. One with three equal corners has NaN
+/// coordinates.
 class TriangleFrame {
  public:
   explicit TriangleFrame(const Triangle& t) {
@@ -69,8 +68,8 @@ class TriangleFrame {
     length_ = norm(side);
     along_ = side / length_;
     const double foot = dot(third, along_);
-    // Taken away once, the part along the side leaves as much as rounding did to it: of a thin triangle's
-    // height that may be a large part.
+    // A single projection leaves a component along the side of the size of the rounding error, which may be a
+    // large part of a thin triangle's height. So the projection is repeated.
     Vec3 height = third - along_ * foot;
     height -= along_ * dot(height, along_);
     height_ = norm(height);
@@ -85,10 +84,10 @@ class TriangleFrame {
   }
 
   const Vec3& origin() const { return corners_[0]; }
-  const Vec3& normal() const { return normal_; }  ///< of the plane: by the right-hand rule from a to b to c
-  double length() const { return length_; }       ///< of the longest side
-  double height() const { return height_; }       ///< over the longest side: the least of the three
-  /// The longest one first. Side k begins at corner k.
+  const Vec3& normal() const { return normal_; }  ///< unit normal of the plane, right-handed for a, b, c
+  double length() const { return length_; }       ///< length of the longest side
+  double height() const { return height_; }       ///< height over the longest side, the least of the three
+  /// Sides, the longest first. Side k begins at corner k.
   const std::array<TriangleSide, 3>& sides() const { return sides_; }
   const Vec3& corner(std::size_t k) const { return corners_[k % 3]; }
 
@@ -96,7 +95,8 @@ class TriangleFrame {
   double above_plane(const Vec3& vector) const { return dot(vector, normal_); }
   Vec3 vector(const PlaneVector& v) const { return along_ * v.along + across_ * v.across; }
 
-  /// How far a place of the plane lies outside, at least; negative inside, where it is the least depth.
+  /// Lower bound of the distance of a point of the plane from the triangle. Inside, minus the distance to the
+  /// nearest side.
   double beyond(const PlaneVector& place) const {
     return std::max({sides_[0].beyond(place), sides_[1].beyond(place), sides_[2].beyond(place)});
   }
@@ -115,31 +115,32 @@ class TriangleFrame {
   std::array<TriangleSide, 3> sides_;
 };
 
-/// The least height relative to the longest side; 0 for one whose corners lie on a line.
+/// Height over the longest side, divided by its length; 0 if the corners are collinear.
 inline double thickness(const Triangle& triangle) {
   const TriangleFrame frame(triangle);
   return frame.length() > 0.0 ? frame.height() / frame.length() : 0.0;
 }
-/// Below this, numbers made from a triangle would mean too little.
+/// Minimum thickness of a triangle. Thinner ones are refused, as values computed from them would be too
+/// inaccurate.
 inline constexpr double least_thickness = 0x1p-20;
 
-/// The place on the sides of a triangle that is nearest to another one.
+/// Nearest point on the sides of a triangle to a given point.
 struct SidePoint {
   std::size_t side = 0;
-  double part = std::numeric_limits<double>::quiet_NaN();  ///< of the side, in [0, 1]
-  PlaneVector away{part, part};                            ///< from there to the place, along the plane
+  double part = std::numeric_limits<double>::quiet_NaN();  ///< position on the side, in [0, 1]
+  PlaneVector away{part, part};                            ///< from this point to the given one, in the plane
 
-  /// In space.
+  /// Returns the point in space.
   Vec3 place(const TriangleFrame& frame) const {
     return frame.corner(side) + (frame.corner(side + 1) - frame.corner(side)) * part;
   }
 };
 
-/// Of a place outside, `away` is normal to the side and points outward or, at a corner, leads along none of
-/// the two sides that end there; exactly so, also where it is so short that the difference of the two places
-/// says little of its direction. So all of the triangle lies behind each plane through the point that is
-/// normal to a sum of `away` and any part of the frame's normal, to within the rounding of lengths. A number
-/// that is none, in the place or in the frame, spoils the answer.
+/// Returns the point on the sides nearest to `place`. For a `place` outside, `away` is normal to the side and
+/// points outward or, at a corner, has no positive component along either of the two sides that end there.
+/// This is exact even if `away` is so short that the difference of the two points is mostly rounding error.
+/// Hence, up to the rounding of lengths, the whole triangle lies behind each plane through the point that is
+/// normal to `away` plus any multiple of the frame's normal. NaN in the arguments propagates.
 inline SidePoint nearest_on_sides(const TriangleFrame& frame, const PlaneVector& place) {
   const double nearest_side = std::min(frame.beyond(place), 0.0);
   for (std::size_t k = 0; k < 3; ++k) {

@@ -5,7 +5,7 @@
 namespace kinesphere {
 namespace {
 
-/// Those of one list that are not in another.
+/// Returns the elements of `from` that `in` does not contain. Cost: O(|from| * |in|).
 template <class List, class Other>
 auto missing(const List& from, const Other& in) {
   auto found = std::vector(from.begin(), from.end());

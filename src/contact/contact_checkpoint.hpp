@@ -1,4 +1,5 @@
-// The contacts of a body as they were, for threads that work side by side and may have to go back.
+// Saved contacts of one body: for rolling back speculative execution and for moving a body between contact
+// graphs.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +9,7 @@
 
 namespace kinesphere {
 
-/// All that a book knows of one body.
+/// Everything that a ContactGraph stores about one body.
 struct ContactCheckpoint {
   ContactRate::Body rate{};
   ContactGraph::Flags flags{};
@@ -16,12 +17,12 @@ struct ContactCheckpoint {
   std::vector<OverlapRecord> overlaps{};
 
   static ContactCheckpoint of(const ContactGraph& book, std::uint32_t body);
-  /// As it was; the lists of its partners stay as they are.
+  /// Restores the body's own rate, flags, partners and overlaps. The lists of its partners stay unchanged.
   void restore(ContactGraph& book, std::uint32_t body) const;
-  /// The same but for whom it touches and senses.
+  /// Restores only the rate and the flags of the body. Its partners and overlaps stay unchanged.
   void restore_alone(ContactGraph& book, std::uint32_t body) const;
-  /// Brings the lists of fixed bodies, which stay as they are while threads work side by side, up to date
-  /// with what has changed about this one.
+  /// Updates the lists of static bodies with the contacts and overlaps that `body` has gained or lost since
+  /// this checkpoint. Those lists are frozen between start_side_by_side() and stop_side_by_side().
   void update_static(ContactGraph& book, std::uint32_t body) const;
 
   template <class Self, class Archive>

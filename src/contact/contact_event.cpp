@@ -13,7 +13,7 @@ SurfacePoint nearest_of(const Shape& shape, const Vec3& from) {
   return std::visit(
       [&]<class Solid>(const Solid& solid) {
         if constexpr (std::is_same_v<Solid, Ball>) {
-          return SurfacePoint{};  // a ball counts as a sphere
+          return SurfacePoint{};  // a ball is handled as a sphere
         } else {
           return nearest_point(solid, from);
         }
@@ -21,7 +21,7 @@ SurfacePoint nearest_of(const Shape& shape, const Vec3& from) {
       shape);
 }
 
-/// Normal, gap and point of two spheres.
+/// Sets normal, gap and point of an event between two spheres. Coinciding centres get the normal (1, 0, 0).
 void describe_spheres(Event& event, const Sphere& first, const Sphere& second) {
   const Vec3 difference = second.state.position - first.state.position;
   const double distance = norm(difference);
@@ -30,7 +30,8 @@ void describe_spheres(Event& event, const Sphere& first, const Sphere& second) {
   event.point = first.state.position + event.normal * (first.radius + 0.5 * event.gap);
 }
 
-/// The same of a sphere and a body with a shape, of which either may be the first.
+/// Sets normal, gap and point of an event between a sphere and a body with a shape. Either may be
+/// event.first.
 void describe_surface(Event& event, const Sphere& sphere, const Sphere& surface) {
   const SurfacePoint nearest = nearest_of(*surface.shape, sphere.state.position);
   event.normal = event.first == sphere.id ? -nearest.normal : nearest.normal;
@@ -38,7 +39,7 @@ void describe_surface(Event& event, const Sphere& sphere, const Sphere& surface)
   event.point = sphere.state.position - nearest.normal * (sphere.radius + 0.5 * event.gap);
 }
 
-/// Of two that are in the images in which they are seen.
+/// Describes an event between two bodies whose positions are already in the images that meet.
 void describe_as_seen(Event& event, const Sphere& first, const Sphere& second) {
   event.first_state = first.state;
   event.second_state = second.state;
@@ -95,11 +96,13 @@ void describe(Event& event, const Sphere& sphere, const Box& box) {
 }
 
 double approach_error(const Event& event, double arm) {
+  // Covers a few units in the last place, relative to the coordinates.
   constexpr double part_lost = 0x1p-49;
   const auto& [position_a, velocity_a] = event.first_state;
   const auto& [position_b, velocity_b] = event.second_state;
   const double turned = part_lost * (norm_one(position_a) + norm_one(position_b)) / std::abs(arm);
-  // Points have no arm within the tolerance, and a normal of little meaning; a fast approach is one.
+  // Two points have no arm within the tolerance, and their normal means little, so the error of the normal's
+  // direction is capped: a fast approach still counts as one.
   constexpr double most_turned = 0x1p-20;
   return part_lost * (norm_one(velocity_a) + norm_one(velocity_b)) +
          (turned < most_turned ? turned : most_turned) * norm(velocity_a - velocity_b);

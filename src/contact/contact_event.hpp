@@ -1,4 +1,4 @@
-// What a contact event says, from the spheres as they are at that instant.
+// Contents of contact and wall events, computed from the spheres at the time of the event.
 #pragma once
 
 #include "bound/bound_violation.hpp"
@@ -13,53 +13,55 @@ inline bool begins(EventKind kind) {
   return kind == EventKind::contact_begin || kind == EventKind::wall_begin || kind == EventKind::sensor_enter;
 }
 
-/// A body at an instant.
+/// State of one body at one time, as far as an event describes it.
 struct Sphere {
   BodyId id;
   double radius;
   State state;
-  const Shape* shape = nullptr;  ///< of a fixed body that is no ball: then that counts, not the radius
+  /// Shape of a static body that is not a ball (then `radius` is ignored), otherwise nullptr.
+  const Shape* shape = nullptr;
   std::uint64_t user_data = 0;
 };
 
-/// Event::first is the one with the smaller id, whichever comes first here.
+/// Event::first becomes the body with the smaller id, in whichever order the two are passed.
 Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& b);
-/// Event::second is seen in its image nearest to the first.
+/// Does the above in a space that may be periodic: the image of Event::second nearest to Event::first is
+/// described.
 Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& b, const Space& space);
 Event wall_event(EventKind kind, double time, const Sphere& sphere, const Box& box, Wall wall);
-/// Brings what an event of a contact or a wall says up to date with the spheres as they are now.
+/// Recomputes all geometric fields of a contact or wall event from the present spheres.
 void describe(Event& event, const Sphere& first, const Sphere& second, const Space& space);
 void describe(Event& event, const Sphere& sphere, const Box& box);
-/// How much rounding may have done to the approach speed of an event that one of these has described. `arm`
-/// is the length of the vector along the normal, from centre to centre or from a centre to the nearest point
-/// of a shape; +infinity where the normal is that of a wall or a half-space. Covers what the caller's own
-/// roundings do to positions and velocities: a few units in the last place each.
+/// Bounds the rounding error in the approach speed of an event that describe() has filled in (length / time).
+/// `arm` is the length of the vector along the normal: from centre to centre, or from a centre to the nearest
+/// point of a shape; +infinity where the normal is that of a wall or a half-space. The bound covers rounding
+/// by the caller in positions and velocities: a few units in the last place each.
 double approach_error(const Event& event, double arm);
 double approach_error(const Event& event, const Sphere& first, const Sphere& second);
-/// A bound_violation of the sphere, whose state is the report.
+/// Returns a bound_violation event. The sphere's state is the violating report.
 Event violation_event(double time, const Sphere& sphere, const BoundViolation& broken);
 
-/// The walls of a world as a box, from -infinity to +infinity on axes that have none; nothing where no axis
-/// has any.
+/// Returns the walls of a world as a box with limits -infinity and +infinity on axes without walls. Returns
+/// nullopt if no axis has walls.
 std::optional<Box> walls_of(const WorldDefinition& definition);
-/// Whether a box of this kind has the wall.
+/// True if a box from walls_of() has this wall. Precondition: wall != Wall::none.
 bool stands(const Box& box, Wall wall);
 
-/// The half-space inside a wall of the box, one that stands.
+/// Returns the half-space inside a wall of the box. Precondition: stands(box, wall).
 HalfSpace half_space(const Box& box, Wall wall);
 
-/// The bit of a wall in a set of walls.
+/// Bit of a wall in a set of walls. Precondition: wall != Wall::none.
 inline constexpr std::uint8_t wall_bit(Wall wall) {
   return static_cast<std::uint8_t>(1u << (static_cast<unsigned>(wall) - 1u));
 }
 
-/// All walls, for loops.
+/// All six walls, to iterate over.
 inline constexpr Wall walls[] = {Wall::x_lower, Wall::x_upper, Wall::y_lower,
                                  Wall::y_upper, Wall::z_lower, Wall::z_upper};
 
-/// The order in which events of one instant are delivered: kind, first, second, wall, distance.
+/// Delivery order of events at one time: by kind, first, second, wall, distance.
 bool delivered_before(const Event& a, const Event& b);
-/// For sets of events of one instant, which hold each event once.
+/// Comparator for sets of events at one time. Two events that compare equivalent are the same event.
 struct DeliveredBefore {
   bool operator()(const Event& a, const Event& b) const { return delivered_before(a, b); }
 };

@@ -32,7 +32,8 @@ void ContactGraph::set_touching(const Event& contact, bool touching) {
   }
 }
 
-/// In the list of the first one.
+/// Adds or removes `partner` in the list of `body` only. Lists of static bodies stay unchanged while
+/// fixed_wait_.
 void ContactGraph::set_half(std::uint32_t body, std::uint32_t partner, const Event& contact, bool touching) {
   if (fixed_wait_ && flags_[body].is_static) return;
   if (is_of_sensor(contact.kind)) {
@@ -79,13 +80,13 @@ void ContactGraph::set_links(std::uint32_t body, std::span<const std::uint32_t> 
 
 void ContactGraph::start_side_by_side(bool with_sensors) {
   fixed_wait_ = true;
-  // No list may have to be made while others are read.
+  // Allocates every list now: threads read the outer vectors concurrently, so these must not grow later.
   if (partners_.size() < flags_.size()) partners_.resize(flags_.size());
   if (with_sensors) overlaps_.make_lists(flags_.size());
 }
 
-/// The numbers of those bodies of a contact that count it: a body that does not move may be hit by many at
-/// once.
+/// Returns the bodies of the event whose contact rate counts it: all but static ones, which many bodies may
+/// hit at one time. The result refers to `margin`.
 std::span<const std::uint32_t> ContactGraph::counting(const Event& contact,
                                                       std::array<std::uint32_t, 2>& margin) const {
   std::size_t count = 0;
@@ -107,7 +108,7 @@ void ContactGraph::note_contact(Event& begin) {
 }
 
 bool ContactGraph::contacts_are_valid(const std::optional<Box>& box) const {
-  // A contact as a crossing of its own.
+  // Pseudo-distance that marks a contact among the sensor overlaps.
   constexpr double contact = -1.0;
   std::vector<std::tuple<std::uint32_t, std::uint32_t, double, Senses>> there;
   std::vector<std::tuple<std::uint32_t, std::uint32_t, double, Senses>> back;

@@ -1,4 +1,5 @@
-// Who touches whom, and who is within a sensor distance of whom.
+// Contact graph: pairs of bodies in contact, bodies in contact with walls, and pairs within a sensor
+// distance.
 #pragma once
 
 #include <array>
@@ -23,14 +24,15 @@ class ContactGraph {
   explicit ContactGraph(const WorldDefinition& definition)
       : rule_(definition), sensor_rule_(rule_.with_ends()), space_(definition) {}
 
-  /// Of contacts.
+  /// Rule for contacts; rule_of() selects the one for sensor distances where needed.
   const ContactRule& rule() const { return rule_; }
   const ContactRule& rule_of(const Threshold& threshold) const {
     return threshold.sensed ? sensor_rule_ : rule_;
   }
   const Space& space() const { return space_; }
 
-  /// From now on the numbers of bodies are in the tags of their ids (BodyTable).
+  /// Switches number_of() to the tags of ids (BodyTable): body numbers are read from BodyId::world from now
+  /// on.
   void find_numbers_in_tags() { numbers_in_tags_ = true; }
   std::uint32_t number_of(BodyId id) const { return numbers_in_tags_ ? id.world : id.index; }
 
@@ -38,69 +40,72 @@ class ContactGraph {
     flags_.reserve(bodies);
     rate_.reserve(bodies);
   }
-  /// A body that touches nothing. `largest_acceleration` sets its Zeno interval.
+  /// Adds a body without contacts. `largest_acceleration` (length / time^2) determines its Zeno interval.
   void add(std::uint32_t body, double largest_acceleration);
   void set_largest_acceleration(std::uint32_t body, double largest_acceleration) {
     rate_.set_zeno_interval(body, rule_.zeno_interval(largest_acceleration));
   }
-  /// Of a fixed body only the others count contacts: many may touch it at once.
+  /// Marks a body as static. Only its partners count contacts with it, because many bodies may touch it at
+  /// one time.
   void set_static(std::uint32_t body) { flags_[body].is_static = true; }
 
-  // Who touches whom.
+  // Existing contacts and overlaps.
 
   bool touch(std::uint32_t a, std::uint32_t b) const;
   bool touches_wall(std::uint32_t body, Wall wall) const { return (walls_of(body) & wall_bit(wall)) != 0; }
-  /// In the order in which the contacts began (of a fixed body in any order, after several threads have
-  /// worked); good until one begins or ends with the body.
+  /// Returns the partners of a body in the order in which the contacts began. The list of a static body has
+  /// no defined order after concurrent execution. Invalidated when a contact of the body begins or ends.
   std::span<const std::uint32_t> partners_of(std::uint32_t body) const {
     return body < partners_.size() ? partners_[body].all() : std::span<const std::uint32_t>();
   }
-  /// A set of wall_bit().
+  /// Returns a set of wall_bit() values.
   std::uint8_t walls_of(std::uint32_t body) const { return flags_[body].walls; }
-  /// By partner, of each from the outermost inward; good until the next one.
+  /// Returns the overlaps of a body, sorted by partner and then by falling distance. Invalidated by any
+  /// change of an overlap.
   OverlapRecords::List overlaps_of(std::uint32_t body) const { return overlaps_.of(body); }
-  /// Those of the two, from the outermost inward. Cost: O(log of the body's).
+  /// Returns the overlaps of one pair, by falling distance. Cost: O(log n) for n overlaps of the body
+  /// searched.
   OverlapRecords::List overlaps_of(std::uint32_t a, std::uint32_t b) const {
     return flags_[a].is_static ? overlaps_.of(b, a) : overlaps_.of(a, b);
   }
-  /// Of the bodies, or of the body and the wall, that the event names: their contact or a sensor distance
-  /// begins or ends, and nobody is told.
+  /// Begins or ends the contact or overlap that the event names, between two bodies or a body and a wall. No
+  /// event is queued.
   void set_touching(const Event& contact, bool touching);
   void release_all(std::uint32_t body);
 
-  // Contacts that begin.
+  // Begins of contacts.
 
-  /// Whether a contact that could begin now has to wait for time to move on: each of the two has had so many
-  /// at this instant that the caller's answers will not part them.
+  /// True if a contact that could begin now must be deferred to a later time: each of its counting bodies has
+  /// reached the limit of contacts at one time, so the caller's responses will not separate them.
   bool is_jammed(const Event& current) const;
-  /// Marks the begin of a contact if it is a repeated or a jammed one, and remembers it for the next.
+  /// Marks the begin of a contact as repeated or jammed, and counts it for later marks.
   void note_contact(Event& begin);
 
-  /// Of a body that has come from elsewhere: it touches these, and is within these distances of others, and
-  /// all of them are told.
+  /// Replaces all contacts and overlaps of a body that has arrived from elsewhere. The lists of its former
+  /// and new partners are updated too.
   void set_links(std::uint32_t body, std::span<const std::uint32_t> partners,
                  std::vector<OverlapRecord> overlaps);
 
-  // Several threads may change the contacts of different bodies at the same time, between these two calls.
-  // The lists of fixed bodies, which all may touch, stay as they are (ContactCheckpoint::update_static).
+  // Between the next two calls, several threads may change the contacts of different bodies concurrently.
+  // Lists of static bodies, which any thread might touch, are frozen (see ContactCheckpoint::update_static).
 
   void start_side_by_side(bool with_sensors);
   void stop_side_by_side() { fixed_wait_ = false; }
 
-  /// All but the rules and the space, which follow from the world's definition.
+  /// Serializes everything except the rules and the space, which follow from the world's definition.
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
     auto& [rule, sensor_rule, space, recent, flags, partners, crossings, wait, in_tags] = self;
     archive(recent, flags, partners, crossings);
   }
-  /// For one that was read in a world of this many bodies: true when contacts are mutual. `box` has the walls
-  /// that stand.
+  /// Validates a graph that was read from bytes, for a world of `bodies` bodies: contacts must be mutual,
+  /// unique and not with the body itself. `box` holds the existing walls, as from walls_of().
   bool is_valid(std::size_t bodies, const std::optional<Box>& box) const;
 
  private:
   friend struct ContactCheckpoint;
 
-  /// What is known of a body beside its lists.
+  /// Per-body data other than lists.
   struct Flags {
     std::uint8_t walls = 0;
     bool is_static = false;
@@ -121,9 +126,9 @@ class ContactGraph {
   Space space_;
   ContactRate rate_;
   std::vector<Flags> flags_;
-  std::vector<PartnerList> partners_;  ///< of all bodies up to the last one that ever had one
+  std::vector<PartnerList> partners_;  ///< by body, up to the last body that ever had a partner
   OverlapRecords overlaps_;
-  bool fixed_wait_ = false;  ///< the lists of fixed bodies are brought up to date later
+  bool fixed_wait_ = false;  ///< true between start_side_by_side() and stop_side_by_side()
   bool numbers_in_tags_ = false;
 };
 

@@ -47,22 +47,23 @@ ContactDecision ContactPredictor<Partner>::decide(const Event& current, const Re
     verdict.next_check = std::max(separation(rule_.release_gap()), just_after(now_));
     return verdict;
   }
-  // A certificate cannot guard a gap that lies within its own rounding of the present one, as it may for two
-  // within the tolerance.
+  // A certificate cannot guard a gap that is closer to the present gap than the certificate's own rounding
+  // error. Within the tolerance that can be so, hence the reduction.
   const double gap = beyond > rule_.tolerance() ? beyond : beyond - resolution();
   double time = meeting(rule_.guarded_gap(gap));
   const double hidden_approach = std::max(current.approach_speed + error, 0.0);
   const double least =
       now_ + rule_.least_step(beyond, promise.speed_error + hidden_approach, promise.acceleration);
   if (time < least) {
-    // The Zeno guard: time has to move on between two looks at a contact that does not approach.
+    // The Zeno guard: time must advance between two checks of a contact that does not approach.
     time = least;
     verdict.zeno_step = true;
     verdict.breaks_tolerance = rule_.step_breaks_tolerance(beyond);
   }
   if (rule_.is_deep(gap)) {
     const double surfaces = separation(rule_.surface_gap());
-    // The meeting was looked for no further than this, so no more is known.
+    // The meeting was searched only up to the horizon, so a separation beyond the horizon does not shorten
+    // the time.
     if (surfaces <= horizons_.meeting) time = std::min(time, surfaces);
   }
   verdict.next_check = std::max(time, just_after(now_));
@@ -79,7 +80,7 @@ ContactDecision ContactPredictor<Partner>::defer(const Event& current, const Rel
           .breaks_tolerance = rule_.step_breaks_tolerance(beyond)};
 }
 
-/// Of approach_error().
+/// Length of the vector along the normal, as approach_error() needs it.
 template <class Partner>
 double ContactPredictor<Partner>::arm(double gap) const {
   if constexpr (std::is_same_v<Partner, Bound>)
@@ -88,7 +89,7 @@ double ContactPredictor<Partner>::arm(double gap) const {
     return std::is_same_v<Partner, HalfSpace> ? infinity : gap + bound_.radius;
 }
 
-/// More than what rounding can hide of the present gap.
+/// Upper bound of the rounding error in the present gap (length).
 template <class Partner>
 double ContactPredictor<Partner>::resolution() const {
   const GapLimits limits = gap_limits(bound_, partner_, now_);
@@ -103,7 +104,7 @@ template class ContactPredictor<Triangle>;
 namespace {
 
 Box walls_in_reach(const ContactRule& rule, const BoundAt& bound, const Box& box, double duration) {
-  // Covers rounding, as positions and ways are at most 2^45 tolerances.
+  // 1/16 of the tolerance covers rounding, as positions and displacements are at most 2^45 tolerances.
   const double rounding_room = rule.tolerance() / 16.0;
   return sides_in_reach(bound, box, duration, rule.tolerance() + rounding_room);
 }
@@ -121,7 +122,8 @@ double until_reports_of_walls(const ContactRule& rule, const Bound& bound, const
   if (!has_sides(near)) return infinity;
   const double time = earliest_exit(bound, near, now, until);
   if (time == infinity || time <= now) return time;
-  // The time holds in any case; whether fresh reports would give a better one may be off by rounding.
+  // The time is certified in any case. Only the choice whether fresh reports would improve it is subject to
+  // rounding.
   const bool far = !has_sides(sides_in_reach(moved, near, 0.0, rule.tolerance()));
   return far ? time : now;
 }

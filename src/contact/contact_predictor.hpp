@@ -1,4 +1,4 @@
-// How long what is known of a contact stays true: from bounds as they are, and from fresh reports.
+// How long the state of a contact is certain not to change: from present bounds, and from fresh reports.
 #pragma once
 
 #include <limits>
@@ -10,45 +10,46 @@
 
 namespace kinesphere {
 
-/// How far the bodies of a contact may stray from their paths together.
+/// Limits on how far the two bodies of a contact can deviate from their predicted relative motion.
 struct RelativeLimits {
   double speed_error;
   double acceleration;
 };
 
-/// How far an outlook has to reach: it is of no use beyond.
+/// Horizon of a prediction, per kind of search: a time later than the horizon counts as never.
 struct Horizon {
   double meeting = std::numeric_limits<double>::infinity();
   double separation = std::numeric_limits<double>::infinity();
 };
 
-/// What fresh reports say of a threshold.
+/// Decision about a threshold from fresh reports.
 struct ContactDecision {
-  /// A begin or an end has to be delivered first; then no time is known.
+  /// If `change` is begin or end, that event must be delivered first, and the other members mean nothing.
   ContactRule::Change change = ContactRule::Change::none;
-  /// Else: it cannot be crossed before this.
+  /// Otherwise, the threshold cannot be crossed before this time.
   double next_check = 0.0;
-  /// The Zeno guard has put next_look off, and in the second case by so much that the caller must be told.
+  /// `zeno_step`: the Zeno guard has postponed next_check. `breaks_tolerance`: the gap may leave the
+  /// tolerance until then, which the caller must be notified of.
   bool zeno_step = false;
   bool breaks_tolerance = false;
 
   bool is_event() const { return change == ContactRule::Change::begin || change == ContactRule::Change::end; }
 };
 
-/// What may change between a body and its partner: whether their gap is within a distance. 0 is their
-/// contact, all others are sensor distances.
+/// A change to predict between a body and its partner: leaving (`within`) or entering a gap of `distance`
+/// (length). Distance 0 is contact unless `sensed`.
 struct Threshold {
   bool within;
   double distance = 0.0;
   bool sensed = false;
 };
 
-/// The kind of event that announces a change, a begin or an end: of a sensor distance, or of a contact with a
-/// body or with `wall`.
+/// Returns the kind of event for a begin or an end of a sensor overlap, or of a contact with a body or with
+/// `wall`.
 EventKind kind_of(ContactRule::Change change, bool sensed, Wall wall);
 
-/// A body and its partner, another body's Bound, the HalfSpace inside a wall or a shape at rest, seen from
-/// now on.
+/// Predicts one threshold between a body and a partner from `now` on. A partner is another body's Bound, the
+/// HalfSpace inside a wall, or a shape at rest. Holds references to rule, bound and partner.
 template <class Partner>
 class ContactPredictor {
  public:
@@ -56,17 +57,17 @@ class ContactPredictor {
                    const Partner& partner, double now, const Horizon& horizon)
       : rule_(rule), threshold_(threshold), bound_(bound), partner_(partner), now_(now), horizons_(horizon) {}
 
-  /// From bounds as they are: the threshold cannot be crossed before this time. `now` when fresh reports
-  /// are needed: bounds that keep away from where the contact changes give a useful certificate; if they do
-  /// not, it may be as short as one likes, and with fresh reports the rule decides, or the certificate spans
-  /// a tolerance.
+  /// Returns a time before which the threshold cannot be crossed, from the present bounds; `now` if fresh
+  /// reports are needed. The bounds give a useful certificate only while they are clear of the gap at which
+  /// the contact changes. Nearer than that, their certificate can be arbitrarily short, whereas with fresh
+  /// reports the rule decides or the certificate spans a tolerance.
   double until_reports() const;
 
-  /// From fresh reports; `current` is an event that describes the two now.
+  /// Decides from fresh reports. `current` is an event that describes the pair now.
   ContactDecision decide(const Event& current, const RelativeLimits& promise) const;
 
-  /// For two that touch too often at this instant: the Zeno guard lets their gap shrink, by no more than it
-  /// may, before the next contact can begin.
+  /// Defers the begin of a jammed contact: the Zeno guard lets the gap shrink, by at most its limit, before
+  /// the next check.
   ContactDecision defer(const Event& current, const RelativeLimits& promise) const;
 
  private:
@@ -92,15 +93,17 @@ extern template class ContactPredictor<HalfSpace>;
 extern template class ContactPredictor<Box>;
 extern template class ContactPredictor<Triangle>;
 
-/// The walls of the box to which the body may come as near as the tolerance before `until`: the box,
-/// without end on all other axes. A quick test; it may name some too many.
+/// Returns the walls of the box that the body may come within the tolerance of before `until`, as the box
+/// with infinite limits on all other axes. Conservative: may include walls that are not reached. Cost: O(1),
+/// without roots.
 Box walls_in_reach(const ContactRule& rule, const Bound& bound, const Box& box, double now, double until);
 
-/// ContactPredictor::until_reports for a body that touches none of the walls of the box, all walls at once.
+/// Evaluates ContactPredictor::until_reports for all walls of the box at once. Precondition: the body touches
+/// none of them.
 double until_reports_of_walls(const ContactRule& rule, const Bound& bound, const Box& box, double now,
                               double until);
 
-/// The least time after this one.
+/// Returns the smallest double greater than `time`; infinity and NaN are returned unchanged.
 double just_after(double time);
 
 }  // namespace kinesphere

@@ -6,7 +6,9 @@
 namespace kinesphere {
 namespace {
 
-/// A chain of touching bodies passes a push on in some contacts each; these are far more.
+/// Contacts of one body at one time from which on further ones are marked as jammed, and from which on none
+/// begins. Higher values let longer collision cascades finish at one time (a chain of touching bodies needs a
+/// few contacts each); lower ones end an endless cascade earlier.
 constexpr std::uint32_t many_at_one_instant = 64;
 constexpr std::uint32_t most_at_one_instant = 256;
 
@@ -38,7 +40,7 @@ bool ContactRate::is_jammed(std::span<const std::uint32_t> bodies, double time) 
   return contacts_now(bodies, time) >= most_at_one_instant;
 }
 
-/// That each of them has had at least.
+/// Returns the minimum over the bodies of their number of contacts at `time`.
 std::uint32_t ContactRate::contacts_now(std::span<const std::uint32_t> bodies, double time) const {
   std::uint32_t least = most_at_one_instant;
   for (const std::uint32_t body : bodies) {

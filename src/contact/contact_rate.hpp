@@ -1,4 +1,4 @@
-// How soon contacts of a body follow each other: which are repeated, and which jam at one instant.
+// Contact rate of each body: which contacts are repeated, and which are jammed at one time.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +11,10 @@
 
 namespace kinesphere {
 
-/// Counts the contacts of each body. Of a contact those bodies are given that count it.
+/// Counts the contacts of each body. Callers pass only the bodies that count a contact (not static ones).
 class ContactRate {
-  /// A number rounded to 20 bits after the first: of an interval that only marks events no more is needed.
+  /// The upper half of a double: truncated towards zero to 20 fraction bits. Trades precision for 4 bytes per
+  /// body; sufficient for an interval that only marks events.
   class TruncatedDouble {
    public:
     TruncatedDouble() = default;
@@ -31,11 +32,12 @@ class ContactRate {
   };
 
  public:
-  /// What is known of a body.
+  /// Rate of one body.
   struct Body {
     double last_contact = -std::numeric_limits<double>::infinity();
     TruncatedDouble zeno_interval;
-    std::uint16_t contacts_then = 0;  ///< at the time of the last one; counted no further than is_jammed()
+    /// Contacts at time last_contact. Saturates at the limit of is_jammed().
+    std::uint16_t contacts_then = 0;
 
     template <class Self, class Archive>
     static void serialize(Self& self, Archive& archive) {
@@ -43,7 +45,7 @@ class ContactRate {
       archive(last, interval, count_then);
     }
   };
-  /// What the begin of a contact is to be marked with.
+  /// Marks for the begin of a contact.
   struct Marks {
     bool repeated;
     bool jammed;
@@ -51,19 +53,20 @@ class ContactRate {
 
   std::size_t size() const { return bodies_.size(); }
   void reserve(std::size_t bodies) { bodies_.reserve(bodies); }
-  /// A body that has not touched anything yet.
+  /// Adds or resets a body, which has had no contact yet.
   void add(std::uint32_t body, double zeno_interval);
-  /// A contact that begins less than this (time) after the body's last one is a repeated one.
+  /// Sets the interval (time) within which a contact counts as repeated after the body's previous one.
   void set_zeno_interval(std::uint32_t body, double zeno_interval);
   const Body& of(std::uint32_t body) const { return bodies_[body]; }
   void restore(std::uint32_t body, const Body& checkpoint) { bodies_[body] = checkpoint; }
 
-  /// A contact of these begins.
+  /// Counts a contact that begins between these bodies, and returns its marks.
   Marks note(std::span<const std::uint32_t> bodies, double time);
-  /// Each of these has had so many contacts at this instant that the caller's answers will not part them.
+  /// True if each of these bodies has reached the limit of contacts at `time`, so that the caller's responses
+  /// will not separate them.
   bool is_jammed(std::span<const std::uint32_t> bodies, double time) const;
 
-  /// For one that was read.
+  /// Validates values read from bytes.
   bool is_valid() const;
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {

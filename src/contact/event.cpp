@@ -1,4 +1,4 @@
-// The names of events and walls.
+// Names of event kinds and walls.
 #include "kinesphere/event.hpp"
 
 #include <array>

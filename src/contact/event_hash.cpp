@@ -5,14 +5,14 @@
 namespace kinesphere {
 namespace {
 
-/// Any bit of the word changes about half of the bits of the result (the finaliser of SplitMix64).
+/// Mixes a word so that each input bit flips about half of the output bits (finaliser of SplitMix64).
 std::uint64_t scrambled(std::uint64_t word) {
   word = (word ^ word >> 30) * 0xbf58476d1ce4e5b9u;
   word = (word ^ word >> 27) * 0x94d049bb133111ebu;
   return word ^ word >> 31;
 }
 
-/// 64-bit FNV-1a of the bytes of words.
+/// 64-bit FNV-1a over the bytes of words, least significant byte first.
 class ByteHash {
  public:
   void mix(std::uint64_t word) {

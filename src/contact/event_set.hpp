@@ -1,4 +1,4 @@
-// The events of one instant in the order of their delivery. There is hardly ever more than one.
+// Set of events at one time in delivery order. It rarely holds more than one.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace kinesphere {
 
-/// A sorted set of which the first element needs no memory of its own.
+/// Sorted set whose first element is stored inline, without heap allocation.
 class EventSet {
  public:
   bool empty() const { return !first_; }
@@ -22,7 +22,7 @@ class EventSet {
     return first_ && (is_first(event) || (!others_.empty() && others_.contains(event)));
   }
 
-  /// Of equal events the one that was there stays.
+  /// Inserts an event; an equivalent one that is already present stays.
   void insert(const Event& event) {
     if (!first_) {
       first_ = event;
@@ -48,7 +48,7 @@ class EventSet {
     if (first_ && predicate(std::as_const(*first_))) move_up();
   }
 
-  /// Takes out the first one. Needs that there is one.
+  /// Removes and returns the first event. Precondition: !empty().
   Event take_first() {
     const Event event = *first_;
     move_up();
@@ -76,7 +76,7 @@ class EventSet {
     auto& [earliest, later] = self;
     archive(earliest, later);
   }
-  /// For one that was read.
+  /// Validates a set that was read from bytes.
   bool is_valid() const { return others_.empty() || (first_ && delivered_before(*first_, *others_.begin())); }
 
  private:
@@ -92,7 +92,7 @@ class EventSet {
   }
 
   std::optional<Event> first_;
-  std::set<Event, DeliveredBefore> others_;  ///< all after the first
+  std::set<Event, DeliveredBefore> others_;  ///< all but the first
 };
 
 }  // namespace kinesphere

@@ -1,4 +1,4 @@
-// Which sensor distances each body is within.
+// Sensor overlaps of each body.
 #pragma once
 
 #include <algorithm>
@@ -16,15 +16,14 @@ namespace kinesphere {
 
 class HeapCounter;
 
-/// The order of distances from the outermost inward. A damaged snapshot may hold some that are no numbers:
-/// these are the last.
+/// Orders distances from large to small. NaN, which a damaged snapshot may contain, comes last.
 inline bool is_farther(double a, double b) { return a > b || (std::isnan(b) && !std::isnan(a)); }
 
-/// A sensor distance within which a partner is.
+/// A partner that is within one sensor distance (length).
 struct OverlapRecord {
   std::uint32_t partner;
   double distance;
-  /// As the sensor_enter told; "first" is the body with the smaller index.
+  /// Direction of sensing as in the sensor_enter event; "first" is the body with the smaller index.
   Senses senses = Senses::neither;
 
   template <class Self, class Archive>
@@ -33,22 +32,22 @@ struct OverlapRecord {
     archive(whom, how_far, who_senses);
   }
   friend bool operator==(const OverlapRecord&, const OverlapRecord&) = default;
-  /// By partner, and of each from the outermost distance inward: the last one is the next to be left.
+  /// Orders by partner, then by falling distance: the last record of a partner is the next one to be left.
   friend bool operator<(const OverlapRecord& a, const OverlapRecord& b) {
     return a.partner != b.partner ? a.partner < b.partner : is_farther(a.distance, b.distance);
   }
 };
 
-/// A sorted list for each body. A body that never had any costs nothing, or 24 bytes if one with a larger
-/// number had. A pair crosses its distances one after the other, so most changes are made at the end of a
-/// list; others move what comes after.
+/// One sorted list of overlaps per body. A body that never had an overlap costs no memory, or 24 bytes if a
+/// body with a larger number had one. A pair crosses its distances in order, so most changes are at the end
+/// of a list; any other change costs O(list).
 class OverlapRecords {
  public:
   using List = std::span<const OverlapRecord>;
 
-  /// Good until a list changes.
+  /// Returns the overlaps of a body. Invalidated when a list changes.
   List of(std::uint32_t body) const { return body < lists_.size() ? List(lists_[body]) : List(); }
-  /// Those with one partner. Cost: O(log of the list), as of contains().
+  /// Returns the overlaps with one partner. Cost: O(log n) for a list of n, as for contains().
   List of(std::uint32_t body, std::uint32_t partner) const {
     const List all = of(body);
     const auto begin = std::partition_point(all.begin(), all.end(),
@@ -61,7 +60,7 @@ class OverlapRecords {
     const List all = of(body);
     return std::binary_search(all.begin(), all.end(), overlap);
   }
-  /// All lists from this number on are empty.
+  /// Number of lists; bodies with this number or a larger one have no overlaps.
   std::size_t size() const { return lists_.size(); }
 
   void add(std::uint32_t body, const OverlapRecord& overlap) {
@@ -77,7 +76,7 @@ class OverlapRecords {
   void set(std::uint32_t body, const std::vector<OverlapRecord>& sorted) {
     if (body < lists_.size()) lists_[body] = sorted;
   }
-  /// Of at least so many bodies, so that none has to be made later.
+  /// Allocates lists for this many bodies, so that adding an overlap does not reallocate the outer vector.
   void make_lists(std::size_t bodies) {
     if (lists_.size() < bodies) lists_.resize(bodies);
   }
@@ -88,7 +87,7 @@ class OverlapRecords {
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
     archive(self.lists_);
-    // Bytes that were read may have them in any order.
+    // Bytes that were read may hold records in any order.
     if constexpr (!std::is_const_v<Self> && !std::same_as<Archive, HeapCounter>)
       for (std::vector<OverlapRecord>& list : self.lists_) std::sort(list.begin(), list.end());
   }

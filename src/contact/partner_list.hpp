@@ -1,4 +1,4 @@
-// The partners of a body, mostly none, one or two.
+// Contact partners of one body: usually none, one or two.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace kinesphere {
 
 class HeapCounter;
 
-/// Numbers in the order in which they were added, in 16 bytes; more than two of them have memory of their
-/// own. Lists of different bodies may be changed at the same time by different threads.
+/// Numbers in insertion order, in an object of 16 bytes. Up to two are stored inline; more are on the heap.
+/// Thread safety: different lists may be changed concurrently.
 class PartnerList {
  public:
   PartnerList() = default;
@@ -35,13 +35,13 @@ class PartnerList {
     if (is_outside()) delete[] values_.outside;
   }
 
-  /// Good until the list changes.
+  /// Returns all values. Invalidated when the list changes.
   std::span<const std::uint32_t> all() const { return {data(), size_}; }
   void add(std::uint32_t value) {
     if (size_ == capacity_) grow();
     data()[size_++] = value;
   }
-  /// All equal to `value`.
+  /// Removes every occurrence of `value`.
   void erase(std::uint32_t value) {
     size_ = static_cast<std::uint32_t>(std::remove(data(), data() + size_, value) - data());
   }

@@ -5,7 +5,7 @@
 namespace kinesphere {
 namespace {
 
-/// Brings the event up to date with the two as they are now.
+/// Recomputes the event from the present states of its bodies.
 void describe_now(Event& event, const Sphere& first, const Sphere& second, const Space& space,
                   const std::optional<Box>& box) {
   if (event.wall != Wall::none) {
@@ -23,7 +23,7 @@ bool still_begins(const ContactGraph& book, const Event& now, const Sphere& firs
 
 }  // namespace
 
-/// What the sensor_enter of the same two and the same distance told.
+/// Returns the sensing direction that the sensor_enter of this pair and distance had.
 Senses PendingEvents::senses_at_enter(const ContactGraph& book, const Event& leave) {
   for (const OverlapRecord& overlap :
        book.overlaps_of(book.number_of(leave.first), book.number_of(leave.second)))
@@ -33,18 +33,19 @@ Senses PendingEvents::senses_at_enter(const ContactGraph& book, const Event& lea
 
 void PendingEvents::end(ContactGraph& book, const Event& contact) {
   book.set_touching(contact, false);
-  // An end that had come by itself has not taken effect yet.
+  // The end may also be pending because the contact ended by itself; it is dropped there.
   pending_.erase(contact);
   if (is_of_sensor(contact.kind) || !book.rule().impacts_only()) ended_.insert(contact);
 }
 
 void PendingEvents::queue(const Event& event) {
-  // A caller who kicks at a Zeno guard must not get the same one again at the same instant, for ever.
+  // A caller that changes a velocity at a Zeno guard must not get that guard again at the same time, without
+  // end.
   if (!delivered_guards_.contains(event)) pending_.insert(event);
 }
 
-/// Changes the contact's state and brings the event up to date with kicks of this instant. False when it does
-/// not hold any more.
+/// Applies the event to the contact graph, after recomputing it from the present states. Returns false, and
+/// leaves the graph unchanged, if the event no longer holds.
 bool PendingEvents::take_effect(ContactGraph& book, Event& event, const Sphere& first, const Sphere& second,
                                 const std::optional<Box>& box) {
   if (event.kind == EventKind::zeno_guard) delivered_guards_.insert(event);

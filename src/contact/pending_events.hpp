@@ -1,4 +1,4 @@
-// The events of the present instant on their way to the caller.
+// Events at the present time that wait for delivery to the caller.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@ namespace kinesphere {
 
 class PendingEvents {
  public:
-  /// Forgets all.
+  /// Drops all pending events and marks.
   void clear() {
     pending_.clear();
     ended_.clear();
     delivered_guards_.clear();
     changed_.clear();
   }
-  /// Time moves on.
+  /// Starts a new time: delivered Zeno guards may be queued again.
   void start() { delivered_guards_.clear(); }
-  /// Queues an event; the same event is not queued twice.
+  /// Queues an event unless it is already queued, or is a Zeno guard that was delivered at this time.
   void queue(const Event& event);
-  /// Queues one that has happened: it comes before all that are announced, with the states that it has.
+  /// Queues an event that has already taken effect. It is delivered unchanged, before all events of queue().
   void queue_first(const Event& event) { ended_.insert(event); }
   const EventSet& pending() const { return pending_; }
-  /// What is pending about `body` and another, and does not hold any more, is dropped.
+  /// Drops pending events between `body` and another body for which `holds`(Event) is false.
   template <class Holds>
   void drop_pending(std::uint32_t body, Holds holds) {
     pending_.erase_if([&](const Event& event) {
@@ -37,27 +37,28 @@ class PendingEvents {
              !holds(event);
     });
   }
-  /// Nothing is to be delivered.
+  /// True if no event waits for delivery.
   bool is_quiet() const { return ended_.empty() && pending_.empty(); }
 
-  /// The caller is about to change a body, and those of its contacts and crossings end with that whose end
-  /// `ends`(Event) picks. `sphere(number)` gives a body as it is before the change.
+  /// Ends those contacts and overlaps of `body` for which `ends`(Event) is true, because the caller is about
+  /// to change the body. `sphere(number)` returns a body as it is before the change.
   template <class SphereNow, class Ends>
   void end_contacts(ContactGraph& book, std::uint32_t body, double time, SphereNow sphere,
                     const std::optional<Box>& box, Ends ends) {
     for (const Event& event : ends_of(book, body, time, sphere, box))
       if (ends(event)) end(book, event);
   }
-  /// The body is about to go, and all its contacts end.
+  /// Ends all contacts and overlaps of a body that is about to be removed.
   template <class SphereNow>
   void remove_body(ContactGraph& book, std::uint32_t body, double time, SphereNow sphere,
                    const std::optional<Box>& box) {
     end_contacts(book, body, time, sphere, box, [](const Event&) { return true; });
   }
 
-  /// The next event that still holds after what the caller did at the ones before it; first of all the ends
-  /// that the caller brought about, which stay as they were then. `is_there(id)` tells whether a body has not
-  /// gone, `sphere(number)` gives it as it is now, `senses_in(event)` tells whose sensor the two enter.
+  /// Returns the next event, or nullopt if none is left. Ends caused by the caller come first, as they were
+  /// at that moment; other events are recomputed, and dropped if earlier responses have invalidated them.
+  /// `is_there(id)` is true unless the body was removed, `sphere(number)` returns its present state, and
+  /// `senses_in(event)` returns whose sensor the pair enters.
   template <class IsThere, class SphereNow, class SensesIn>
   std::optional<Event> pop(ContactGraph& book, IsThere is_there, SphereNow sphere, SensesIn senses_in,
                            const std::optional<Box>& box) {
@@ -83,7 +84,7 @@ class PendingEvents {
     return event;
   }
 
-  /// The same where nothing is sensed.
+  /// Does the above in a world without sensors.
   template <class IsThere, class SphereNow>
   std::optional<Event> pop(ContactGraph& book, IsThere is_there, SphereNow sphere,
                            const std::optional<Box>& box) {
@@ -91,8 +92,8 @@ class PendingEvents {
         book, is_there, sphere, [](const Event&) { return Senses::neither; }, box);
   }
 
-  /// Pairs (a body and itself: its walls) whose contact has been changed by a delivered event, so that
-  /// nothing is known of them; for the caller to take out.
+  /// Pairs whose contact a delivered event has changed, so that their certificates are void. A pair of a body
+  /// with itself stands for its walls. The caller takes them out.
   std::vector<std::pair<std::uint32_t, std::uint32_t>>& changed() { return changed_; }
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& changed() const { return changed_; }
 
@@ -101,14 +102,14 @@ class PendingEvents {
     auto& [pending, ended, guards_told, changed] = self;
     archive(pending, ended, guards_told, changed);
   }
-  /// For one that was read in a world of this many bodies at `time`: true when events are such as could be
-  /// announced now. `box` has the walls that stand; `is_known(id)` tells whether an id was ever given out.
+  /// Validates events read from bytes, for a world of `bodies` bodies at `time`: true if every event could be
+  /// queued now. `box` holds the existing walls; `is_known(id)` is true if an id was ever given out.
   bool is_valid(std::size_t bodies, double time, const std::optional<Box>& box,
                 const std::function<bool(BodyId)>& is_known) const;
 
  private:
-  /// The ends of all contacts and crossings of the body, if they were to end now. `sphere(number)` gives a
-  /// body as it is.
+  /// Returns the end events of all contacts and overlaps of the body, as if they ended now. `sphere(number)`
+  /// returns the present state of a body.
   template <class SphereNow>
   static std::vector<Event> ends_of(const ContactGraph& book, std::uint32_t body, double time,
                                     SphereNow sphere, const std::optional<Box>& box) {
@@ -134,7 +135,7 @@ class PendingEvents {
                    const std::optional<Box>& box);
 
   EventSet pending_;
-  std::set<Event, DeliveredBefore> ended_;  ///< by the caller's changes; and bodies that have woken
+  std::set<Event, DeliveredBefore> ended_;  ///< ended by the caller's changes; also bodies that have woken
   std::set<Event, DeliveredBefore> delivered_guards_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> changed_;
 };

@@ -6,8 +6,8 @@
 namespace kinesphere {
 namespace {
 
-/// The part of the change of velocity that a body takes: the limit of other / (own + other). Two bodies that
-/// both have no mass take half of it each, two of infinite mass all of it.
+/// Share of a velocity change that a body takes: the limit of other / (own + other). Two massless bodies take
+/// half each; two bodies of infinite mass take all of it each.
 double share(double own, double other) {
   own = own < 0.0 ? 0.0 : own;
   other = other < 0.0 ? 0.0 : other;
@@ -17,13 +17,13 @@ double share(double own, double other) {
   return std::isinf(mass) && std::isfinite(own) ? 0.5 * other / (0.5 * own + 0.5 * other) : other / mass;
 }
 
-/// The speed at which the two approach and that at which they leave each other, `kept` times as large or,
-/// where they are jammed, zero.
+/// Returns the change of relative normal speed: the approach speed plus the rebound speed, which is
+/// `checkpoint` times the approach speed, or zero if the contact is jammed.
 double both_speeds(const Event& contact, double checkpoint) {
   return (1.0 + (contact.jammed ? 0.0 : checkpoint)) * contact.approach_speed;
 }
 
-/// Their relative velocity along the normal changes by this speed.
+/// Returns velocities that change the relative velocity along the normal by `speed`.
 Bounce rebound(const Event& contact, double first_mass, double second_mass, double speed) {
   const Vec3 change = contact.normal * speed;
   if (contact.second == no_body) return {contact.first_state.velocity - change, {}};
@@ -45,7 +45,7 @@ Bounce settle(const Event& contact, double first_mass, double second_mass, doubl
   const bool gains = contact.repeated && restitution < 1.0;
   const double least = gains ? resting_speed : std::min(resting_speed, approach);
   const double checkpoint = std::max(restitution, least / approach);
-  // Of the least approach speeds the quotient overflows.
+  // The quotient overflows at the smallest approach speeds.
   const bool overflows = std::isinf(checkpoint) && !contact.jammed;
   return rebound(contact, first_mass, second_mass,
                  overflows ? approach + least : both_speeds(contact, checkpoint));

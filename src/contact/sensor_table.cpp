@@ -24,7 +24,7 @@ std::optional<double> SensorTable::next_inward(const Sensing& a, const Sensing& 
   if (first.empty()) std::swap(first, second);
   if (first.data() == second.data()) second = {};
   const std::size_t count = crossed.size();
-  // As many have been crossed as lie no nearer than the last one crossed.
+  // Fast path: exactly the outer `count` distances have been crossed, so the next one is at index `count`.
   if (second.empty() && count <= first.size() && (count == 0 || first[count - 1] == crossed.back().distance))
     return count < first.size() ? std::optional(first[count]) : std::nullopt;
   std::optional<double> largest;

@@ -1,4 +1,4 @@
-// Which distances two bodies sense each other at, by their classes and categories.
+// Distances at which two bodies sense each other, by sensor class and category.
 #pragma once
 
 #include <concepts>
@@ -13,34 +13,35 @@
 
 namespace kinesphere {
 
-/// Nothing farther away than this is sensed (length): the largest distance, or 0.
+/// Largest distance of the sensor (length), or 0 if it has none. Nothing farther away is sensed.
 double reach_of(const Sensor& sensor);
 
-/// What sensors need to know of a body.
+/// Properties of a body that sensing depends on.
 struct Sensing {
   SensorClass sensor_class;
-  std::uint64_t category;  ///< of its filter
+  std::uint64_t category;  ///< from the body's filter
 };
 
 class SensorTable {
  public:
   void set(SensorClass sensor_class, const Sensor& sensor);
-  /// That of a class which was never set senses nothing.
+  /// Returns the sensor of a class. A class that was never set has no distances.
   const Sensor& of(SensorClass sensor_class) const;
-  /// False in a world that never had sensors.
+  /// False if no class has ever had a distance.
   bool any() const { return any_; }
   double reach(SensorClass sensor_class) const {
     const Distances all = distances_of(sensor_class);
     return all.empty() ? 0.0 : all.front();
   }
-  /// The largest distance at which either of the two senses the other and that they have not `crossed`, a
-  /// list from the outermost inward of some at which one of them does. Cost: O(1) where only one of two
-  /// sensors senses, or both are the same, and the outermost distances are crossed, which they are unless a
-  /// sensor has just been changed; otherwise O(number of distances).
+  /// Returns the largest distance at which either body senses the other and that is not among `crossed`: some
+  /// of those distances, from large to small. Cost: O(1) if only one of the two senses or both have the same
+  /// sensor, and the outermost distances are the crossed ones (always so unless a sensor was just changed);
+  /// otherwise O(number of distances).
   std::optional<double> next_inward(const Sensing& a, const Sensing& b, OverlapRecords::List crossed) const;
-  /// Whether the watcher senses the other at this distance. Cost: O(log of the number of distances).
+  /// True if `watcher` senses `watched` at exactly this distance. Cost: O(log of the number of distances).
   bool senses_one_way(const Sensing& watcher, const Sensing& watched, double distance) const;
-  /// Whether one of the two senses the other at this distance. Cost: O(log of the number of distances).
+  /// True if at least one of the two senses the other at this distance. Cost: O(log of the number of
+  /// distances).
   bool senses(const Sensing& a, const Sensing& b, double distance) const;
 
   template <class Self, class Archive>
@@ -59,15 +60,16 @@ class SensorTable {
   Distances distances_of(SensorClass sensor_class) const {
     return sensor_class < sorted_.size() ? Distances(sorted_[sensor_class]) : Distances();
   }
-  /// At which one body senses another.
+  /// Returns the distances at which `watcher` senses `watched`; empty if its mask excludes the category.
   Distances distances_at(const Sensing& watcher, const Sensing& watched) const {
     const bool sees = (of(watcher.sensor_class).mask & watched.category) != 0;
     return sees ? distances_of(watcher.sensor_class) : Distances();
   }
   void sort();
 
-  std::vector<Sensor> sensors_;              ///< by class
-  std::vector<std::vector<double>> sorted_;  ///< their distances from the largest on, each once
+  std::vector<Sensor> sensors_;  ///< by sensor class
+  /// By sensor class: distances from large to small, without duplicates.
+  std::vector<std::vector<double>> sorted_;
   bool any_ = false;
 };
 

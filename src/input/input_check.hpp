@@ -1,4 +1,4 @@
-// Checks of what a caller hands in: the first thing that is wrong becomes the error.
+// Validation of caller input. The first failed check becomes the error.
 #pragma once
 
 #include <algorithm>
@@ -17,15 +17,15 @@ namespace kinesphere {
 
 std::string text_of(double number);
 std::string text_of(std::unsigned_integral auto number) { return std::to_string(number); }
-/// The text itself.
+/// Returns the text unchanged.
 std::string text_of(std::string_view text);
 std::string text_of(const Vec3& vector);
 std::string text_of(const Box& box);
 std::string text_of(const State& state);
-/// "body 7", or "body 7 (generation 2)".
+/// Returns "body 7" or "body 7 (generation 2)".
 std::string text_of(BodyId body);
 
-/// What is checked: "start of body 3, velocity" or "trajectories of body 3, segment 2".
+/// The value that is checked, e.g. "start of body 3, velocity" or "trajectories of body 3, segment 2".
 struct Subject {
   std::string_view argument;
   BodyId body = no_body;
@@ -33,14 +33,13 @@ struct Subject {
   std::optional<std::size_t> part_number = {};
 };
 
-/// Nearly all input is fine, and words cost time: what is checked often is compiled into its caller, which
-/// then makes a Subject only for what is wrong. Every check returns *this, so that checks read as one
-/// sentence:
-///   const auto check = InputCheck("Steered::create").start(states, time).positive({"interval"},
+/// Chain of input checks. Frequent checks are inlined into the caller and format nothing unless they fail,
+/// since nearly all input is valid. Every check returns *this, so that checks can be chained:
+///   const auto check = InputCheck("SteeredMotion::create").start(states, time).positive({"interval"},
 ///   interval); if (check.error()) return *check.error();
 class InputCheck {
  public:
-  /// `call` begins the message.
+  /// `call` is the name that begins the message; it must outlive this object.
   explicit InputCheck(std::string_view call) : call_(call) {}
 
   [[gnu::always_inline]] InputCheck& finite(const Subject& subject, double value) {
@@ -56,20 +55,20 @@ class InputCheck {
     return finite(subject, value)
         .require(value >= 0, ErrorCode::out_of_range, subject, "must be >= 0", value);
   }
-  /// Finite, and no coordinate beyond +-limit.
+  /// Requires a finite vector with each coordinate in [-limit, limit].
   [[gnu::always_inline]] InputCheck& within(const Subject& subject, const Vec3& value, double limit) {
     const double largest = std::max({std::abs(value.x), std::abs(value.y), std::abs(value.z)});
     return finite(subject, value)
         .require(largest <= limit, ErrorCode::out_of_range, subject, "must be on each axis within +-", limit,
                  value);
   }
-  /// Finite, with lower < upper on every axis.
+  /// Requires a finite box with lower < upper on every axis.
   InputCheck& box(const Subject& subject, const Box& box);
   InputCheck& start(const std::vector<State>& states, double start_time);
-  /// As many as there are bodies, each finite and >= 0.
+  /// Requires one limit per body, each finite and >= 0.
   InputCheck& acceleration_limits(const std::vector<double>& limits, std::size_t bodies);
 
-  /// Any other condition: "<call>: <subject> <expectation>, but is <came>".
+  /// Requires any other condition. Message: "<call>: <subject> <expectation>, but is <came>".
   template <class Value>
   [[gnu::always_inline]] InputCheck& require(bool condition, ErrorCode code, const Subject& subject,
                                              std::string_view expectation, const Value& came) {
@@ -77,7 +76,7 @@ class InputCheck {
     return *this;
   }
 
-  /// The same, with a value that belongs to the expectation: "..., <expectation> <value>, but is <came>".
+  /// Requires a condition with an expected value. Message: "..., <expectation> <value>, but is <came>".
   template <class Expected, class Value>
   [[gnu::always_inline]] InputCheck& require(bool condition, ErrorCode code, const Subject& subject,
                                              std::string_view expectation, const Expected& value,

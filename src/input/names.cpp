@@ -1,4 +1,4 @@
-// The names of ids and error codes.
+// Names of ids and error codes.
 #include "kinesphere/result.hpp"
 
 namespace kinesphere {

@@ -20,9 +20,9 @@ Bound World::Engine::Answers::present(std::uint32_t number) const {
   return present_bound(body(number), engine_.bodies().changes.find(engine_.bodies()[number]), now_);
 }
 
-/// A begin is told where the gap of fresh reports is at most the tolerance, and each report may be e0 away
-/// from the true body and counts it as larger by e0. Grown by as much, bounds that do not meet tell that
-/// there is no begin.
+/// Inflates the present bound so that, while two such bounds do not meet, no contact begins. A begin is
+/// reported when the gap between fresh reports is at most the tolerance; each report may be position_error
+/// away from the true body, and adds position_error to its radius.
 Bound World::Engine::Answers::guarded(std::uint32_t number) const {
   Bound bound = present(number);
   bound.radius += engine_.definition().contact_tolerance + 2.0 * body(number).position_error;
@@ -33,7 +33,8 @@ bool World::Engine::Answers::settled(std::uint32_t a, std::uint32_t b) const {
   return !body(a).dirty && !body(b).dirty && !open_.contains(std::minmax(a, b));
 }
 
-/// The engine looks at the pair no sooner than this, so it tells of no begin before.
+/// Returns a time before which no contact of the pair begins, as the engine does not recheck the pair
+/// earlier. Returns the present time if the pair has no valid certificate.
 double World::Engine::Answers::recorded(std::uint32_t a, std::uint32_t b, const CertificateTimes& hot) const {
   if (!settled(a, b)) return now_;
   return std::max(std::min(hot.of(a, b), engine_.main().certifier().earliest_window_end(a, b)), now_);
@@ -69,7 +70,7 @@ void World::Engine::Answers::consider_walls(std::uint32_t number, const Certific
   }
 }
 
-/// As earliest_meeting, in whichever image.
+/// Returns the earliest_meeting of the two shapes over all periodic images.
 double World::Engine::Answers::meeting(const CollisionShape& extent_of_a,
                                        const CollisionShape& extent_of_b) const {
   const Space& space = engine_.bodies().space();
@@ -84,8 +85,8 @@ double World::Engine::Answers::meeting(const CollisionShape& extent_of_a,
   image.position += space.shift_to_nearest(b.centre_at(now_), a.centre_at(now_));
   const Vec3 nearest = image.position;
   const RelativeMotion motion(a, image, now_);
-  // All images that are at most one period from the nearest; the others are at least two away on some axis,
-  // and cannot come before the bounds have gone this way on it.
+  // The loop below covers all images up to one period from the nearest one. Any other image is at least two
+  // periods away on some axis, and cannot be met before the bounds have closed that distance.
   double first = infinity;
   std::array<int, 3> most{};
   for (int axis = 0; axis < 3; ++axis) {
@@ -135,7 +136,7 @@ ContactBoundary World::Engine::Answers::of_body(std::uint32_t number) const {
   if (first.touching) return first;
   const CertificateTimes hot(engine_.certificates(number));
   consider_walls(number, hot, first);
-  // Those that are near leave little to compute of the others.
+  // Pairs with certificates come first: their early times make most of the others cheap to dismiss.
   for (const PairCertificate& pair : hot.pairs())
     if (pair.has_second()) consider(number, pair.first == number ? pair.second : pair.first, hot, first);
   for (std::uint32_t other = 0; other < engine_.bodies().numbers(); ++other)
@@ -150,7 +151,8 @@ ContactBoundary World::Engine::Answers::of_world() const {
   ContactBoundary first;
   for (const std::uint32_t number : present) consider_touching(number, first);
   if (first.touching) return first;
-  // Any pair limits the answer; those at hand limit it well.
+  // Any pair gives an upper limit for the answer. Pairs with certificates and neighbouring numbers give a
+  // good one.
   const CertificateTimes hot(engine_.certificates());
   for (const PairCertificate& pair : hot.pairs())
     if (pair.has_second()) consider(pair.first, pair.second, hot, first);
@@ -162,7 +164,8 @@ ContactBoundary World::Engine::Answers::of_world() const {
   return first;
 }
 
-/// Until a horizon, in the image in which the middle of its way lies in the primary box.
+/// Returns a bound up to the horizon, in the periodic image whose swept box has its middle in the primary
+/// box.
 InflatedBound World::Engine::Answers::until_horizon(std::uint32_t number, double horizon) const {
   if (body(number).is_static()) return inflated_bound(engine_.bodies(), number, now_);
   Bound bound = guarded(number);
@@ -172,7 +175,7 @@ InflatedBound World::Engine::Answers::until_horizon(std::uint32_t number, double
   return {BoundAt(bound, now_), 0.0};
 }
 
-/// Only bodies whose bounds come to the same place before first.time can make it sooner.
+/// Searches for pairs whose bounds may come to the same place before first.time. No other pair can lower it.
 void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t>& numbers,
                                                  const CertificateTimes& hot, ContactBoundary& first) const {
   if (first.time <= now_) return;
@@ -211,8 +214,8 @@ DistanceLimits World::Engine::Answers::distance(std::uint32_t a, std::uint32_t b
   const GapLimits gap = visit_shapes(
       extent_of_a, extent_of_b,
       [time](const Bound& bound, const auto& partner) { return gap_limits(bound, partner, time); });
-  // The upper limit of bounds is about the reported bodies: the true ones may be off by what the radii hold
-  // beyond their own.
+  // The upper limit applies to the bodies as reported. The true bodies may differ by the error parts of the
+  // radii.
   const double excess = (first.radius - body(a).radius) + (second.radius - body(b).radius);
   const double upper = rounding::sum_up(gap.upper, 2.0 * excess);
   if (!std::isfinite(gap.lower) || !std::isfinite(upper)) return {-infinity, infinity, false};
@@ -224,7 +227,8 @@ void World::Engine::Answers::consider_approach(std::uint32_t a, std::uint32_t b,
   if (first.touching || !body(a).present() || !body(b).present()) return;
   Bound bound_of_a = present(a);
   Bound bound_of_b = present(b);
-  // A shape has no radius that could be larger by the distance, but then the other body has.
+  // A shape has no radius to enlarge by the distance. In that case the other body, which cannot be a shape
+  // too, is enlarged instead.
   double& radius = body(a).is_static() ? bound_of_b.radius : bound_of_a.radius;
   radius = rounding::sum_up(radius, distance);
   const CollisionShape extent_of_a = collision_shape_of(engine_.bodies(), a, bound_of_a);
@@ -243,7 +247,8 @@ void World::Engine::Answers::consider_approach_to_walls(std::uint32_t number, do
     if (first.touching || !stands(*engine_.bodies().walls(), wall)) continue;
     const HalfSpace inside = half_space(*engine_.bodies().walls(), wall);
     const double time = earliest_meeting(bound, inside, now_, infinity, distance);
-    // The upper limit is about the body as reported, which is up to the errors in its radius away.
+    // The upper limit applies to the body as reported. The true body may differ by the error part of the
+    // radius.
     const double excess = 2.0 * (bound.radius - body(number).radius);
     const bool within =
         time <= now_ && rounding::sum_up(gap_limits(bound, inside, now_).upper, excess) <= distance;

@@ -1,4 +1,4 @@
-// Certified answers about the future, from recorded facts and from bounds as they are.
+// Certified answers about the future, from stored certificates and present bounds.
 #pragma once
 
 #include <set>
@@ -9,24 +9,25 @@
 
 namespace kinesphere {
 
-/// A contact that may begin, or a distance that may be reached, and the time before which it cannot.
+/// Earliest possible begin of a contact, or approach to a distance: it cannot happen before `time`.
 struct ContactBoundary {
   double time = std::numeric_limits<double>::infinity();
   std::uint32_t body = 0;
   std::optional<std::uint32_t> partner{};
   Wall wall = Wall::none;
-  bool touching = false;  ///< it has begun, or the distance certainly is reached: `time` is now
+  /// Contact has begun or the distance is certainly reached; `time` is the present time.
+  bool touching = false;
 
   bool exists() const { return partner || wall != Wall::none; }
 };
 
-/// An answer, and whether the probe was asked for it.
+/// An answer, with whether the probe was called for it.
 struct ProbedAnswer {
   ContactBoundary boundary;
   bool probed = false;
 };
 
-/// A picture of the engine as it stands: good until the engine changes.
+/// Answers from the present state of the engine. Invalidated by any change of the engine.
 class World::Engine::Answers {
  public:
   explicit Answers(const Engine& engine);
@@ -35,14 +36,17 @@ class World::Engine::Answers {
   ContactBoundary of_body(std::uint32_t number) const;
   ContactBoundary of_world() const;
   DistanceLimits distance(std::uint32_t a, std::uint32_t b, double time) const;
-  /// When the surfaces of the two may be as near as this, whatever filters say.
+  /// Earliest time at which the surfaces of the two bodies may be within `distance` (length). Ignores
+  /// filters.
   ContactBoundary approach_of_pair(std::uint32_t a, std::uint32_t b, double distance) const;
-  /// When a wall, or a body that it may meet, may be as near to it as this.
+  /// Earliest time at which a wall, or another body that passes the filters, may be within `distance`
+  /// (length) of the body.
   ContactBoundary approach_of_body(std::uint32_t number, double distance) const;
 
-  /// The answer of `ask(Answers)`. What limits it is probed and it is asked again, until fresh reports limit
-  /// it; stopping early is safe. Where `valid` is an error there may be no engine. `refresh(numbers)` probes
-  /// those of them whose reports are old, at least one in each round, and tells whether there were any.
+  /// Returns the answer of `ask(Answers)`. The bodies that limit the answer are probed and `ask` is repeated,
+  /// until the limiting reports are fresh or after max_rounds, which is safe but less sharp.
+  /// `refresh(numbers)` probes those of the bodies with old reports, at least one per round, and returns
+  /// whether there were any. If `valid` is an error, it is returned, and `engine` may be null.
   template <class Refresh, class Ask>
   static Result<ProbedAnswer> answer(const Engine* engine, const Result<void>& valid, Refresh refresh,
                                      std::size_t max_rounds, Ask ask) {
@@ -77,8 +81,8 @@ class World::Engine::Answers {
 
   const Engine& engine_;
   double now_;
-  /// Pairs (a body and itself: its walls) about which an event of this instant is on its way, or has been
-  /// delivered since the engine last looked: no fact is recorded of them.
+  /// Pairs without a valid certificate: an event of the present time is pending, or has been delivered since
+  /// the last recheck. A pair of a body with itself stands for its walls.
   std::set<std::pair<std::uint32_t, std::uint32_t>> open_;
 };
 

@@ -1,4 +1,4 @@
-// The audit: everything that should be true now, rebuilt from scratch.
+// Audit: recomputes the invariants of the engine from scratch and compares them with the stored state.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -15,8 +15,9 @@ namespace kinesphere {
 
 namespace {
 
-/// A recorded time may pass the one computed now by this part of the way there: both are lower bounds of the
-/// same truth, and each stops its iteration a little early.
+/// Relative slack for a recorded time over one computed now. The two are lower bounds of the same true time,
+/// and each iteration stops a little early. A larger slack hides late certificates; a smaller one reports
+/// false findings.
 constexpr double slack = 1e-3;
 
 bool too_late(double recorded, double computed, double now) {
@@ -58,7 +59,8 @@ class World::Engine::Audit {
     if (!finding_) finding_ = AuditFinding{std::move(where), std::move(what)};
   }
 
-  /// A noisy report may lie outside what an earlier one promised, though the body does not.
+  /// True if reports of the body are exact. A noisy report may violate an earlier bound although the true
+  /// body does not.
   static bool exact(const Body& body) { return body.position_error == 0.0 && body.bound.growth_speed == 0.0; }
 
   void check_absence(std::uint32_t number) {
@@ -94,15 +96,15 @@ class World::Engine::Audit {
     reach.radius += engine_.bodies().sensors.reach(b.sensor_class);
     const double exit = earliest_exit(reach, box, now_, end);
     if (too_late(end, exit, now_)) find("registration", name(number) + " leaves its box" + times(end, exit));
-    // Queries look for it there until it has another window.
+    // A window that ends now is not replaced yet, but queries still search the body in its box.
     if (end <= now_ && earliest_exit(reach, box, now_, infinity) <= now_)
       find("registration", name(number) + " is not in its box");
   }
 
-  /// Whether a body breaks rule (2) of space/space.hpp on its way until its window ends. The registered
-  /// capsule is wider by the rounding of single precision, which is relative to the way on all axes: it does
-  /// not count, as images are chosen by the way. False in the shortest window that a double can tell at this
-  /// time: there is none for the engine to choose in its place.
+  /// True if a body violates rule (2) of space/space.hpp on its way to the end of its window. Images are
+  /// chosen by the unrounded way, so the wider registered swept sphere (single-precision rounding, relative
+  /// to the way on all axes) does not count. Returns false in the shortest window representable at this time,
+  /// as the engine has no alternative.
   bool is_too_wide(std::uint32_t number, double end) const {
     if (has_narrow_way(number)) return false;
     const Window window = engine_.broad_phase().window_of(number);
@@ -111,7 +113,7 @@ class World::Engine::Audit {
     return window.rung > std::max(shortest_at(began), shortest_at(now_));
   }
 
-  /// Rule (2) of space/space.hpp; where it cannot be kept nothing is promised of a pair's image.
+  /// Rule (2) of space/space.hpp. Where it cannot be kept, nothing is guaranteed about the image of a pair.
   bool has_narrow_way(std::uint32_t number) const {
     const Space& space = engine_.bodies().space();
     if (!space.repeats()) return true;
@@ -133,7 +135,7 @@ class World::Engine::Audit {
     if (!engine_.bodies().walls() || b.is_static() || !settled(number, number) ||
         engine_.contacts().walls_of(number) != 0 || !exact(b))
       return;
-    // As for pairs: within the tolerance bouncing bodies follow the contact rule.
+    // Bouncing bodies within the tolerance follow the contact rule instead, as in checkable().
     if (impacts() && until_reports_of_walls(engine_.contacts().rule(), b.bound, *engine_.bodies().walls(),
                                             now_, infinity) <= now_)
       return;
@@ -176,14 +178,14 @@ class World::Engine::Audit {
   }
 
   void check_threshold(std::uint32_t a, std::uint32_t b, const Threshold& threshold) {
-    // It is to be looked at before time moves on.
+    // A pair whose certificate fails now is rechecked before time advances.
     if (!checkable(a, b, threshold) || certificates_.of(a, b) <= now_) return;
     if (!has_narrow_way(a) || !has_narrow_way(b)) return;
     const CollisionShape first = collision_shape_of(engine_.bodies(), a);
     const CollisionShape second = collision_shape_of(engine_.bodies(), b);
     const PlainGap gap(first, second, engine_.bodies().space().period());
     check_state(a, b, threshold, gap);
-    // Beyond the end of a window the two may meet in another image, and will have been found again.
+    // After the window's end the pair may meet in another image, and the next search will have found it.
     const double recorded =
         std::min(certificates_.of(a, b), engine_.main().certifier().earliest_window_end(a, b));
     if (!threshold.within && !boxes_overlap(a, b)) return;
@@ -191,7 +193,8 @@ class World::Engine::Audit {
       find("certificate", pair(a, b) + " may change unseen" + times(recorded, *change));
   }
 
-  /// What the events have told of the two is what their bounds tell now, wherever in them the bodies are.
+  /// Checks the contact state that the delivered events imply against the state that the bounds imply,
+  /// wherever within its bound each body is.
   void check_state(std::uint32_t a, std::uint32_t b, const Threshold& threshold, const PlainGap& gap) {
     const ContactRule& rule = engine_.contacts().rule_of(threshold);
     const PlainGap::Limits limits = gap.of_bodies(now_);
@@ -208,10 +211,11 @@ class World::Engine::Audit {
              (end_untold ? "least " + text_of(limits.lower) : "most " + text_of(limits.upper)));
   }
 
-  /// Far below what the contact rule can tell, and four times what a faithful report may be wrong by.
+  /// Slack for gaps (length): a quarter of the tolerance, well below what the contact rule distinguishes, and
+  /// four times the error allowed to a faithful report.
   double slack_of_gaps() const { return 0.25 * engine_.definition().contact_tolerance; }
 
-  /// In which a body is registered: once a body, not once a pair.
+  /// Returns the box in which a body is registered, cached per body because every pair needs it.
   const Box& box(std::uint32_t number) {
     std::optional<Box>& known = boxes_[number];
     if (!known) known = engine_.box(number);
@@ -229,10 +233,10 @@ class World::Engine::Audit {
     return true;
   }
 
-  /// A time before the end of a recorded fact at which it certainly does not hold. A certificate that was
-  /// made earlier, or by another way of advancing, may rightly be later than one that is made now: so it is
-  /// only wrong if there is such a time. Steps are as long as the gap surely needs, but some are tried even
-  /// so.
+  /// Searches for a time before a recorded certificate's failure time at which its claim is certainly false.
+  /// A certificate made earlier, or by another iteration, may correctly be later than one made now, so it is
+  /// wrong only if there is such a time. Steps follow from the largest speed of the gap, with a minimum step
+  /// to bound the cost.
   std::optional<double> certain_change(std::uint32_t a, std::uint32_t b, const Threshold& threshold,
                                        const PlainGap& gap, double recorded) const {
     const ContactRule& rule = engine_.contacts().rule_of(threshold);
@@ -253,7 +257,7 @@ class World::Engine::Audit {
       if (time >= last) break;
       const double speed = gap.largest_speed(time, end);
       const double next = std::min(last, time + std::max(least_step, margin > 0.0 ? margin / speed : 0.0));
-      // Where times are too coarse for a step nothing more can be told.
+      // The spacing of doubles is too coarse for another step.
       if (!(next > time)) break;
       time = next;
     }
@@ -267,7 +271,8 @@ class World::Engine::Audit {
     });
   }
 
-  /// Bouncing bodies within the tolerance follow the contact rule, not the bare distance.
+  /// True if the bare distance determines the state of the threshold. Bouncing bodies within the tolerance
+  /// follow the contact rule instead.
   bool checkable(std::uint32_t a, std::uint32_t b, const Threshold& threshold) const {
     if (!exact(body(a)) || !exact(body(b))) return false;
     const ContactRule& rule = engine_.contacts().rule_of(threshold);
@@ -276,7 +281,8 @@ class World::Engine::Audit {
                                            .lower > rule.tolerance();
   }
 
-  /// True when the engine owes a fact about the pair (a body and itself: its walls) now.
+  /// True if the engine must hold a valid certificate of the pair now. A pair of a body with itself stands
+  /// for its walls.
   bool settled(std::uint32_t a, std::uint32_t b) const {
     const auto concerns = [=](const Event& event) {
       return event.first.index == a && (a == b ? event.wall != Wall::none : event.second.index == b);

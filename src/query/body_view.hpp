@@ -1,4 +1,4 @@
-// What a world tells of a body.
+// The public view of one body.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace kinesphere {
 
-/// The body with its last report in the primary box, wherever the engine keeps it.
+/// Returns the view of a body, with its last report moved into the primary box of a periodic space.
 BodyView body_view(const Bodies& bodies, const BroadPhase& windows, std::uint32_t number, double now);
 
 }  // namespace kinesphere

@@ -1,4 +1,4 @@
-// What is known of a body at the current time, in every state in which a caller may ask.
+// Where a body certainly is at the present time, also after changes that no report has followed yet.
 #pragma once
 
 #include "bound/rounding.hpp"
@@ -6,8 +6,8 @@
 
 namespace kinesphere {
 
-/// A sphere around `centre` with radius `outer` contains the body, and the body contains the one with radius
-/// `inner`, if that is not negative. Rounding is allowed for.
+/// A sphere with radius `outer` around `centre` contains the body. The body contains the sphere with radius
+/// `inner` if that is not negative. Rounding is covered.
 struct CertainSphere {
   Vec3 centre;
   double outer;
@@ -24,8 +24,8 @@ inline CertainSphere certain_sphere_of(const Body& body, double now) {
   return {bound.centre_at(now), body.radius + deviation, body.radius - deviation};
 }
 
-/// Contains the body from now on. A bound of a report before a kick, or before the body promised something
-/// else, tells only where the body is now and, but for a kick, how fast.
+/// Returns a bound that contains the body from now on. After a velocity change or new motion limits, the last
+/// report determines only the present position and, without a velocity change, the velocity.
 inline Bound present_bound(const Body& body, const Change* change, double now) {
   const Bound& last = body.bound;
   if (!change) return last;

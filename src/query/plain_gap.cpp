@@ -19,7 +19,7 @@ struct Point {
 Point point(const Vec3& v) { return {v.x, v.y, v.z}; }
 Long dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 Long length(const Point& a) {
-  // Where there is room for squares of squares, nothing needs to be scaled.
+  // If the exponent range of Long holds the squared lengths, no scaling against overflow is needed.
   if constexpr (std::numeric_limits<Long>::max_exponent > 8 * std::numeric_limits<double>::max_exponent)
     return std::sqrt(dot(a, a));
   else
@@ -46,7 +46,7 @@ Long growth_of(const Bound& bound, double time) {
   return (bound.growth_speed + bound.growth_acceleration * s / 2) * s;
 }
 
-/// The least and the most that a distance can be.
+/// Interval that contains a distance.
 struct Range {
   Long lower, upper;
 };
@@ -56,7 +56,7 @@ Range from(const Point& centre, const HalfSpace& solid) {
   return {distance, distance};
 }
 
-/// Outside the distance of the box, inside minus that of the nearest face.
+/// Outside, the distance to the box; inside, minus the distance to the nearest face.
 Range from(const Point& centre, const Box& box) {
   const Point below = point(box.lower) - centre;
   const Point above = centre - point(box.upper);
@@ -67,9 +67,9 @@ Range from(const Point& centre, const Box& box) {
   return deepest < 0 ? Range{deepest, deepest} : Range{distance, distance};
 }
 
-/// Any point of the triangle is at least as far away as it is, and it lies behind its supporting plane in any
-/// direction: so the nearest of some points and the farthest of some planes hold the distance between them,
-/// however badly they were chosen.
+/// Brackets the distance to a triangle. Any point of it is at least as far away as the triangle, and the
+/// triangle lies behind its supporting plane in any direction. So the nearest of some points and the farthest
+/// of some planes enclose the distance, however those were chosen.
 Range from(const Point& centre, const Triangle& triangle) {
   const std::array aabb{point(triangle.a), point(triangle.b), point(triangle.c)};
   Range range{0, std::numeric_limits<Long>::infinity()};
@@ -112,7 +112,8 @@ double rounded_down(Long value) {
 }
 double rounded_up(Long value) { return -rounded_down(-value); }
 
-/// More than what fewer than a hundred roundings do to a result, relative to all that went into it.
+/// Exceeds the rounding error of fewer than a hundred operations, relative to the sum of the operands'
+/// magnitudes.
 constexpr Long result_margin = 128 * std::numeric_limits<Long>::epsilon();
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Gaps for the audit, by plain formulas of their own: nothing here is shared with the certificates that are
-// held against them, and everything is computed with more digits where the machine has them.
+// Gaps for the audit, by independent formulas: no code is shared with the certificates under test, and
+// everything is computed in long double, where that has more digits.
 #pragma once
 
 #include <array>
@@ -10,29 +10,31 @@
 
 namespace kinesphere {
 
-/// Two bodies whose bounds are known, or a body and a shape at rest. Where space repeats it is about their
-/// images that are nearest at the time asked for.
+/// Gap between two bodies with bounds, or between a body and a shape at rest. In periodic space, the images
+/// nearest to each other at the requested time are used. Holds references to the arguments of the
+/// constructor.
 class PlainGap {
  public:
-  /// At most one of the two has a shape. `period` is zero on axes that do not repeat.
+  /// Precondition: at most one of the two has a shape. `period` is zero on axes that are not periodic.
   PlainGap(const CollisionShape& a, const CollisionShape& b, const Vec3& period);
 
-  /// At a time no earlier than both reports; each is a limit of the exact number.
+  /// Interval that contains the exact value. Precondition of each query: the time is not before either
+  /// report.
   struct Limits {
     double lower;
     double upper;
   };
-  /// Of the gap of the two bounds, radii as large as they have become: no bodies in them are nearer.
+  /// Gap between the two bounds, with the radii grown up to `time`: bodies inside them are nowhere nearer.
   Limits of_bounds(double time) const;
-  /// Of the largest gap that two bodies in these bounds can have.
+  /// Largest gap that two bodies inside these bounds can have.
   Limits at_farthest(double time) const;
-  /// Of the gap of two bodies in these bounds, wherever they are.
+  /// Gap of two bodies anywhere inside these bounds.
   Limits of_bodies(double time) const;
 
-  /// How fast these gaps change between two times, at most.
+  /// Upper bound of the rate at which these gaps change between the two times (length / time).
   double largest_speed(double from, double to) const;
-  /// A length that motion from the reports to this time may be uncertain by: reports that differ by no more
-  /// from what was promised are no broken promise.
+  /// Tolerated numerical error of the motion from the reports up to `time` (length): reports that exceed the
+  /// bound by less are not violations.
   double uncertainty(double time) const;
 
  private:

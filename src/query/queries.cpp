@@ -11,9 +11,11 @@
 namespace kinesphere {
 namespace {
 
-/// More than what the few roundings of a distance or a way can add up to, relative to what went into it.
+/// Exceeds the summed rounding errors of a distance or a ray, relative to the operands' magnitudes.
 constexpr double part_lost = 0x1p-45;
 
+/// Maximum pieces into which a ray is split. More pieces make each search smaller, and let a cast stop sooner
+/// after a hit, but cost more searches.
 constexpr int most_pieces = 64;
 
 double distance_to_box(const Vec3& point, const Box& box) {
@@ -25,7 +27,7 @@ double distance_to_box(const Vec3& point, const Box& box) {
 
 Bound resting(const Vec3& centre, double radius) { return {.position = centre, .radius = radius}; }
 
-/// The gap between a sphere or a box and a shape.
+/// Gap between a region (a sphere or a box) and a shape.
 GapLimits limits_of(const Bound& region, const Shape& shape) {
   return visit_shapes({region}, {region, true, &shape},
                       [](const Bound& bound, const auto& solid) { return gap_limits(bound, solid, 0.0); });
@@ -34,7 +36,7 @@ GapLimits limits_of(const Box& region, const Shape& shape) {
   const Bound nothing{};
   return visit_shapes({nothing}, {nothing, true, &shape}, [&](const Bound&, const auto& solid) -> GapLimits {
     if constexpr (std::is_same_v<std::remove_cvref_t<decltype(solid)>, Bound>) {
-      return {-infinity, infinity};  // a ball has no shape here
+      return {-infinity, infinity};  // not reached: a ball is not stored as a shape
     } else {
       return gap_limits(region, solid);
     }
@@ -62,13 +64,14 @@ Box box_around(const Vec3& a, const Vec3& b, double radius) {
   return box;
 }
 
-/// The part of a way that lies in a ball.
+/// Part of a ray inside a ball, as distances from the origin.
 struct Passage {
   double enter;
   double leave;
 };
 
-/// Nothing where the way misses the ball. `wrong` is how much too late or too early the answer may be.
+/// Intersects a ray with a ball; nullopt if it misses. `wrong` widens the result on either side (narrows it
+/// if negative).
 std::optional<Passage> passage(const SweptRay& way, const Vec3& centre, double radius, double wrong) {
   if (!(radius >= 0.0)) return std::nullopt;
   const Vec3 offset = centre - way.origin;
@@ -82,7 +85,7 @@ std::optional<Passage> passage(const SweptRay& way, const Vec3& centre, double r
   return found;
 }
 
-/// A body may have been met in several pieces of the way, and in several images.
+/// Merges hits of the same body, which may come from several pieces of the ray and several images.
 void keep_first_of_each_body(std::vector<CastHit>& hits) {
   std::sort(hits.begin(), hits.end(), [](const CastHit& a, const CastHit& b) { return a.body < b.body; });
   std::size_t checkpoint = 0;
@@ -99,13 +102,13 @@ void keep_first_of_each_body(std::vector<CastHit>& hits) {
 
 }  // namespace
 
-/// About the size of the smallest bodies (length).
+/// Approximate size of the smallest bodies (length).
 double World::Engine::Queries::finest_length() const {
   const double tolerance = engine_.definition().contact_tolerance;
   return std::clamp(engine_.broad_phase().least_width(), tolerance, 0x1p30 * tolerance);
 }
 
-/// In the image that is nearest to a point.
+/// Returns the certain sphere of a body in the image nearest to `point`.
 CertainSphere World::Engine::Queries::certain_sphere(std::uint32_t number, const Vec3& point) const {
   CertainSphere place = certain_sphere_of(engine_.bodies()[number], now_);
   place.centre += engine_.bodies().space().shift_to_nearest(place.centre, point);
@@ -167,8 +170,8 @@ std::vector<NearestHit> World::Engine::Queries::distances(const std::vector<std:
   return all;
 }
 
-/// At least all bodies that may be among the `count` nearest: `count` of them are certainly within a cube's
-/// half edge, and the others are outside the cube.
+/// Returns a superset of the `count` nearest bodies: the half edge of a cube is enlarged until `count` bodies
+/// are certainly within that distance. All bodies not returned are outside the cube.
 std::vector<std::uint32_t> World::Engine::Queries::around(const Vec3& point, std::size_t count) const {
   const double farthest = 8.0 * coordinate_limit(engine_.definition());
   for (double reach = finest_length(); reach <= farthest; reach *= 2.0) {
@@ -199,8 +202,8 @@ std::vector<NearestHit> World::Engine::Queries::nearest(const Vec3& point, std::
   std::sort(all.begin(), all.end(), [](const NearestHit& a, const NearestHit& b) {
     return a.lower != b.lower ? a.lower < b.lower : a.body < b.body;
   });
-  // One is certainly among them when fewer than `count` others may be nearer. The list is sorted by `lower`,
-  // so these are at its front.
+  // A body is certainly among the nearest if at most `count` bodies, itself included, may be as near. Sorting
+  // by `lower` puts these at the front of the list.
   for (NearestHit& near : all) {
     const auto not_farther =
         std::upper_bound(all.begin(), all.end(), near.upper,
@@ -211,8 +214,8 @@ std::vector<NearestHit> World::Engine::Queries::nearest(const Vec3& point, std::
   return all;
 }
 
-/// What becomes of a body on the way, in the first of its images that comes near this piece of it: nothing
-/// where it is missed.
+/// Intersects the ray with a body, in those of its images that come near this piece of the ray. Returns the
+/// earliest limits over these images, or nullopt if none can be hit.
 std::optional<CastHit> World::Engine::Queries::hit(const SweptRay& way, const Box& piece,
                                                    std::uint32_t number) const {
   if (const Shape* shape = collision_shape_of(engine_.bodies(), number).shape) {
@@ -240,7 +243,7 @@ std::optional<CastHit> World::Engine::Queries::hit(const SweptRay& way, const Bo
 
 std::vector<CastHit> World::Engine::Queries::cast(const SweptRay& way) const {
   std::vector<CastHit> hits;
-  double sure = infinity;  // something is hit by then
+  double sure = infinity;  // something is certainly hit within this distance
   const double piece = std::max({way.length / most_pieces, 2.0 * way.radius, finest_length()});
   std::vector<std::uint32_t> seen;
   for (int k = 0; k < most_pieces && k * piece <= std::min(way.length, sure); ++k) {
@@ -256,7 +259,7 @@ std::vector<CastHit> World::Engine::Queries::cast(const SweptRay& way) const {
       hits.push_back(*found);
       sure = std::min(sure, found->upper);
     }
-    // Where space repeats, a body that is missed here may be hit in another image later.
+    // In periodic space, a body missed in this piece may be hit later in another image, so none is skipped.
     if (engine_.bodies().space().repeats()) continue;
     const auto middle = static_cast<std::ptrdiff_t>(seen.size());
     seen.insert(seen.end(), fresh.begin(), fresh.end());

@@ -1,4 +1,4 @@
-// Questions about space at the current time: a search finds candidates, what is known of each decides.
+// Spatial queries at the present time: a search finds candidates, and their certain spheres or shapes decide.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace kinesphere {
 
-/// The way of a sphere from `origin` along the unit vector `direction`.
+/// Path of a sphere: from `origin` along the unit vector `direction`, for `length`.
 struct SweptRay {
   Vec3 origin;
   double radius;
@@ -29,8 +29,9 @@ class World::Engine::Queries {
  private:
   double finest_length() const;
   CertainSphere certain_sphere(std::uint32_t number, const Vec3& point) const;
-  /// Those whose distance from the region, `distance_to(place centre)`, may be or is below their radius, and
-  /// fixed bodies whose shape may have or has no gap to it, `gap_to(shape)`.
+  /// Returns the bodies that overlap a region, certainly or possibly. `distance_to(centre)` is the distance
+  /// of a point from the region, `gap_to(shape)` the gap limits of a static body's shape. `box` contains the
+  /// region.
   template <class Distance, class ShapeGap>
   std::vector<OverlapHit> overlapping(const Box& box, Distance distance_to, ShapeGap gap_to) const;
   std::optional<CastHit> hit(const SweptRay& way, const Box& piece, std::uint32_t number) const;

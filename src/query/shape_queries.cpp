@@ -14,14 +14,14 @@ using rounding::margin;
 
 GapLimits around(double gap, double wrong) { return {gap - wrong, gap + wrong}; }
 
-/// The gap between both, seen along a direction.
+/// Gap between the projections of the two on a direction.
 template <class A, class B>
 double gap_along(const A& a, const B& b, const Vec3& direction) {
   return -std::min(reach(a, direction) + reach(b, -direction), reach(a, -direction) + reach(b, direction));
 }
 
-/// True when the way from one place to the other certainly goes through the triangle: they lie on both sides
-/// of its plane, and both over its inside.
+/// True if the segment between the two points certainly crosses the triangle: they lie on opposite sides of
+/// its plane, and their projections are inside it, beyond the rounding error.
 bool certainly_crosses(const Triangle& triangle, const Vec3& from, const Vec3& to) {
   const TriangleFrame frame(triangle);
   const double wrong = margin * (size_of(triangle) + norm_one(from) + norm_one(to));
@@ -46,7 +46,7 @@ template <class Solid>
 RayLimits touch(const Bound& sphere, const Solid& shape, double length) {
   const double first = earliest_meeting(sphere, shape, 0.0, length);
   if (first == infinity) return {infinity, infinity};
-  // It is met soon after, or perhaps not at all: look farther and farther.
+  // The shape is met shortly after `first`, or perhaps not at all: search on in doubling steps.
   double step = 0x1p-50 * (norm_one(sphere.position) + sphere.radius + length);
   for (double at = first;; at += step, step *= 2.0) {
     const double end = std::min(at, length);
@@ -70,7 +70,7 @@ GapLimits gap_limits(const Box& region, const Box& shape) {
   return {gap, gap};  // the sign of a difference is exact
 }
 
-/// By separating axes: the normals of both, and what is normal to a side of each.
+/// Separating axis test: the normals of the two, and the cross products of their edges.
 GapLimits gap_limits(const Box& region, const Triangle& shape) {
   const std::array<Vec3, 3> sides{shape.b - shape.a, shape.c - shape.b, shape.a - shape.c};
   double gap = -infinity;

@@ -1,23 +1,25 @@
-// What queries ask of shapes at rest: how far a region is from one, and when a way meets it.
+// Queries about shapes at rest: gap to a region, and first hit by a moving sphere.
 #pragma once
 
 #include "kinesphere/shape.hpp"
 
 namespace kinesphere {
 
-/// How far the surfaces of a box and a shape are apart: certainly apart where `lower` is above zero,
-/// certainly touching where `upper` is not; between these, only the signs mean something.
+/// Limits of the gap between a box and a shape: they are certainly apart if lower > 0, and certainly touch if
+/// upper <= 0. Only the signs are meaningful; the magnitudes are not distances.
 GapLimits gap_limits(const Box& region, const HalfSpace& shape);
 GapLimits gap_limits(const Box& region, const Box& shape);
 GapLimits gap_limits(const Box& region, const Triangle& shape);
 
-/// The part of a way after which a shape is met: at least `lower`; at most `upper`, if it certainly is met.
+/// Distance along a ray at which a shape is met: at least `lower`, and at most `upper` if it is certainly
+/// met.
 struct RayLimits {
-  double lower;  ///< infinite when it certainly is not met
-  double upper;  ///< infinite when it may not be met
+  double lower;  ///< infinite if the shape is certainly not met
+  double upper;  ///< infinite if the shape may not be met
 };
 
-/// Of a sphere, a Bound whose velocity is its direction, of length 1: lengths of the way are times.
+/// Intersects the path of a sphere with a shape. Precondition: sphere.velocity is a unit vector, so that
+/// times equal distances along the path.
 RayLimits first_touch(const Bound& sphere, const HalfSpace& shape, double length);
 RayLimits first_touch(const Bound& sphere, const Box& shape, double length);
 RayLimits first_touch(const Bound& sphere, const Triangle& shape, double length);

@@ -1,4 +1,4 @@
-// The way of every change from the public calls into the engine: past the recorder.
+// Passes every change from the public calls through the recorder to the engine.
 #pragma once
 
 #include "engine/engine.hpp"

@@ -1,4 +1,4 @@
-// Seeing inside: memory, timings, and what there is to draw.
+// Inspection of a world: memory, timings, and data for drawing.
 #include "kinesphere/inspection.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace kinesphere {
 namespace {
 
-/// Adds the time that it lives to a sum of seconds, also while an exception passes.
+/// Adds its own lifetime (s) to `sum` in the destructor, hence also when an exception is thrown.
 class Stopwatch {
  public:
   explicit Stopwatch(double& sum) : sum_(sum) {}

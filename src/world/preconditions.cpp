@@ -51,7 +51,7 @@ Result<void> World::Preconditions::known(BodyId body) const {
   const std::string name = text_of(body);
   if (is_foreign(body)) return error_about(ErrorCode::foreign_body, body, name + " is one of another world");
   const auto& table = engine_->bodies().table();
-  // A free index has the generation that its next body will have.
+  // A free slot stores the generation of its next body, so a smaller generation is that of a removed body.
   if (body.index < table.numbers() && body.generation < table[body.index].generation)
     return error_about(ErrorCode::stale_body, body, name + " has been removed");
   return error_about(ErrorCode::unknown_body, body, name + " was never in this world");

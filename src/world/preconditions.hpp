@@ -1,5 +1,5 @@
-// What a public call of a world checks before anything changes: the call itself, the bodies that it names,
-// and the room for what it wants.
+// Preconditions of a world's public calls, checked before anything changes: the call itself, the bodies named
+// in its arguments, and the space that the change needs.
 #pragma once
 
 #include <optional>
@@ -10,62 +10,66 @@
 
 namespace kinesphere {
 
-/// The checks of one call, whose name begins all messages. Those of room need a world that passes exists().
+/// Checks for one call; its name begins every error message. Checks under "Space" require exists().
 class World::Preconditions {
  public:
   Preconditions(const World& world, std::string_view call)
       : world_(world), engine_(world.engine_.get()), call_(call) {}
 
-  // Of the call.
+  // The call.
 
-  /// The world has not been moved from.
+  /// The world has not been moved from (ErrorCode::moved_from).
   Result<void> exists() const;
-  /// It exists, and is not being asked from inside its own probe, pair filter or run.
+  /// The world exists, and the call does not come from inside its own probe, pair filter or run().
   Result<void> idle() const;
-  /// It is idle, and has told all events of a run() that was interrupted.
+  /// The world is idle, and every event of an interrupted run() has been delivered
+  /// (ErrorCode::run_in_progress).
   Result<void> all_told() const;
-  /// It is idle, and there is a probe to ask.
+  /// The world is idle, and `probe` is not empty (ErrorCode::null_probe).
   Result<void> may_ask(const Probe& probe) const;
 
-  // Of a body that an argument names.
+  // Bodies named in arguments.
 
-  /// The world exists, and the body is one of its own and has not been removed.
+  /// The world exists, and the body belongs to it and has not been removed (ErrorCode::foreign_body,
+  /// stale_body or unknown_body).
   Result<void> known(BodyId body) const;
-  /// The same as a plain answer, of a world that exists.
+  /// Does the same test without an error message. Precondition: exists().
   bool is_known(BodyId body) const { return !is_foreign(body) && engine_->bodies().table().is_alive(body); }
-  /// Known, and the world is idle.
+  /// The world is idle, and the body is known.
   Result<void> changeable(BodyId body) const;
-  /// Changeable, and enabled or disabled as the call needs it.
+  /// The body is changeable, and enabled or disabled as requested.
   Result<void> enabled(BodyId body, bool enabled) const;
-  /// Changeable, and not fixed.
+  /// The body is changeable and not static.
   Result<void> moving(BodyId body) const;
-  /// Moving and enabled.
+  /// The body is changeable, not static, and enabled.
   Result<void> mobile(BodyId body) const;
-  /// The same for an answer during a run: mobile, but for the world being idle.
+  /// Like mobile(), but without idle(): for responses during run().
   Result<void> can_turn(BodyId body) const;
-  /// Two different bodies, both changeable.
+  /// The two bodies are different, and each is changeable.
   Result<void> pair(BodyId first, BodyId second) const;
 
-  // Of room, by id as it is or is going to be.
+  // Space. `id` is the id that the body has, or will have once added.
 
-  /// There is room for the body, where overlaps are not allowed.
+  /// If overlaps are forbidden, the body overlaps no other body at its position.
   Result<void> room(const BodyDefinition& body, BodyId id) const;
   Result<void> static_room(const StaticDefinition& fixed, BodyId id) const;
-  /// The body may be in this state now.
+  /// The body may be put into this state at the present time.
   Result<void> moved(BodyId id, const State& state) const;
-  /// There is room for a body to grow where it is: where space repeats, and where overlaps are not allowed.
+  /// The body may grow at its present position: reach() holds, and if overlaps are forbidden, it overlaps
+  /// neither a wall nor another body.
   Result<void> growth(const BodyDefinition& changed, BodyId id, std::string_view argument) const;
-  /// There is room where space repeats for all that the body senses.
+  /// The body and its sensor range fit into the period on periodic axes.
   Result<void> reach(const BodyDefinition& changed, BodyId id, std::string_view argument) const;
-  /// Everything about a body that is to be added.
+  /// The definition is valid for adding a body. `id` is its future id.
   Result<void> new_body(const BodyDefinition& body, BodyId id) const;
-  /// The same of a fixed body: its definition as the world keeps it.
+  /// The definition is valid for adding a static body. Returns it with its shape normalized, as the world
+  /// stores it.
   Result<StaticDefinition> new_static(const StaticDefinition& fixed, BodyId id) const;
 
  private:
   const WorldDefinition& definition() const { return engine_->definition(); }
   bool is_foreign(BodyId body) const;
-  // Of a body that is known.
+  // Precondition: the body is known.
   Result<void> is_enabled(BodyId body, bool enabled) const;
   Result<void> is_moving(BodyId body) const;
   Error error_about(ErrorCode code, BodyId body, std::string_view what) const;

@@ -1,4 +1,4 @@
-// Replays: a world that is driven by a recording, and compared with it at each step.
+// Replay: drives a world from a recording, and compares the two at each step.
 #include <array>
 #include <cstdio>
 #include <limits>
@@ -38,8 +38,8 @@ std::vector<std::byte> bytes_of(const std::optional<Event>& event) {
 
 bool same_bits(double a, double b) { return bit_cast<std::uint64_t>(a) == bit_cast<std::uint64_t>(b); }
 
-/// Answers as recorded, as long as it is asked as recorded. The first other question gets no answer, which
-/// ends the call that asks.
+/// Returns the recorded answers while the questions match the recording. The first question that differs gets
+/// a NaN position, which makes the asking call fail.
 class RecordedProbe {
  public:
   explicit RecordedProbe(const std::vector<step::Answer>& answers) : answers_(answers) {}
@@ -62,7 +62,7 @@ class RecordedProbe {
     if (!difference_.empty() && !ids.empty()) states[0].position = {nothing, nothing, nothing};
   }
 
-  /// What went another way; empty when nothing did.
+  /// Describes the first deviation from the recording; empty if there was none.
   std::string difference() const {
     if (!difference_.empty() || next_ == answers_.size()) return difference_;
     return expected() + ", but found the end of the call";

@@ -1,4 +1,4 @@
-// One call of World::run: phases of work, after each of which the sink is told what came of it.
+// One call of World::run: repeated work, each time followed by delivering the resulting events to the sink.
 #pragma once
 
 #include <deque>
@@ -11,19 +11,19 @@
 
 namespace kinesphere {
 
-/// Events that were delivered, but have not gone all the way of an event of run().
+/// Events that the engine has delivered, but that run() has not completely processed.
 struct World::UntoldEvents {
-  std::deque<Event> events{};         ///< answered, in their order
-  std::optional<Event> unanswered{};  ///< comes after them
+  std::deque<Event> events{};         ///< responses applied, not yet delivered to the sink; in order
+  std::optional<Event> unanswered{};  ///< response not applied; comes after `events`
 
   bool empty() const { return events.empty() && !unanswered; }
-  /// The first of them, which is gone then.
+  /// Removes and returns the first event, or nullopt if there is none.
   std::optional<Event> take();
 };
 
 class World::Run final : private ResponseHandler {
  public:
-  /// Without mover and respond, events get no answer.
+  /// Without respond_by(), events get no response. The arguments must outlive the run.
   Run(World& world, double until, const Probe& probe, const EventFn& sink, Workers* workers)
       : world_(world), until_(until), probe_(probe), on_event_(sink), lease_(workers) {}
   void respond_by(MotionSource& source, const ResponseFn& respond) {
@@ -31,14 +31,15 @@ class World::Run final : private ResponseHandler {
     respond_ = &respond;
   }
 
-  /// The whole run.
+  /// Executes the run to its end, or to the first error.
   Result<void> go();
 
  private:
   class UnansweredGuard;
 
-  /// Does some work, and appends the events that came of it to the untold ones. True when the world has
-  /// reached the end of the run. Needs all events before to have been told.
+  /// Does some work, and appends the resulting events to the untold ones. Returns true when the world has
+  /// reached the end of the run. Precondition: all earlier events in untold_->events have been delivered to
+  /// the sink.
   Result<bool> work();
   Result<bool> phase();
   Result<bool> step();
@@ -61,8 +62,9 @@ class World::Run final : private ResponseHandler {
   const Probe& probe_;
   const EventFn& on_event_;
   PoolLease lease_;
-  std::optional<SpeculativeRunner> runner_;  ///< where several threads work
-  /// Where islands are not worth it: until this end of a phase.
+  std::optional<SpeculativeRunner> runner_;  ///< created when several threads are used
+  /// End of the epoch in which speculative execution does not pay off: until then, events are processed one
+  /// by one.
   std::optional<double> one_by_one_{};
   MotionSource* source_ = nullptr;
   const ResponseFn* respond_ = nullptr;

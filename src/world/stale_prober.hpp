@@ -1,4 +1,4 @@
-// A probe that is lent to a question outside advance().
+// A probe for queries outside advance().
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 namespace kinesphere {
 
-/// Probes those of some bodies whose reports are old, and tells whether there were any.
+/// Probes those of the given bodies whose reports are not from the present time. Returns true if there were
+/// any.
 class World::StaleProber {
  public:
   StaleProber(World& world, const Probe& probe, std::string_view call)
@@ -25,7 +26,7 @@ class World::StaleProber {
   std::string_view call_;
 };
 
-/// For the questions that may not probe.
+/// Stands in for StaleProber in queries without a probe.
 struct WithoutProbe {
   Result<bool> operator()(std::span<const std::uint32_t>) const { return false; }
 };

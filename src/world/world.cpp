@@ -1,5 +1,5 @@
-// The public face of the engine: every call is checked here before anything changes, and what changes is told
-// to the recorder.
+// Public interface of the engine: each call is checked here before anything changes, and each change is
+// recorded.
 #include "kinesphere/world.hpp"
 
 #include <cstdio>
@@ -40,7 +40,8 @@ CallState World::activity() const {
   return running_ && activity != CallState::filtering ? CallState::running : activity;
 }
 
-/// Stops the program if a call that asks the caller's own code would come back to a world that is no more.
+/// Aborts the program if the world is destroyed, moved or assigned to from inside a callback, since the
+/// running call would return into a destroyed world.
 void World::require_idle(const char* done) const noexcept {
   if (!engine_ || activity() == CallState::idle) return;
   std::fprintf(stderr, "kinesphere: a World was %s inside its own %s\n", done,
@@ -55,7 +56,7 @@ const World::Engine& World::engine(std::string_view call) const {
   return *engine_;
 }
 
-// The engine is const to all else, so that no change can forget to be recorded.
+// The engine is const everywhere else, so that no change can bypass the recorder.
 World::Engine& World::changeable() { return const_cast<Engine&>(*engine_); }
 
 Result<World> World::create(const WorldDefinition& definition) {
@@ -103,7 +104,7 @@ Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodie
   if (wrong) return *wrong;
   std::vector<BodyId> ids;
   ids.reserve(bodies.size());
-  // Room for each of many small batches would be made one by one.
+  // reserve() is called only for large batches: for many small ones, it would reallocate on every call.
   if (bodies.size() >= engine_->bodies().table().live_count())
     changeable().changes().reserve(engine_->bodies().table().live_count() + bodies.size());
   for (const BodyDefinition& body : bodies) ids.push_back(changing(step::Add{body}).add(body));

@@ -1,4 +1,4 @@
-// World's certified answers: checks of the calls, and probes where the caller lends one.
+// World's certified answers: checks the calls, and probes if the caller provides a probe.
 #include <limits>
 
 #include "engine/validation.hpp"
@@ -10,6 +10,8 @@
 namespace kinesphere {
 namespace {
 
+/// Maximum rounds of probing for an answer about the whole world. More rounds give later times for more
+/// probes.
 constexpr std::size_t max_rounds_of_world = 32;
 constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
 
@@ -26,7 +28,7 @@ Result<SafeTime> safe_time(const Result<ProbedAnswer>& refined) {
   return SafeTime{refined->boundary.time, refined->boundary.touching, refined->probed};
 }
 
-/// EarliestContact and EarliestApproach list the same fields.
+/// Builds an EarliestContact or an EarliestApproach, which have the same fields.
 template <class Earliest, class Engine>
 Result<Earliest> earliest(const Engine* engine, const Result<ProbedAnswer>& refined) {
   if (!refined) return refined.error();

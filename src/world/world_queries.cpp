@@ -1,4 +1,4 @@
-// World's queries: checks of the calls, and probes where the caller lends one.
+// World's queries: checks the calls, and probes if the caller provides a probe.
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
@@ -59,21 +59,21 @@ Result<void> check_ray(const Vec3& origin, double radius, const Vec3& direction,
   return check.result();
 }
 
-/// Scaled first, so that no square underflows.
+/// Returns the unit vector. Scaling by the largest component first prevents underflow of the squares.
 Vec3 unit(const Vec3& direction) {
   const double largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
   const Vec3 scaled = direction / largest;
   return scaled / norm(scaled);
 }
 
-/// A body in doubt may be settled by a probe; of one that stands for a distance the probe tells that, too.
+/// True if a probe of the body may improve the hit: an uncertain overlap may become certain; a distance may
+/// become exact.
 bool leaves_open(const OverlapHit& found) { return found.certainty == Certainty::possibly; }
 bool leaves_open(const NearestHit&) { return true; }
 bool leaves_open(const CastHit&) { return true; }
 
-/// Asks for the states that leave the answer open, and again, until fresh reports stand behind it. Without a
-/// probe the first answer is the last. `callable` says whether the engine may be asked at all, and `valid`
-/// checks the arguments.
+/// Evaluates a query. With a probe, repeats it after probing the bodies that leave it open, until the answer
+/// rests on fresh reports. `callable` is the result of checking the call, and `valid` checks the arguments.
 template <class Queries, class Engine, class Valid, class Refresh, class Ask>
 auto answer(const Engine* engine, const Result<void>& callable, Valid valid, Refresh refresh, Ask ask)
     -> Result<decltype(ask(Queries(*engine)))> {

@@ -1,4 +1,4 @@
-// World::run: a loop over advance() that knows beforehand what is done at an event.
+// World::run: a loop over advance() in which the response to each event is known in advance.
 #include "world/run.hpp"
 
 #include <string>
@@ -13,7 +13,7 @@
 namespace kinesphere {
 namespace {
 
-/// What the engine calls an advance() is a run() to the caller.
+/// Replaces the call name "advance" in an engine error with "run".
 Error renamed(Error error) {
   constexpr std::string_view inner = "advance:";
   if (error.message.rfind(inner, 0) == 0) error.message.replace(0, inner.size(), "run:");
@@ -35,7 +35,7 @@ std::optional<Event> World::UntoldEvents::take() {
   return first;
 }
 
-/// An event whose answer is being worked out: back in the backlog unless that came to its end.
+/// Puts an event back into UntoldEvents unless its response was applied, including when the callback throws.
 class World::Run::UnansweredGuard {
  public:
   UnansweredGuard(UntoldEvents& backlog, const Event& event) : backlog_(backlog), event_(event) {}
@@ -100,13 +100,13 @@ void World::Run::tell() {
 }
 
 Result<bool> World::Run::work() {
-  // A recording and the timings follow one event after the other.
+  // Recording and profiling require events to be processed one at a time.
   const bool alone = lease_.count() == 1 || world_.recorder_ || world_.profiling_ || !world_.untold_->empty();
   if (alone || world_.engine_->epoch_end() == one_by_one_) return step();
   return phase();
 }
 
-/// Many events at once, where that is possible.
+/// Processes many events at once if possible, otherwise one.
 Result<bool> World::Run::phase() {
   Engine& engine = world_.changeable();
   if (!runner_) runner_.emplace(engine.runner(lease_, probe_, respond_ != nullptr ? this : nullptr));
@@ -117,7 +117,7 @@ Result<bool> World::Run::phase() {
   return step();
 }
 
-/// One event.
+/// Processes one event.
 Result<bool> World::Run::step() {
   UntoldEvents& backlog = *world_.untold_;
   const auto event = next();
@@ -168,7 +168,7 @@ Result<void> World::Run::check_kick(const Event& event, BodyId body, const std::
     return valid ? check_velocity(*velocity, body, world_.definition(), call) : valid;
   };
   if (check_for("run")) return {};
-  // The name of the call takes longer to write than all else.
+  // Composing the call name for the message is the expensive part, so it is done only on failure.
   Error error =
       check_for("run: respond: " + std::string(argument) + " at " + std::string(name_of(event.kind))).error();
   error.argument = argument;

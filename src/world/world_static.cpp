@@ -1,4 +1,4 @@
-// The surroundings of a world: the calls about fixed bodies.
+// Static bodies and zones of a world: the public calls.
 #include "world/changing.hpp"
 #include "world/preconditions.hpp"
 
