@@ -6,8 +6,7 @@
 //
 // Every function here is pure. Each `earliest_` result is a LOWER bound of the true time: it is never late.
 // Three facts ensure this:
-//   1. Safe steps. Every step of an iteration is safe by itself, so stopping early only returns an earlier
-//   time.
+//   1. Safe steps. Every step of an iteration is safe by itself: stopping early only returns an earlier time.
 //   2. Rounding. Each coefficient of a step is lowered by a margin of 2^-47 times the sum of the magnitudes
 //      that went into it, which exceeds the sum of all roundings up to there (fewer than 40, each at most
 //      2^-53 of such a magnitude). Roots are computed in the form that cannot cancel, with the discriminant
