@@ -58,7 +58,7 @@ struct StaticDefinition {
 };
 
 /// Returns one triangle for each triple of indices into `vertices`, all with this filter; user_data is the
-/// number of the triple. Errors: out_of_range (argument "corners") for an invalid index and for a triangle
+/// number of the triple. Errors: out_of_range for an invalid index and for a triangle
 /// with two equal corners or three nearly collinear ones (its least height below 2^-20 of its longest
 /// side); not_finite.
 Result<std::vector<StaticDefinition>> mesh(std::span<const Vec3> vertices,
