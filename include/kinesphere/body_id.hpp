@@ -1,8 +1,8 @@
-// Names of bodies.
+// BodyId: the name of a body.
 //
 //   std::unordered_map<BodyId, Drone> drones;        // ids hash, compare and sort
 //   std::puts(to_string(event.first).c_str());       // "7", or "7 (generation 2)"
-//   database.store(event.first.pack());              // 64 bits; BodyId::unpack() is the way back
+//   database.store(event.first.pack());              // 64 bits; BodyId::unpack() is the inverse
 #pragma once
 
 #include <compare>
@@ -15,21 +15,21 @@
 
 namespace kinesphere {
 
-/// Names a body for as long as it lives. When a body is removed its index may be used again, with
-/// another generation, so an old id is recognised as stale and never mistaken for a newer body.
+/// Names a body until it is removed. A later body may reuse the index of a removed one, with another
+/// generation, so an old id is recognised as stale and never mistaken for a newer body.
 struct BodyId {
   std::uint32_t index = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t generation = 0;
-  /// The tag of the world that gave the id out, so that a call with an id of another world fails with
-  /// foreign_body. 0: not said; every world takes such an id as one of its own. It takes no part in
-  /// comparisons, hashes, pack() and recordings. Each world made by World::create() has a tag of its own, a
-  /// clone that of its original. A restored world has 0: it takes all ids, and all worlds take those that it
-  /// gives out, so that equal histories give equal snapshots.
+  /// Tag of the world that issued the id; a call with an id of another world fails with foreign_body. 0
+  /// means unspecified: every world accepts such an id as its own. Comparisons, hashes, pack() and
+  /// recordings ignore the tag. Each world made by World::create() has its own tag, and a clone has that of
+  /// its original. A restored world has tag 0: it accepts all ids, and all worlds accept the ids that it
+  /// issues, so that equal histories give equal snapshots.
   std::uint32_t world = 0;
 
-  /// Index and generation in one number, for tables and files.
+  /// Returns index and generation in one number, for tables and files.
   constexpr std::uint64_t pack() const { return std::uint64_t{generation} << 32 | index; }
-  /// The id that was packed, with world = 0.
+  /// Returns the packed id, with world = 0.
   static constexpr BodyId unpack(std::uint64_t packed) {
     return {static_cast<std::uint32_t>(packed), static_cast<std::uint32_t>(packed >> 32)};
   }
@@ -43,10 +43,10 @@ struct BodyId {
   }
 };
 
-/// The id that names no body: the second body of a wall event, for one.
+/// The id that names no body, such as the second body of a wall event.
 inline constexpr BodyId no_body{};
 
-/// "7", "7 (generation 2)" or, for no_body, "no_body".
+/// Returns "7", "7 (generation 2)" or, for no_body, "no_body".
 std::string to_string(const BodyId& body);
 
 /// Prints to_string(). The caller includes <ostream>.

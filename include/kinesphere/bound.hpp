@@ -1,35 +1,35 @@
-// Time-varying bounds, and the certified times at which they can first do something.
+// Time-varying bounds, and certified lower bounds of the times at which they meet, separate or leave a box.
 //
 //   Bound a = ..., b = ...;
 //   double t = earliest_meeting(a, b, now, now + 10);
-//   // whatever the two bodies do within their promises, they are apart before t
+//   // whatever the two bodies do within their motion limits, they are apart before t
 //
-// Every function here is pure. Each `earliest_` answer is a LOWER bound of the true time: it is never
-// late. Three things make sure of that:
-//   1. Every step of an iteration is safe by itself, so stopping early only answers sooner.
-//   2. Rounding. Each coefficient of a step is lowered by a margin of 2^-47 times the sum of the
-//      magnitudes that went into it, which is more than all the roundings on the way there can add up
-//      to (fewer than 40 of them, each at most 2^-53 of such a magnitude); roots are taken in the form
-//      that cannot cancel, with the discriminant moved to the early side, and shortened by 2^-47 of
-//      themselves; the final sum is rounded down. No rounding mode is changed, so the result is the same on
-//      every machine and at every optimisation level (the library is built with -ffp-contract=off and
-//      without -ffast-math).
-//   3. Numbers of all sizes are taken, down to zero and up to what overflows, infinity and NaN. Between
-//      limits::least_size and limits::largest_size (limits.hpp) answers are as near to the truth as rounding
-//      allows. Numbers below count as if they were up to that large, so answers may be early by as much;
-//      beyond, where nothing is certain, the answer is `from`, and gap limits are infinite.
+// Every function here is pure. Each `earliest_` result is a LOWER bound of the true time: it is never late.
+// Three facts ensure this:
+//   1. Safe steps. Every step of an iteration is safe by itself: stopping early only returns an earlier time.
+//   2. Rounding. Each coefficient of a step is lowered by a margin of 2^-47 times the sum of the magnitudes
+//      that went into it, which exceeds the sum of all roundings up to there (fewer than 40, each at most
+//      2^-53 of such a magnitude). Roots are computed in the form that cannot cancel, with the discriminant
+//      moved to the early side, and shortened by 2^-47 of themselves; the final sum is rounded down. No
+//      rounding mode is changed, so the result is the same on every machine and at every optimisation level
+//      (the library is built with -ffp-contract=off and without -ffast-math).
+//   3. Range. Numbers of all sizes are accepted, from zero up to overflow, infinity and NaN. Between
+//      limits::least_size and limits::largest_size (limits.hpp) results are as close to the truth as rounding
+//      allows. Smaller numbers are treated as if they could be as large as least_size, so results may be
+//      early by as much. Beyond largest_size nothing is certain: the result is `from`, and gap limits are
+//      infinite.
 #pragma once
 
 #include "kinesphere/body.hpp"
 
 namespace kinesphere {
 
-/// A moving sphere that grows and is certain to contain the body. With s = t - time >= 0,
+/// A growing, moving sphere that certainly contains the body. With s = t - time >= 0,
 ///   centre  c(s)   = position + velocity s + 1/2 planned_acceleration s^2
 ///   radius  rho(s) = radius + growth_speed s + 1/2 growth_acceleration s^2
 /// (paper, eqs 3-6, which are the case of zero plan and zero growth_speed).
 struct Bound {
-  double time = 0.0;  ///< of the report
+  double time = 0.0;  ///< time of the report
   Vec3 position{};
   Vec3 velocity{};
   Vec3 planned_acceleration{};
@@ -37,7 +37,7 @@ struct Bound {
   double growth_speed = 0.0;         ///< e1
   double growth_acceleration = 0.0;  ///< A
 
-  /// Centre and radius at time t >= time, correctly rounded step by step (no margin).
+  /// Centre and radius at time t >= time; each step is correctly rounded, without a margin.
   [[gnu::always_inline]] Vec3 centre_at(double t) const {
     const double s = t - time;
     return position + (velocity + planned_acceleration * (0.5 * s)) * s;
@@ -52,10 +52,10 @@ struct Bound {
   }
 };
 
-/// The bound of a body that reports `state` at `time`.
+/// Returns the bound of a body that reports `state` at `time`.
 Bound bound_of(const BodyDefinition& body, const State& state, double time);
 
-/// The points p with dot(normal, p) >= offset: where bodies may be; the plane is the wall.
+/// Points p with dot(normal, p) >= offset: the region where bodies may be. Its plane is the wall.
 struct HalfSpace {
   Vec3 normal{};  ///< of unit length
   double offset = 0.0;
@@ -63,49 +63,50 @@ struct HalfSpace {
   friend constexpr bool operator==(const HalfSpace&, const HalfSpace&) = default;
 };
 
-/// No pair of points of the two bodies comes closer than `distance` (length; default 0: contact)
-/// before the returned time, which lies in [from, until], or is +infinity when that holds up to and
-/// including `until`. Returns `from` when the bounds are already that close.
-///   solves |c_i - c_j| = rho_i + rho_j + distance (paper, eq 9)
-/// by Newton steps along the line of centres: for any unit vector n, |C(d)| >= n.C(d), so the first
-/// root of the quadratic n.C(d) = rho(d) + distance is never later than that of eq 9; advance both
-/// bounds by it, take the new n, repeat. Exact for a pair on a line, and quadratically convergent.
-/// Needs both report times <= from <= until. Units: times in, time out. Cost: about 20 ns a round, 2-4
-/// rounds.
+/// Returns a time in [from, until] before which no two points of the two bodies come closer than `distance`
+/// (length; default 0: contact), or +infinity if that holds up to and including `until`. Returns `from` if
+/// the bounds are already that close. It solves
+///   |c_i - c_j| = rho_i + rho_j + distance (paper, eq 9)
+/// by Newton steps along the line of centres. For any unit vector n, |C(d)| >= n.C(d), so the first root of
+/// the quadratic n.C(d) = rho(d) + distance is never later than that of eq 9; each step advances the two
+/// bounds by it and takes the new n. The result is exact for a pair on a line, and the iteration converges
+/// quadratically. Needs each report time <= from <= until. Units: times in, time out. Cost: about 20 ns a
+/// round, 2-4 rounds.
 double earliest_meeting(const Bound& a, const Bound& b, double from, double until, double distance = 0.0);
 
-/// The gap between the two bodies stays below `distance` before the returned time (the pair's
-/// end of contact cannot come sooner). Values and conditions as above; returns `from` when the gap
-/// may already be that large. Radii count as reported, r + e0, and positions without their errors: with
-/// e0 > 0 this is about the bodies as reported, and the true gap may be larger by up to 2 e0 of each.
-///   solves |c_i - c_j| + growth_i + growth_j = r_i + r_j + distance,  growth = rho - rho(0)
-/// through p(d) = S(d)^2 - |C(d)|^2 >= q0 + q1 d + q2 d^2 with the cubic and quartic terms replaced by
+/// Returns a time before which the gap between the two bodies stays below `distance`, so that their contact
+/// cannot end sooner. Values and conditions: as earliest_meeting(); returns `from` if the gap may already
+/// be that large. Radii count as reported, r + e0, and positions without their errors: with e0 > 0 the
+/// result refers to the bodies as reported, and the true gap may be larger by up to 2 e0 of each. It solves
+///   |c_i - c_j| + growth_i + growth_j = r_i + r_j + distance,  growth = rho - rho(0)
+/// through p(d) = S(d)^2 - |C(d)|^2 >= q0 + q1 d + q2 d^2, with the cubic and quartic terms replaced by
 /// their least values over the step.
 double earliest_separation(const Bound& a, const Bound& b, double from, double until, double distance);
 
-/// As earliest_meeting, for a bound and the plane of a half-space: the first root of the quadratic
+/// Like earliest_meeting() of two bounds, for a bound and the plane of a half-space: the first root of the
+/// quadratic
 ///   normal . c(s) - rho(s) - offset = distance.
 double earliest_meeting(const Bound& bound, const HalfSpace& wall, double from, double until,
                         double distance = 0.0);
 
-/// As earliest_separation, for a bound and the plane of a half-space.
+/// Like earliest_separation() of two bounds, for a bound and the plane of a half-space.
 double earliest_separation(const Bound& bound, const HalfSpace& wall, double from, double until,
                            double distance);
 
-/// The bound lies inside the box before the returned time (in [from, until], or +infinity when it
-/// does up to `until`). Returns `from` when it already reaches out. The least of six quadratics. Nothing is
-/// asked on an axis where the box reaches from -infinity to +infinity; an infinite side has an infinite one
-/// opposite.
+/// Returns a time in [from, until] before which the bound lies inside the box, or +infinity if it does up
+/// to `until`. Returns `from` if the bound already extends beyond the box. The result is the least root of
+/// six quadratics. An axis on which the box extends from -infinity to +infinity is skipped; an infinite
+/// side needs an infinite opposite side.
 double earliest_exit(const Bound& bound, const Box& box, double from, double until);
 
-/// A box that contains the bound during all of [from, to], rounded outward; sides that overflow are infinite.
-/// Needs a finite `to`.
+/// Returns a box that contains the bound during all of [from, to], rounded outward; sides that overflow are
+/// infinite. Needs a finite `to`.
 Box swept_box(const Bound& bound, double from, double to);
 
-/// Certified limits of the distance between the surfaces of two bodies at time t >= both report
-/// times: lower = |C| - rho_i - rho_j, upper = |C| - r_i - r_j + growth_i + growth_j, rounded apart.
-/// With e0 > 0 the upper limit is about the bodies as reported, as in earliest_separation. Where sizes are
-/// beyond limits::largest_size: -infinity and +infinity.
+/// Certified limits of the distance between the surfaces of two bodies at time t >= each report time: lower
+/// = |C| - rho_i - rho_j, upper = |C| - r_i - r_j + growth_i + growth_j, rounded outward. With e0 > 0 the
+/// upper limit refers to the bodies as reported, as in earliest_separation(). For sizes beyond
+/// limits::largest_size: -infinity and +infinity.
 struct GapLimits {
   double lower;
   double upper;

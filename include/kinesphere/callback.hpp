@@ -1,4 +1,4 @@
-// A function that a caller hands to the library.
+// Callback: a function that the caller passes to the library.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +13,10 @@ namespace kinesphere {
 template <class Signature>
 class Callback;
 
-/// Any callable with this signature. A Callback refers to a callable that has a name (an lvalue), which must
-/// outlive it, and owns one that has none (a temporary, a lambda written in place): copies of the Callback
-/// share it. A null function pointer or an empty std::function gives an empty Callback. Cost: an indirect
-/// call; only temporaries larger than two pointers are allocated.
+/// Any callable with this signature. Given a named callable (an lvalue), a Callback refers to it, and the
+/// callable must outlive the Callback. Given a temporary, such as a lambda written in place, a Callback
+/// owns it, and copies of the Callback share it. A null function pointer or an empty std::function gives an
+/// empty Callback. Cost: an indirect call; only temporaries larger than two pointers are allocated.
 template <class Returned, class... Arguments>
 class Callback<Returned(Arguments...)> {
  public:
@@ -45,17 +45,17 @@ class Callback<Returned(Arguments...)> {
     }
   }
 
-  /// A plain function.
+  /// Refers to a plain function.
   Callback(Function function) {
     target_.function = function;
     if (function) call_ = &call_function;
   }
   Callback(std::nullptr_t) = delete;
 
-  /// Not empty.
+  /// True if the Callback is not empty.
   explicit operator bool() const { return call_ != nullptr; }
 
-  /// Needs a Callback that is not empty.
+  /// Calls the callable. Needs a Callback that is not empty.
   Returned operator()(Arguments... arguments) const {
     return call_(target_, std::forward<Arguments>(arguments)...);
   }
@@ -69,7 +69,9 @@ class Callback<Returned(Arguments...)> {
   };
   using Call = Returned (*)(const Target&, Arguments...);
 
-  /// Copies of what changes when it is called would not share it.
+  /// True for callables that may be stored inside the Callback. They must be callable as const: a callable
+  /// that changes when called is allocated instead, because copies stored inside would not share its
+  /// changes.
   template <class Callable>
   static constexpr bool fits_inside =
       std::is_trivially_copyable_v<Callable> && sizeof(Callable) <= inside_size &&

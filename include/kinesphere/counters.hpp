@@ -1,4 +1,4 @@
-// What a world has done so far: the figures behind every summary.
+// Counters of the work that a world has done so far.
 #pragma once
 
 #include <array>
@@ -11,27 +11,29 @@ namespace kinesphere {
 struct Counters {
   /// Events delivered, by EventKind.
   std::array<std::uint64_t, event_kind_count> events{};
-  /// States asked for, one per body and call.
+  /// Probed states, one per body and call.
   std::uint64_t probes = 0;
-  /// Times at which windows ended, and bodies whose windows did: for each of them a new one started.
+  /// window_ends: times at which windows ended. starts: bodies whose windows ended; each of them got a new
+  /// window.
   std::uint64_t window_ends = 0;
   std::uint64_t starts = 0;
-  /// Bodies about which nothing was known any more within their windows: new ones, kicked or changed ones,
-  /// those that broke a promise.
+  /// Bodies whose certificates became invalid within their window: bodies that were added, changed, given a
+  /// new velocity, or that violated their motion limits.
   std::uint64_t restarts = 0;
-  /// Certified times that came due: of a pair, of a body and the walls.
+  /// Certificates that reached their failure time: of pairs, and of bodies and the walls.
   std::uint64_t pair_checks = 0;
   std::uint64_t wall_checks = 0;
-  /// Searches for all who may come near a body before a window ends, and how many they found; those of them
-  /// that may change before it does.
+  /// searches: broad-phase searches for the bodies that may come near a body before its window ends.
+  /// candidates: bodies found by them. hot_pairs: candidates whose pair got a certificate that fails before
+  /// the window ends.
   std::uint64_t searches = 0;
   std::uint64_t candidates = 0;
   std::uint64_t hot_pairs = 0;
-  /// Certificates of pairs that were computed.
+  /// Pair certificates that were computed.
   std::uint64_t certificates = 0;
-  /// Looks at a contact that the Zeno guard put off to the smallest step.
+  /// Rechecks of a contact that the Zeno guard delayed to its least step.
   std::uint64_t zeno_steps = 0;
-  /// Contacts that came within the Zeno interval of an earlier one of the same body.
+  /// Contacts within the Zeno interval of an earlier contact of the same body.
   std::uint64_t repeated_contacts = 0;
 
   Counters& operator+=(const Counters& more) {
@@ -50,7 +52,7 @@ struct Counters {
     repeated_contacts += more.repeated_contacts;
     return *this;
   }
-  /// How often the world had to do something about a body, a pair or a body and the walls.
+  /// Returns the number of window starts, restarts, pair checks and wall checks.
   std::uint64_t steps() const { return starts + restarts + pair_checks + wall_checks; }
   std::uint64_t count(EventKind kind) const { return events[static_cast<std::size_t>(kind)]; }
 };

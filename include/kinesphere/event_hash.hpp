@@ -1,4 +1,4 @@
-// One number for all events of a run: two runs with the same number went the same way, to the last bit.
+// EventHash: one number for all events of a run. Two runs with equal numbers had bit-identical events.
 //
 //   EventHash hash;
 //   for (const Event& event : world.events(until, probe)) hash.add(event);
@@ -12,16 +12,16 @@
 
 namespace kinesphere {
 
-/// A hash of a set of events: time, kind, ids and wall of each, and the distance of sensor events. States,
-/// points and speeds are left out. It is a sum, so that events may be added in any order, and hashes of parts
-/// of a run, wherever these were made, add up to that of the whole. When events happened is in their times;
-/// which of two at one instant was told first is not in the hash.
+/// Hash of a set of events: the time, kind, ids and wall of each, and the distance of sensor events. It
+/// leaves out states, points and speeds. The hash is a sum: events may be added in any order, and hashes of
+/// parts of a run, wherever computed, add up to the hash of the whole run. It does not depend on the order
+/// of delivery of events at one instant.
 class EventHash {
  public:
   void add(const Event& event);
   EventHash& operator+=(const EventHash& other);
   std::uint64_t value() const;
-  /// All that a hash is made of, for messages and files; and a hash that is made of it.
+  /// parts() returns the whole content of a hash, for messages and files; of() makes a hash from it.
   std::array<std::uint64_t, 2> parts() const { return {sum_, count_}; }
   static EventHash of(const std::array<std::uint64_t, 2>& parts) {
     EventHash hash;

@@ -1,4 +1,4 @@
-// Going through events in a range-for: World::events().
+// EventRange: iterates over events in a range-for (World::events()).
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,12 @@ namespace kinesphere {
 
 class World;
 
-/// The events of a world up to a time, while it goes through them. A single-pass range: begin() and each
-/// increment call World::advance(), so between two events everything is allowed that is allowed at a stop.
-/// When the loop has run to its end, time() == until; when it is left early, the world stands at the last
-/// event, and another range goes on from there. begin() and increments throw BadResult where advance() would
-/// return an error (and abort with its message where exceptions are switched off); they may be repeated.
-/// The world must outlive the range and stay where it is. The range owns a temporary probe.
+/// Single-pass range over the events of a world up to a time. begin() and each increment call
+/// World::advance(), so everything that is allowed at a stop is allowed between two events. After the loop
+/// has finished, time() == until; after an early exit, the world is at the last event, and another range
+/// continues from there. begin() and increments throw BadResult where advance() would return an error
+/// (without exceptions they print its message and abort); they may be repeated. The world must outlive the
+/// range and keep its address. The range owns a temporary probe.
 class [[nodiscard]] EventRange {
  public:
   class Iterator {
@@ -32,7 +32,7 @@ class [[nodiscard]] EventRange {
     Iterator() = default;
     explicit Iterator(EventRange& range) : range_(&range) {}
 
-    /// Good until the next increment.
+    /// Returns the current event; the reference is valid until the next increment.
     const Event& operator*() const { return *range_->event_; }
     const Event* operator->() const { return &*range_->event_; }
     Iterator& operator++() {

@@ -1,4 +1,4 @@
-// Filters: which bodies may touch which.
+// Filters: select the pairs of bodies that may touch.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,10 @@
 
 namespace kinesphere {
 
-/// Two bodies of the same non-zero group touch if it is positive and do not if it is negative. Any others
-/// touch if the category of each has a bit in the mask of the other. By default everything touches
-/// everything. Walls are not filtered. Two fixed bodies never touch.
+/// Selects the bodies that a body may touch. Two bodies in one non-zero group may touch if the group is
+/// positive, and may not if it is negative. Any other pair may touch if the category of each has a bit in
+/// the mask of the other. By default every pair may touch. Walls are not filtered. Two static bodies never
+/// touch.
 struct Filter {
   std::uint64_t category = 1;
   std::uint64_t mask = std::numeric_limits<std::uint64_t>::max();
@@ -20,14 +21,14 @@ struct Filter {
   friend constexpr bool operator==(const Filter&, const Filter&) = default;
 };
 
-/// Whether bodies with these filters may touch.
+/// Returns true if bodies with these filters may touch.
 constexpr bool passes(const Filter& a, const Filter& b) {
   if (a.group != 0 && a.group == b.group) return a.group > 0;
   return (a.category & b.mask) != 0 && (b.category & a.mask) != 0;
 }
 
-/// Whether two bodies, whose filters let them, may touch: World::set_pair_filter, which says what it may ask
-/// the world.
+/// Predicate that returns true if two bodies whose filters let them touch may do so.
+/// World::set_pair_filter() gives its preconditions and the calls that it may make.
 using PairFilter = std::function<bool(BodyId, BodyId)>;
 
 }  // namespace kinesphere

@@ -1,5 +1,5 @@
-// All of the library that watches bodies: the world, the monitor, ready-made motions, responses and
-// recordings.
+// Includes the whole library except the distributed world: the world, the monitor, ready-made motions,
+// responses and recordings.
 #pragma once
 
 #include "kinesphere/answers.hpp"

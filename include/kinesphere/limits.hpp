@@ -1,52 +1,53 @@
-// The numbers that the library takes: every limit, stated once.
+// Limits of all numbers that the library accepts, each stated once.
 //
 // Input beyond a limit is refused with an error that names the argument and the body. Within the limits no
-// square or product that decides anything overflows or underflows: what single precision cannot square is
-// looked at in double precision, and what double precision would lose to underflow is added to its margins.
-// docs/guarantee.md ("Numbers of all sizes") shows why.
+// square or product that affects a decision overflows or underflows: values that single precision cannot
+// square are computed in double precision, and values that double precision would lose to underflow are
+// added to its margins. docs/guarantee.md ("Numbers of all sizes") gives the reasons.
 #pragma once
 
 namespace kinesphere::limits {
 
-// What a world takes.
+// Limits of a world's input.
 
-/// The contact tolerance (length) lies between these two.
+/// Range of the contact tolerance (length).
 inline constexpr double least_contact_tolerance = 1e-30;
 inline constexpr double largest_contact_tolerance = 1e20;
 
-/// In contact tolerances, so 2.2e6 for the default of 1e-6: each coordinate of a position, a box or a shape,
-/// radii, position errors, sensor distances and the separation distance are at most this. Then the rounding
-/// of a certificate stays well within one tolerance.
+/// Largest length, in contact tolerances; 2.2e6 for the default of 1e-6. It limits each coordinate of a
+/// position, a box or a shape, radii, position errors, sensor distances and the separation distance. It
+/// keeps the rounding of a certificate well within one tolerance.
 inline constexpr double largest_length = 0x1p41;
 
-/// Each component of a velocity, and a velocity error, is at most this (length / time).
+/// Largest component of a velocity, and largest velocity error (length / time).
 inline constexpr double largest_speed = 1e100;
 
-/// Each component of a planned acceleration, and an acceleration limit, is at most this (length / time^2).
+/// Largest component of a planned acceleration, and largest acceleration limit (length / time^2).
 inline constexpr double largest_acceleration = 1e100;
 
-/// Times lie within +- this: the start of a world, and all that it advances to.
+/// Largest absolute value of a time: the start of a world, and all times to which it advances.
 inline constexpr double largest_time = 1e30;
 
-/// The window and the time resolution of a monitor (time) lie between this and largest_time.
+/// Least window and least time resolution of a monitor (time); largest_time is their maximum.
 inline constexpr double least_time = 1e-30;
 
-/// Of queries, in contact tolerances: a radius or the length of a way.
+/// Largest radius, distance or ray length of a query, in contact tolerances.
 inline constexpr double largest_query_length = 4.0 * largest_length;
 
-/// Each component of the direction of a way, which may have any length but zero.
+/// Largest component of a ray's direction, which may have any length except zero.
 inline constexpr double largest_direction = 1e100;
 
-// What the functions of bound.hpp take. They refuse nothing.
+// Limits of the functions of bound.hpp, which refuse nothing.
 
-/// Beyond this they are certain of nothing: an earliest time is `from`, and gap limits are infinite. It
-/// concerns the sum of the magnitudes of all lengths that go into a question, that of all speeds, and that of
-/// all accelerations: positions, radii and the ways from the reports to `from`, say, make up the lengths.
+/// Size beyond which these functions give no certain result: an earliest time is `from`, and gap limits are
+/// infinite. It applies to the sum of the magnitudes of all lengths that enter a computation, to that of
+/// all speeds and to that of all accelerations. Lengths include positions, radii and the distances
+/// travelled from the reports to `from`.
 inline constexpr double largest_size = 0x1p480;
 
-/// So much is added to each of these sums, unless it is zero, before margins for rounding are taken from it.
-/// Numbers far below it may have any size, zero included, and only make answers earlier: bodies and gaps
-/// smaller than about 1e-146 cannot be told from contacts.
+/// Amount added to each of these sums, unless it is zero, before rounding margins are computed from it.
+/// Numbers far below it may have any size, including zero, and only make results earlier: bodies and gaps
+/// smaller than about 1e-146 are indistinguishable from contacts.
 inline constexpr double least_size = 0x1p-480;
 
 }  // namespace kinesphere::limits

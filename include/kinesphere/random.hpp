@@ -1,6 +1,5 @@
-// Random numbers that are the same on every machine: splitmix64 (Steele, Lea and Flood 2014), and vectors
-// drawn by rejection. A draw never depends on the order of questions when each question has a generator of
-// its own:
+// Random numbers that are identical on every machine: splitmix64 (Steele, Lea and Flood 2014), and vectors
+// drawn by rejection. With one generator per query, a draw does not depend on the order of queries:
 //   Vec3 force = Random::at(seed, body, interval).point_in_ball();
 #pragma once
 
@@ -14,24 +13,25 @@ class Random {
  public:
   explicit constexpr Random(std::uint64_t seed) : counter_(seed) {}
 
-  /// The generator that belongs to (seed, stream, index) alone; all of them are independent.
+  /// Returns the generator that depends on (seed, stream, index) alone; different triples give independent
+  /// generators.
   static constexpr Random at(std::uint64_t seed, std::uint64_t stream, std::uint64_t index) {
     return Random(mixed(mixed(mixed(seed) ^ stream) ^ index));
   }
 
-  /// 64 random bits.
+  /// Returns 64 random bits.
   constexpr std::uint64_t bits() { return mixed(counter_ += step); }
 
-  /// In [0, 1), a multiple of 2^-53.
+  /// Returns a number in [0, 1), a multiple of 2^-53.
   constexpr double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
-  /// In [lower, upper] (rounding may give `upper` itself).
+  /// Returns a number in [lower, upper] (rounding may give `upper` itself).
   double uniform(double lower, double upper);
 
-  /// Uniform in the ball of radius 1 around the origin. Takes about 2 tries.
+  /// Returns a point uniform in the ball of radius 1 around the origin. Cost: about 2 rejection tries.
   Vec3 point_in_ball();
 
-  /// Uniform on the sphere of radius 1 around the origin.
+  /// Returns a point uniform on the sphere of radius 1 around the origin.
   Vec3 unit_vector();
 
  private:

@@ -1,7 +1,7 @@
-// Recordings: all that went into a world and came out of it, so that it can be gone through again.
+// Recordings: all input and output of a world, for replay.
 //
 //   world.start_recording().value();
-//   // ... advance, change and ask the world as ever
+//   // ... advance, change and query the world as usual
 //   std::vector<std::byte> recording = world.stop_recording().value();
 //
 //   Replay replay = Replay::open(recording).value();
@@ -9,10 +9,10 @@
 //     if (auto event = replay.advance().value()) ...  // replay.world() is as the world was then
 //   }
 //
-// A recording holds the world as it was at the start, every change, every state that a probe reported, and
-// the outcome of every call that could probe, with a hash of the event and of all work done so far. A replay
-// is a real world whose probe answers from the recording: nothing else is needed, on any machine, and the
-// first step that goes another way is named.
+// A recording holds the world as it was at the start, every change, every probed state, and the outcome of
+// every call that could probe, with a hash of the event and of all work so far. A replay is a real world
+// whose probe reads from the recording: it needs nothing else, on any machine, and names the first step
+// that differs.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,7 @@
 
 namespace kinesphere {
 
-/// A state that a probe reported.
+/// A state that a probe reported, with its time and body.
 struct ProbedState {
   double time = 0.0;
   BodyId body = no_body;
@@ -38,10 +38,10 @@ struct ProbedState {
 
 class Replay {
  public:
-  /// A world that was recorded with a pair filter needs it again: one that answers as it did then. It may
-  /// look at world(). The bytes are copied. Errors: bad_recording for bytes that are foreign, cut short,
-  /// damaged, of another format version, or that cannot have been recorded; bad_snapshot for a world in them
-  /// that cannot be; out_of_range for a pair filter that is missing.
+  /// Opens a recording; the bytes are copied. A world that was recorded with a pair filter needs a filter
+  /// here that returns the recorded results; the filter may read world(). Errors: bad_recording for bytes
+  /// that are foreign, truncated, damaged, of another format version, or that cannot have been recorded;
+  /// bad_snapshot for an impossible world in them; out_of_range for a missing pair filter.
   static Result<Replay> open(std::span<const std::byte> recording, PairFilter pair_filter = {});
 
   Replay(Replay&&) noexcept;
@@ -49,18 +49,19 @@ class Replay {
   ~Replay();
 
   /// Repeats everything up to the end of the next recorded advance(), or of the recording, and returns what
-  /// that advance() returned (nothing where it failed). Errors: diverged, naming the step, what was recorded
-  /// and what came instead, the same at every further call.
+  /// that advance() returned (nothing if it failed). Errors: diverged, naming the step, the recorded and
+  /// the actual outcome; every further call returns it again.
   Result<std::optional<Event>> advance();
-  /// Nothing is left, and the world has ended as the recorded one did, to the last bit.
+  /// True if no step is left and the world has ended as the recorded one did, to the last bit.
   bool finished() const;
 
-  /// As it is after the last step; for reading.
+  /// Returns the world after the last repeated step, for reading.
   const World& world() const;
-  /// Steps repeated so far, and all there are: changes and calls that could probe.
+  /// Number of steps repeated so far, and in total; steps are changes and calls that could probe.
   std::size_t step() const;
   std::size_t step_count() const;
-  /// Of all outcomes so far. The per-step hash of the recording is what this was after the step.
+  /// Hash of all outcomes so far; after each step it equals the hash that the recording holds for that
+  /// step.
   std::uint64_t hash() const;
 
  private:
@@ -69,16 +70,16 @@ class Replay {
   std::unique_ptr<Player> player_;
 };
 
-/// What a viewer can draw without replaying.
+/// Contents of a recording that a viewer can draw without a replay.
 struct RecordedRun {
   double start_time = 0.0;
   double end_time = 0.0;
   std::vector<Event> events{};
-  /// In the order in which they came; states of probes that failed are left out.
+  /// In recorded order, without the states of probes that failed.
   std::vector<ProbedState> probed_states{};
 };
 
-/// Reads a recording without repeating it. Errors: as Replay::open.
+/// Reads a recording without replaying it. Errors: as Replay::open().
 Result<RecordedRun> read_recording(std::span<const std::byte> recording);
 
 }  // namespace kinesphere

@@ -1,4 +1,4 @@
-// Wrong input is answered with a value: which argument, of which body, and why.
+// Error values: a call with invalid input returns the argument, the body and the reason.
 //
 //   auto id = world.add({.radius = -1});
 //   if (!id) std::puts(id.error().message.c_str());
@@ -20,49 +20,49 @@ namespace kinesphere {
 
 enum class ErrorCode {
   not_finite,          ///< a number is NaN or infinite
-  out_of_range,        ///< a number is finite but outside the range that its description gives
-  time_backwards,      ///< a time lies before the world's current time
-  unknown_body,        ///< an id that this world never gave out
-  stale_body,          ///< an id of a body that has been removed
-  foreign_body,        ///< an id that another world gave out
-  disabled_body,       ///< the call needs a body that is enabled
-  enabled_body,        ///< the call needs a body that is disabled
+  out_of_range,        ///< a number is finite but outside its documented range
+  time_backwards,      ///< a time lies before the current time of the world or monitor
+  unknown_body,        ///< the world, monitor or motion never issued this id
+  stale_body,          ///< the body has been removed
+  foreign_body,        ///< another world issued this id
+  disabled_body,       ///< the call needs an enabled body
+  enabled_body,        ///< the call needs a disabled body
   static_body,         ///< the call needs a body that can move
   outside_domain,      ///< a body does not lie inside the box of its world
-  overlapping,         ///< two bodies overlap where the world does not allow it
-  probe_in_progress,   ///< the world was called from inside its own probe
-  filter_in_progress,  ///< the world was called from inside its own pair filter
-  run_in_progress,     ///< the world is in a run(), or has yet to tell the events of an interrupted one
-  workers_busy,        ///< the workers are at work in another run()
-  no_threads,          ///< the system does not give as many threads
-  null_probe,          ///< the probe is a null function pointer or an empty std::function
-  null_callback,       ///< so is respond or the sink of a run(), or a function of a task system
-  callback_threw,      ///< in a distributed world, which ends then: a function of the caller's threw
-  rank_failed,         ///< a distributed world cannot go on after an error
-  moved_from,          ///< the world has been moved from: only assigning to it and destroying it are left
-  unsupported,         ///< this detector cannot do what the scene asks for
-  bad_snapshot,        ///< bytes that no world can be restored from
-  bad_bytes,           ///< bytes that no body of a motion can be read from
-  recording,           ///< the world is being recorded already
-  not_recording,       ///< the world is not being recorded
-  bad_recording,       ///< bytes that are no recording
-  diverged,            ///< a replay went another way than its recording
+  overlapping,         ///< two bodies overlap in a world that does not allow it
+  probe_in_progress,   ///< a world or monitor was called inside its own callback (a probe, a sink)
+  filter_in_progress,  ///< the world was called inside its own pair filter
+  run_in_progress,     ///< the world is in a run(), or an interrupted one left undelivered events
+  workers_busy,        ///< the workers are busy in another run()
+  no_threads,          ///< the system cannot start as many threads
+  null_probe,          ///< a probe or a monitor's poll is a null pointer or an empty std::function
+  null_callback,       ///< a response, event or task function is a null pointer or an empty std::function
+  callback_threw,      ///< a caller's function threw in a distributed world, which ends then
+  rank_failed,         ///< a distributed world cannot continue after an error
+  moved_from,          ///< the object has been moved from: it may only be assigned to and destroyed
+  unsupported,         ///< the object does not support this operation
+  bad_snapshot,        ///< no world or monitor can be restored from these bytes
+  bad_bytes,           ///< no body of a motion can be read from these bytes
+  recording,           ///< the world is already recorded
+  not_recording,       ///< the world is not recorded
+  bad_recording,       ///< these bytes are not a recording
+  diverged,            ///< a replay differs from its recording
 };
 
-/// "not_finite" and so on.
+/// Returns the name of a code, such as "not_finite".
 std::string_view name_of(ErrorCode code);
 
 struct Error {
   ErrorCode code = ErrorCode::out_of_range;
-  /// The argument that is wrong, as its declaration spells it.
+  /// The invalid argument, spelled as in its declaration.
   std::string argument;
-  /// The body that it concerns, or no_body.
+  /// The body concerned, or no_body.
   BodyId body = no_body;
-  /// One line for a person: the call, the argument, the body, what was expected and what came.
+  /// One line for a person: the call, the argument, the body, the expected and the actual value.
   std::string message;
 };
 
-/// What Result::value() throws. Code that checks its results never sees it.
+/// Exception that Result::value() throws. Code that checks its results never sees it.
 class BadResult : public std::runtime_error {
  public:
   explicit BadResult(Error error) : std::runtime_error(error.message), error_(std::move(error)) {}
@@ -95,13 +95,12 @@ namespace detail {
 
 }  // namespace detail
 
-/// Either a value or an Error. value(), `*` and `->` throw BadResult when there is only an error; error()
-/// throws std::logic_error when there is none. Where exceptions are switched off they print the message and
-/// abort instead.
+/// Either a value or an Error. value(), `*` and `->` throw BadResult if there is only an error; error()
+/// throws std::logic_error if there is none. Without exceptions they print the message and abort instead.
 ///
-/// Of a temporary Result, value() and `*` give the value itself, not a reference, so that
-///   for (const Found& found : *world.overlapping(centre, radius)) ...
-/// is safe. `->` on a temporary is good within its own expression, as with std::expected:
+/// On a temporary Result, value() and `*` return the value itself, not a reference, so that this is safe:
+///   for (const OverlapHit& hit : *world.overlapping(centre, radius)) ...
+/// `->` on a temporary is valid within its own expression, as with std::expected:
 ///   if (world.body(id)->enabled) ...
 template <class T>
 class [[nodiscard]] Result {
@@ -153,7 +152,7 @@ class [[nodiscard]] Result {
   std::variant<T, Error> content_;
 };
 
-/// Success, or an Error; success costs next to nothing.
+/// Success or an Error. Success needs no allocation.
 template <>
 class [[nodiscard]] Result<void> {
  public:

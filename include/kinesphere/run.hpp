@@ -1,16 +1,17 @@
-// Who moves the bodies, answers events and hears of them while World::run goes on by itself.
+// Callbacks of World::run(): a motion source moves the bodies, a response function answers events, and an
+// event function receives them.
 //
-//   SingleMotionSource mover(motion);
-//   const auto respond = [&](const Event& event) -> Answer {
+//   SingleMotionSource source(motion);
+//   const auto respond = [&](const Event& event) -> Response {
 //     if (event.kind != EventKind::contact_begin) return {};
 //     const Bounce after = bounce(event, 1, 1, 0.9);
 //     return {after.first_velocity, after.second_velocity};
 //   };
 //   const auto sink = [&](const Event& event) { log(event); };
-//   world.run(60.0, mover, respond, sink).value();
+//   world.run(60.0, source, respond, sink).value();
 //
-// The same could be written as a loop over World::advance(). The loop may do anything at an event; run()
-// knows beforehand what an event can do: change the velocities of its bodies, as a function of the event
+// A loop over World::advance() gives the same result. The loop may do anything at an event, whereas run()
+// knows in advance what an event can do: change the velocities of its bodies, as a function of the event
 // alone.
 #pragma once
 
@@ -23,21 +24,21 @@
 
 namespace kinesphere {
 
-/// Where a body set out from the last time that anybody changed it, and when.
+/// Time and state of the body's last externally imposed change.
 struct MotionOrigin {
   double time = 0.0;
   State state{};
 };
 
-/// Moves the bodies of a world for World::run. Those of a Motion are moved by a SingleMotionSource, those of
-/// a BodyMap by BodyMap::source().
+/// Moves the bodies of a world for World::run(). SingleMotionSource adapts a Motion; BodyMap::source()
+/// adapts the motions of a BodyMap.
 ///
-/// A body moves as its departure says: the state of a body at a time depends on that body, that time and its
-/// departure, and on nothing else; not on the times that were asked for before, nor on other bodies. Times
-/// may be asked for in any order, from the departure on.
+/// The origin of a body determines its motion: the state of a body at a time depends on that body, that
+/// time and its origin, and on nothing else, neither on earlier queries nor on other bodies. States may be
+/// queried at times in any order, from the time of the origin on.
 ///
-/// All three functions are called from several threads at the same time, for different bodies; never for the
-/// same body at the same time. They may throw: World::run says what holds then. None of them may call the
+/// Threads. The three functions are called concurrently from several threads for different bodies, but
+/// never concurrently for the same body. They may throw (see World::run()). None of them may call the
 /// world.
 class MotionSource {
  public:
@@ -46,27 +47,29 @@ class MotionSource {
   /// Sets states[k] to the state of ids[k] at `time`, as a Probe does.
   virtual void states(std::span<const BodyId> ids, double time, std::span<State> states) = 0;
   virtual MotionOrigin origin(BodyId body) const = 0;
-  /// From now on the body is one that set out from there. World::run calls it with the velocity of an answer,
-  /// and with an earlier departure to take that back: then it may throw only when that is done, as the world
-  /// would believe the body to be elsewhere.
+  /// Makes the body move from this origin from now on. World::run() calls it with the velocity of a
+  /// response, and with an earlier origin to undo such a change. If it throws, it must already have set an
+  /// origin in the undo case; otherwise the world and the motion source disagree about the place of the
+  /// body.
   virtual void set_origin(BodyId body, const MotionOrigin& origin) = 0;
 };
 
-/// What an event does to its bodies: the velocities that they have from then on. A body that is given none
-/// goes on as it did.
+/// The effect of an event on its bodies: their velocities (length / time) from the event on. A body without
+/// a velocity here continues unchanged.
 struct Response {
   std::optional<Vec3> first_velocity{};
   std::optional<Vec3> second_velocity{};
 };
 
-/// Any callable `Answer(const Event&)`. The same event must get the same answer, at any time and in any
-/// thread: it is called from several threads at the same time, and may be called again for an event that it
-/// has answered already. It may read what does not change during the run, such as masses by BodyId::index or
-/// by user data; it may not call the world. It may throw. Lifetimes are those of a Probe.
+/// Any callable `Response(const Event&)`. It must return the same response for the same event, at any time
+/// and in any thread: several threads may call it concurrently, and again for an event that it has already
+/// handled. It may read data that does not change during the run, such as masses by BodyId::index or by
+/// user data. It must not call the world. It may throw. Lifetimes: as for Probe.
 using ResponseFn = Callback<Response(const Event& event)>;
 
-/// Any callable `void(const Event&)`. It is told each event once, in the order of events, in the thread that
-/// called World::run. It may do anything but change the world. It may throw. Lifetimes are those of a Probe.
+/// Any callable `void(const Event&)`. It receives each event once, in the order of events, in the thread
+/// that called World::run(). It may do anything except change the world. It may throw. Lifetimes: as for
+/// Probe.
 using EventFn = Callback<void(const Event& event)>;
 
 }  // namespace kinesphere

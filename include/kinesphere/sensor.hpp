@@ -1,4 +1,4 @@
-// Sensors: distances at which the world tells that another body comes near, or goes.
+// Sensors: distances at which the world reports that another body approaches or leaves.
 #pragma once
 
 #include <cstdint>
@@ -9,25 +9,26 @@
 
 namespace kinesphere {
 
-/// Two bodies that may meet (Filter) cross each distance that either of them senses the other at:
-/// sensor_enter when the gap between their surfaces has come down to it, sensor_leave when it has grown to
-/// the separation distance beyond it. Found with the same rigour as contacts, however fast the bodies are.
+/// Sensor distances of a class of bodies. For two bodies whose filters let them meet, each distance at
+/// which either senses the other causes sensor_enter when the gap between their surfaces has shrunk to it,
+/// and sensor_leave when the gap has grown to it plus the separation distance. Crossings are found with the
+/// guarantee of contacts, at any speed.
 struct Sensor {
-  /// Each >= 0 (length): for instance 50 to warn and 10 for an alarm. Any number of them, in any order.
+  /// Each >= 0 (length), for instance 50 to warn and 10 for an alarm. Any number of them, in any order.
   std::vector<double> distances{};
-  /// It senses bodies whose category (Filter::category) has a bit in this mask.
+  /// The sensor senses bodies with a category bit (Filter::category) in this mask.
   std::uint64_t mask = std::numeric_limits<std::uint64_t>::max();
 
   friend bool operator==(const Sensor&, const Sensor&) = default;
 };
 
-/// All bodies of a class have the same sensor: World::set_sensor.
+/// Class of bodies that share a sensor: World::set_sensor().
 using SensorClass = std::uint8_t;
 
-/// The class of zones (World::add_zone). No other body should be in it.
+/// The class of zones (World::add_zone). No other body should belong to it.
 inline constexpr SensorClass zone_class = 255;
 
-/// Another body within a sensor distance.
+/// Another body within a sensor distance (length), as World::sensor_overlaps() returns it.
 struct SensorOverlap {
   BodyId body = no_body;
   double distance = 0.0;

@@ -1,9 +1,8 @@
-// A vector of three doubles, and the axis-aligned box between two of them.
+// Vec3, a vector of three doubles, and Box, the axis-aligned box between two of them.
 //
-// Functions in public headers that calculate are inlined everywhere, without optimisation too. A copy of its
-// own, as compilers make of other inline functions, could be the one that the linker keeps for the whole
-// program: the library would then calculate with code that was compiled with its user's flags, which may
-// round otherwise.
+// Arithmetic functions in public headers are inlined everywhere, even without optimisation. Compilers emit
+// out-of-line copies of other inline functions, and the linker keeps one of them for the whole program: the
+// library would then compute with code compiled with its user's flags, which may round differently.
 #pragma once
 
 #include <algorithm>
@@ -50,7 +49,7 @@ struct Vec3 {
 [[gnu::always_inline]] constexpr double norm_squared(const Vec3& a) { return dot(a, a); }
 [[gnu::always_inline]] inline double norm(const Vec3& a) { return std::sqrt(norm_squared(a)); }
 
-/// |x| + |y| + |z|: the cheap size that rounding margins are taken from.
+/// Returns |x| + |y| + |z|, the inexpensive norm from which rounding margins are computed.
 [[gnu::always_inline]] inline double norm_one(const Vec3& a) {
   return std::abs(a.x) + std::abs(a.y) + std::abs(a.z);
 }

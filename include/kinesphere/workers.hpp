@@ -1,5 +1,4 @@
-// Who does the work of World::run: threads of the library's own, or the task system of a program that has
-// one.
+// Workers of World::run(): threads of the library, or the task system of a program that has one.
 #pragma once
 
 #include <cstddef>
@@ -11,43 +10,44 @@ namespace kinesphere {
 
 class ThreadPool;
 
-/// A program's own task system. A task is a function that is to be called for ranges which together cover the
-/// items from 0 to item_count exactly once; the ranges may be called one after the other or at the same time,
-/// in any order and in any threads.
+/// A program's own task system. A task is a function to be called for ranges that together cover the items
+/// from 0 to item_count exactly once. The ranges may be called sequentially or concurrently, in any order
+/// and in any threads.
 struct TaskSystem {
   using Task = void (*)(std::size_t begin, std::size_t end, void* task_context);
 
-  /// How many threads work on tasks, the one that calls World::run included: from 1 to 256.
+  /// Number of threads that work on tasks, including the one that calls World::run(): from 1 to 256.
   int threads = 1;
-  /// Takes a task, and may return before it is done. No range that it is cut into needs to have more than
-  /// least_range items. What it returns is handed to finish() and may be null. It must not throw.
+  /// Accepts a task, and may return before it is done. No range needs more than least_range items. Its
+  /// return value is passed to finish() and may be null. It must not throw.
   void* (*enqueue)(Task task, std::size_t item_count, std::size_t least_range, void* task_context,
                    void* user_context) = nullptr;
-  /// Called once for each task that was taken, in the thread that enqueued it: returns when it is done. It
-  /// must not throw.
+  /// Waits until a task is done. It is called once for each accepted task, in the thread that enqueued it,
+  /// and must not throw.
   void (*finish)(void* handle, void* user_context) = nullptr;
   void* user_context = nullptr;
 };
 
-/// Works for one run at a time, of any world; another one that is begun meanwhile fails with workers_busy.
-/// Idle threads look out for more to do for a moment (they yield a hundred times), then they sleep.
+/// Serves one run() at a time, of any world; another run() that starts meanwhile fails with workers_busy.
+/// Idle threads yield a hundred times while they look for work, and then sleep.
 class Workers {
  public:
   static constexpr int most_threads = 256;
 
-  /// `threads` in all, the one that calls World::run included: from 1, which starts none, to most_threads.
-  /// Errors: out_of_range; no_threads where the system does not give as many.
+  /// Creates workers with `threads` threads in total, including the one that calls World::run(): from 1,
+  /// which starts no thread, to most_threads. Errors: out_of_range; no_threads if the system cannot start
+  /// as many.
   [[nodiscard]] static Result<Workers> create(int threads);
-  /// Errors: out_of_range (threads); null_callback.
+  /// Creates workers that use a task system. Errors: out_of_range (threads); null_callback.
   [[nodiscard]] static Result<Workers> create(const TaskSystem& task_system);
 
-  /// Not while they work.
+  /// Workers must not be moved, assigned to or destroyed during a run().
   Workers(Workers&&) noexcept;
   Workers& operator=(Workers&&) noexcept;
   ~Workers();
 
-  /// How many threads work at most. 0 for Workers that have been moved from: the calling thread works alone
-  /// then.
+  /// Returns the largest number of threads that work. 0 for moved-from Workers: the calling thread then
+  /// works alone.
   int count() const;
 
  private:

@@ -1,4 +1,5 @@
-// The world: moving spheres with unknown trajectories, and every contact among them, in time order.
+// A World watches moving spheres with unknown trajectories and reports every contact among them in time
+// order.
 //
 //   #include <kinesphere/kinesphere.hpp>
 //   using namespace kinesphere;
@@ -20,11 +21,12 @@
 //   }
 //   // now world.time() == 60
 //
-// The caller moves the bodies and the world watches them: it asks the probe for the state of a body only when
-// that can matter, and stops at each event. At each stop, also between the events of one instant, bodies may
-// be added, removed and changed in any way. The guarantee: as long as bodies move within the limits that
-// they have promised (BodyDefinition), no two of them overlap by more than the contact tolerance unreported.
-// docs/guarantee.md has the proof.
+// The caller moves the bodies. The world probes the state of a body only when that state can matter, and
+// stops at each event. At each stop, also between two events of one instant, the caller may add, remove and
+// change bodies.
+//
+// Guarantee: while every body keeps its motion limits (BodyDefinition), no two bodies overlap by more than
+// the contact tolerance without a report. docs/guarantee.md has the proof.
 #pragma once
 
 #include <array>
@@ -55,179 +57,186 @@
 
 namespace kinesphere {
 
-/// What the world knows of a body now.
+/// The world's present knowledge of one body, as World::body() returns it.
 struct BodyView {
-  BodyDefinition definition{};  ///< with the state of the last report
-  Bound bound{};                ///< since the last report
-  /// Contains the body, and all that it senses, from now until box_end, unless it was changed since the last
-  /// advance. Of no use, with box_end now, for one that the next advance has to find a place for.
+  BodyDefinition definition{};  ///< its state is that of the last report
+  Bound bound{};                ///< time-varying bound, valid since the last report
+  /// Box that contains the body and its sensor range from now until box_end. Invalid (box_end == time())
+  /// until the next advance() if the body was just added or changed.
   Box box{};
   double box_end;
-  /// Where space repeats: how many boxes the body has gone beyond the first one. definition.position, which
-  /// is in the first, plus the size of the box times this is on the path from where the caller last placed
-  /// the body (add, teleport, enable) to here.
+  /// Periodic axes: the number of whole boxes that the body has travelled beyond the primary image.
+  /// definition.position lies in the primary image. Adding image times the box size gives a position on the
+  /// path that starts where the caller last placed the body (add, teleport, enable).
   std::array<std::int64_t, 3> image{};
-  bool enabled;  ///< while it is false, bound and box are stale
-  /// It never moves: shape_of() tells its shape. Its state is that of one point of it, and box_end is
-  /// infinite.
+  bool enabled;  ///< false for a disabled body: bound and box are stale then
+  /// True for a static body. World::shape_of() returns its shape; its state is that of one point of the
+  /// shape, and box_end is infinite.
   bool is_static;
-  /// It rests (World::sleep): it is not probed, and its bound stands still.
+  /// True while the body sleeps (World::sleep): it is not probed, and its bound stays constant.
   bool sleeping;
 };
 
-/// The first thing that audit() found wrong.
+/// First discrepancy that World::audit() found.
 struct AuditFinding {
-  /// "registration", "certificate", "contact", "sensor", "wall", "filter" or "queue"; "call" where the audit
-  /// could not be made
+  /// One of "registration", "certificate", "contact", "sensor", "wall", "filter", "queue"; "call" if the
+  /// audit could not run.
   std::string where;
-  std::string what;  ///< which bodies, what is recorded, what it should be
+  std::string what;  ///< the bodies, the recorded value and the expected value
 };
 
 enum class CallState;
 class Recorder;
 class Workers;
 
-/// Errors. Every call checks what it is handed, in every build type, and a call that returns an error has
-/// changed nothing. Besides the errors that stand at a call,
+/// Errors. Every call validates its arguments in every build type, and a call that returns an error has
+/// changed nothing. Besides the errors listed at each call,
 ///   - a call that names a body may return unknown_body, stale_body (the body has been removed) or
-///     foreign_body (the id is one of another world);
-///   - a call that changes the world or could probe, and every other call marked with probe_in_progress
-///   below,
-///     returns that inside this world's own probe, filter_in_progress inside its own pair filter, and
-///     run_in_progress inside the mover, respond and sink of its own run();
-///   - a call that takes a Probe may return null_probe and, for a bad answer, not_finite or out_of_range;
-///   - a world that has been moved from answers every call with moved_from, or throws BadResult where a call
-///     returns no Result.
+///     foreign_body (another world issued the id);
+///   - a call that changes the world or could probe, and every other call that lists probe_in_progress,
+///     returns probe_in_progress inside this world's own probe, filter_in_progress inside its own pair
+///     filter, and run_in_progress inside the motion source, response function and event function of its
+///     own run();
+///   - a call that takes a Probe may return null_probe and, for an invalid state, not_finite or
+///     out_of_range;
+///   - a moved-from world answers every call with moved_from, or throws BadResult where a call returns no
+///     Result.
 ///
-/// Threads. One thread at a time may use a world, which may have the help of others in run(); const calls may
-/// run at the same time as other const calls of the same world, as long as its pair filter may be called so.
-/// Different worlds, clones too, are independent.
+/// Threads. One thread at a time may use a world; run() may use further threads (Workers). Const calls may
+/// run concurrently with other const calls of the same world if its pair filter may be called concurrently.
+/// Different worlds, including clones, are independent.
 ///
-/// Lifetimes. References that a world gives out (definition(), counters(), sensor()) are good as long as the
-/// world lives and is not assigned to; what they refer to changes as the world goes on. sensor() is good
-/// until the next set_sensor(). The spans of a probe are good during its call. All else is a copy.
+/// Lifetimes. References that a world returns (definition(), counters(), sensor()) stay valid until the
+/// world is destroyed or assigned to; the referenced values change as the world advances. The reference
+/// from sensor() is valid until the next set_sensor(). The spans passed to a probe are valid during that
+/// call. Everything else is returned by value.
 class World {
  public:
-  /// Errors: not_finite or out_of_range, naming the field.
+  /// Creates a world without bodies, at start_time. Errors: not_finite or out_of_range, naming the field.
   [[nodiscard]] static Result<World> create(const WorldDefinition& definition);
 
-  /// Of a world that has been moved from all calls fail with moved_from; those that do not return a Result
-  /// throw BadResult. It may be assigned to and destroyed. A world that is moved from, assigned to or
-  /// destroyed inside its own probe, pair filter or run stops the program, with a message: the call that
-  /// asked has nowhere to return to.
+  /// A moved-from world may only be assigned to and destroyed: every other call fails with moved_from, or
+  /// throws BadResult where it returns no Result. Moving, assigning to or destroying a world inside its own
+  /// probe, pair filter or run() prints a message and terminates the program, because the active call
+  /// cannot return.
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
   ~World();
 
-  /// Adds a body at the current time. Errors: not_finite; out_of_range (a negative radius, limit or error; a
-  /// number beyond limits.hpp; where space
-  /// repeats, a radius or sensor distance for which the box is too small); outside_domain; overlapping;
-  /// probe_in_progress. Cost: O(1) here (a search where overlaps are not allowed), a search at the
-  /// next advance.
+  /// Adds a body at the current time. Errors: not_finite; out_of_range (a negative radius, limit or error;
+  /// a number beyond limits.hpp; on periodic axes, a radius or sensor distance that is too large for the
+  /// box); outside_domain; overlapping; probe_in_progress. Cost: O(1) here (plus a search if allow_overlap
+  /// is false), and a search at the next advance.
   Result<BodyId> add(const BodyDefinition& body);
-  /// Makes room for this many bodies in all, as std::vector::reserve() does: adding them takes less time and
-  /// memory then, and nothing else changes. Errors: probe_in_progress; out_of_range (more than 2^32 - 1).
+  /// Reserves memory for `bodies` bodies in total, like std::vector::reserve(). Adding them takes less time
+  /// and memory afterwards; nothing else changes. Errors: probe_in_progress; out_of_range (more than 2^32 -
+  /// 1).
   Result<void> reserve(std::size_t bodies);
-  /// Adds all of them or, on an error (as above, naming the one), none.
+  /// Adds all bodies or, on an error, none. Errors: as add(), naming the body.
   Result<std::vector<BodyId>> add_all(std::span<const BodyDefinition> bodies);
 
-  /// Adds a body that never moves. It has an id, a filter and contacts like any other, and is the `first` or
-  /// `second` of their events; it is never probed, and fixed bodies do not concern each other. It may reach
-  /// out of the box of the world. Errors: not_finite; out_of_range (a coordinate, offset or radius beyond
-  /// limits.hpp, a negative radius, a box without lower <= upper, a triangle thinner than 2^-20
-  /// of its longest side, a normal whose length differs from 1 by more than 10^-6: the world makes it 1);
-  /// unsupported (all but balls where space repeats, a triangle in two dimensions); overlapping;
-  /// probe_in_progress. Cost: O(1) here (a search where overlaps are not allowed), a search at the
-  /// next advance.
+  /// Adds a body that never moves. It has an id, a filter and contacts like any other body, and appears as
+  /// `first` or `second` in their events. It is never probed, two static bodies never interact, and its
+  /// shape may extend beyond the box of the world. Errors: not_finite; out_of_range (a coordinate, offset
+  /// or radius beyond limits.hpp, a negative radius, a box without lower <= upper, a triangle thinner than
+  /// 2^-20 of its longest side, a normal whose length differs from 1 by more than 10^-6; smaller
+  /// differences are normalized); unsupported (on periodic axes every shape but Ball; a triangle in two
+  /// dimensions); overlapping; probe_in_progress. Cost: O(1) here (plus a search if allow_overlap is
+  /// false), and a search at the next advance.
   Result<BodyId> add_static(const StaticDefinition& body);
-  /// Adds a zone: a fixed body that touches nobody and tells who comes in and goes, by sensor_enter and
-  /// sensor_leave at distance 0. It belongs to the sensor class zone_class (255), which gets that distance
-  /// with the first zone if it has none; set_sensor(zone_class, ...) gives all zones other distances or
-  /// another mask, set_filter one of them another filter. Errors and cost: as add_static().
+  /// Adds a zone: a static body that has no contacts and reports the bodies that enter and leave it, with
+  /// sensor_enter and sensor_leave at distance 0. Zones belong to the sensor class zone_class (255). If
+  /// that class has no sensor distance yet, the first zone sets it to 0. set_sensor(zone_class, ...)
+  /// changes the distances and the mask of all zones; set_filter() changes the filter of one zone. Errors
+  /// and cost: as add_static().
   Result<BodyId> add_zone(const Shape& shape, std::uint64_t user_data = 0);
-  /// Adds all of them or, on an error (as above, naming the one), none.
+  /// Adds all static bodies or, on an error, none. Errors: as add_static(), naming the body.
   Result<std::vector<BodyId>> add_static_all(std::span<const StaticDefinition> bodies);
-  /// The shape of a fixed body as the world keeps it; of any other a ball at its last report.
+  /// Returns the shape of a static body as the world stores it, or, for any other body, a ball at the
+  /// position of its last report.
   Result<Shape> shape_of(BodyId body) const;
 
-  /// Removes a body. Its contacts end: the end events come at the next advance, with its state as its last
-  /// report predicts it (ContactMode::impacts has no ends). Errors: probe_in_progress. Cost: O(1 +
-  /// contacts).
+  /// Removes a body. Its contacts end: the next advance reports their ends, with the body's state
+  /// extrapolated from its last report (ContactMode::impacts reports no ends). Errors: probe_in_progress.
+  /// Cost: O(1 + contacts).
   Result<void> remove(BodyId body);
-  /// Removes all of them or, on an error (as above, naming the one; a body that is named twice is stale the
-  /// second time), none.
+  /// Removes all bodies or, on an error, none. Errors: as remove(), naming the body; a body that is listed
+  /// twice is stale_body the second time.
   Result<void> remove_all(std::span<const BodyId> bodies);
 
-  /// Tells the world that the velocity of this body is `velocity` from the current time on; the probe
-  /// must answer accordingly, or a bound_violation says by how much it does not. Everything certified about
-  /// the body so far is void. If it has not been probed at this very time (both bodies of a contact have) the
-  /// next advance does so first. Errors: disabled_body; static_body; not_finite; out_of_range (beyond
-  /// limits.hpp, or z other than 0 in two dimensions); probe_in_progress. Cost: O(1) here, a search at
-  /// the next advance.
+  /// Informs the world that this body has the velocity `velocity` from the current time on. The probe must
+  /// agree; otherwise a bound_violation reports the difference. The call invalidates every certificate of
+  /// the body. If the body has not been probed at the current time (after a contact, its two bodies have
+  /// been), the next advance probes it first. Errors: disabled_body; static_body; not_finite; out_of_range
+  /// (beyond limits.hpp, or z other than 0 in two dimensions); probe_in_progress. Cost: O(1) here, and a
+  /// search at the next advance.
   Result<void> set_velocity(BodyId body, const Vec3& velocity);
 
-  // Further changes. A contact that one of them certainly ends is reported as ended at the next advance,
-  // before all other events, with the states from before the change; a contact that survives emits nothing;
-  // an overlap that a change creates begins at once. Each costs O(1 + contacts) here (and a search
-  // where overlaps are not allowed: then what add() refuses is refused here too) and a search at the
-  // next advance, which first probes the body if its last report is older than the change. Errors of all:
-  // probe_in_progress, and as add() for what they set.
+  // Further changes. The next advance reports a contact that a change certainly ends as ended, before all
+  // other events, with the states from before the change. A contact that persists causes no event. An
+  // overlap that a change creates begins at once. Cost of each: O(1 + contacts) here, and a search at the
+  // next advance, which first probes the body if its last report is older than the change. If allow_overlap
+  // is false, each change also searches here, and refuses what add() refuses. Errors of all:
+  // probe_in_progress, and those of add() for the values that they set.
 
-  /// The body is in another state from the current time on. ContactMode::impacts: its next approach to
-  /// anything is a new contact, as after set_velocity(). Errors: disabled_body, static_body.
+  /// Puts the body into another state from the current time on. In ContactMode::impacts the body's next
+  /// approach to any partner is a new contact, as after set_velocity(). Errors: disabled_body, static_body.
   Result<void> teleport(BodyId body, const State& state);
-  /// Errors: static_body.
+  /// Sets the radius (length) from the current time on. Errors: static_body.
   Result<void> set_radius(BodyId body, double radius);
-  /// From the current time on the body moves within these limits. Errors: static_body.
+  /// Sets the limits within which the body moves from the current time on. Errors: static_body.
   Result<void> set_motion_limits(BodyId body, const MotionLimits& limits);
 
-  /// A disabled body touches nobody and is never probed. It keeps its id, and all but its state may be set.
-  /// Its contacts end as in remove(). Errors: disabled_body.
+  /// Disables the body: it has no contacts and is never probed. It keeps its id, and everything except its
+  /// state may be set. Its contacts end as in remove(). Errors: disabled_body.
   Result<void> disable(BodyId body);
-  /// The body is back, in this state at the current time. A fixed body is back where it was, and `state` is
-  /// ignored. Errors: enabled_body.
+  /// Enables the body again, in state `state` at the current time. A static body returns to its former
+  /// place, and `state` is ignored. Errors: enabled_body.
   Result<void> enable(BodyId body, const State& state);
 
-  /// The body stays exactly where it is from now on, until it is woken: while it rests it is not probed, its
-  /// bound stands still, and its contacts with fixed and other resting bodies last without being looked at.
-  /// The next advance probes it once if its last report is older than this call, and the velocity has to be
-  /// zero then. An event `woken` tells that a body is awake again, with the limits that it had. What wakes
-  /// it:
-  ///   - an event contact_begin or contact_end that it is part of;
+  /// Puts the body to sleep: it stays exactly where it is until it wakes. A sleeping body is not probed,
+  /// its bound stays constant, and its contacts with static and other sleeping bodies persist without being
+  /// rechecked. The next advance probes the body once if its last report is older than this call; its
+  /// velocity must then be zero. The event EventKind::woke reports that a body is awake again, with its
+  /// former motion limits. A body wakes by
+  ///   - an event contact_begin or contact_end in which it takes part;
   ///   - set_velocity, teleport, set_radius and set_motion_limits of the body itself, and wake();
-  ///   - the waking, removal, disabling, teleport or change of radius of a body in touch with it, one whose
-  ///   gap
-  ///     to it is at most the separation distance and the tolerance: so a whole island wakes together.
-  /// ContactMode::impacts has no contact_end: a body that rests upon one that is awake is not told when that
-  /// one leaves. A body that rests already goes on resting. Errors: disabled_body, static_body.
+  ///   - the waking, removal, disabling, teleport or change of radius of a body in contact with it, one
+  ///     whose gap to it is at most the separation distance plus the tolerance. A whole island therefore
+  ///     wakes together.
+  /// ContactMode::impacts has no contact_end: a body that sleeps upon an awake body does not wake when that
+  /// body leaves. A call for a sleeping body changes nothing. Errors: disabled_body, static_body.
   Result<void> sleep(BodyId body);
-  /// Wakes the body and its island. One that is awake stays so, and nothing happens. Errors: disabled_body,
+  /// Wakes the body and its island. A call for an awake body changes nothing. Errors: disabled_body,
   /// static_body.
   Result<void> wake(BodyId body);
 
-  /// Contacts that the filter does not let pass end; overlaps that it newly lets pass begin at once, also
-  /// where overlaps are not allowed.
+  /// Sets the filter of the body. Contacts that the new filter excludes end. Overlaps that it newly admits
+  /// begin at once, also if allow_overlap is false.
   Result<void> set_filter(BodyId body, const Filter& filter);
-  /// A predicate of your own, asked about pairs whose filters let them touch; an empty one lets all touch.
-  /// The world asks it about pairs that may meet soon, in audit(), when it looks for certain overlaps
-  /// (then about the id that a new body is going to have), and about the contacts of a body in the two calls
-  /// below. Between those calls its answers must not change. It must not throw and must be symmetric. Of this
-  /// world it may read what is kept of bodies: body(), bodies(), user_data(), shape_of(), contains(),
-  /// touching(), sensed(), sensor(), time(), size(), definition() and counters(). All other calls, which
-  /// would change the world or ask the filter again, fail inside it with filter_in_progress, and audit()
-  /// finds that it was called there. Cost: all bodies search again at the next advance.
+  /// Sets a user-defined predicate for pairs whose filters let them touch; an empty one lets all of them
+  /// touch. The world calls it for pairs that may meet soon, in audit(), and in the search for certain
+  /// overlaps (with the id that a new body is about to get), and for the contacts of a body in set_filter()
+  /// and refresh_filter(). Its results must not change between calls of set_pair_filter() and
+  /// refresh_filter(). It must be symmetric and must not throw.
+  ///
+  /// Inside the predicate, these members of this world may be called: body(), bodies(), user_data(),
+  /// shape_of(), contains(), touching(), sensor_overlaps(), sensor(), time(), size(), definition() and
+  /// counters(). All other calls, which would change the world or call the predicate again, fail with
+  /// filter_in_progress; audit() returns a finding that says so. Cost: all bodies search again at the next
+  /// advance.
   Result<void> set_pair_filter(PairFilter filter);
-  /// Tells the world that the pair filter's answers about this body have changed.
+  /// Informs the world that the pair filter's results for this body have changed.
   Result<void> refresh_filter(BodyId body);
 
-  /// From now on the body touches others, or does not (BodyDefinition::solid).
+  /// Sets whether the body has contacts from now on (BodyDefinition::solid).
   Result<void> set_solid(BodyId body, bool solid);
-  /// From now on all bodies of this class have this sensor; without it they sense nothing. Where two bodies
-  /// are within a distance that no longer counts, the next advance tells a sensor_leave; where they are
-  /// within one that newly counts, a sensor_enter. Errors: probe_in_progress; not_finite or out_of_range for
-  /// a distance that is negative or beyond limits.hpp or, where space repeats, so large that a
-  /// body has no room for it, which is named. Cost: O(n) here, and each body of the class searches again at
-  /// the next advance.
+  /// Sets the sensor of all bodies of this class from now on; a class without a sensor senses nothing. For
+  /// bodies within a distance that no longer applies, the next advance reports sensor_leave; for bodies
+  /// within a distance that newly applies, it reports sensor_enter. Errors: probe_in_progress; not_finite
+  /// or out_of_range for a distance that is negative, beyond limits.hpp or, on periodic axes, too large for
+  /// a body of the class, which the error names. Cost: O(n) here, and a search for each body of the class
+  /// at the next advance.
   Result<void> set_sensor(SensorClass sensor_class, const Sensor& sensor);
   Result<void> set_sensor_class(BodyId body, SensorClass sensor_class);
   const Sensor& sensor(SensorClass sensor_class) const;
@@ -235,179 +244,192 @@ class World {
   Result<void> set_user_data(BodyId body, std::uint64_t data);
   Result<std::uint64_t> user_data(BodyId body) const;
 
-  /// All events up to time `until`, for a range-for that goes through them:
+  /// Returns a range over all events up to time `until`:
   ///   for (const Event& event : world.events(60.0, probe)) ...
-  /// The world goes on as the loop does, one advance() for each event. When the loop has run to its end,
-  /// time() == until; when it is left early, time() is that of the last event. Bodies may be changed inside
-  /// the loop. The errors of advance() are thrown as BadResult.
+  /// The world advances as the loop does, with one advance() for each event. After the loop has finished,
+  /// time() == until; after an early exit, time() is that of the last event. The loop may change bodies.
+  /// Errors of advance() are thrown as BadResult.
   [[nodiscard]] EventRange events(double until, Probe probe);
 
-  /// Goes on to the next event, at most to time `until`. Returns the event, with time() at its time, or
-  /// nothing, with time() == until. Events come in the order of (time, kind, first, second, wall, distance);
-  /// those that a new velocity causes at the same instant follow in a new round of that order, and contacts
-  /// that other changes have ended come first.
-  /// Errors: time_backwards or not_finite for `until`; probe_in_progress; null_probe; not_finite or
-  /// out_of_range naming the body when the probe answers with such a state: that answer is dropped, time() is
-  /// when it was asked for, no event or fact is lost, and the call may be repeated. The same holds when the
-  /// probe throws.
+  /// Advances to the next event, at most to time `until`. Returns the event, with time() at its time, or
+  /// nothing, with time() == until. Events are ordered by (time, kind, first, second, wall, distance).
+  /// Events that a new velocity causes at the same instant follow in a new round of this order; ends of
+  /// contacts that other changes caused come first. Errors: time_backwards or not_finite for `until`;
+  /// probe_in_progress; null_probe; not_finite or out_of_range, naming the body, for an invalid state from
+  /// the probe. In that last case the state is discarded, time() is the time of the probe, no event or
+  /// certificate is lost, and the call may be repeated. This also holds when the probe throws.
   [[nodiscard]] Result<std::optional<Event>> advance(double until, Probe probe);
 
-  /// Goes on to time `until`: at each event asks respond for its answer, gives the velocities in it to the
-  /// mover and to the world, and tells the sink. The events are those of a loop over advance() that answers
-  /// in the same way, to the last bit, and so are the states that are asked for and a recording. What is
-  /// counted of the work inside may differ where there are several workers.
+  /// Advances to time `until`. For each event, run() calls `respond`, passes the velocities of the response
+  /// to the motion source and to the world, and calls `sink`. The events, the probed states and a recording
+  /// equal, bit for bit, those of a loop over advance() that responds in the same way. Counters of internal
+  /// work may differ with several workers.
   ///
-  /// Inside the sink body(), touching(), sensed(), time() and whatever else can be read inside a pair filter
-  /// may be called. They show the world at a moment that is not before the event and may be after it: what is
-  /// to depend on the event alone should be taken from the event. Inside mover and respond no call of this
-  /// world is allowed. Calls marked with probe_in_progress fail with run_in_progress inside all three.
+  /// The sink may call body(), touching(), sensor_overlaps(), time() and every other member that is allowed
+  /// inside a pair filter. These show the world at a moment that is not before the event and may be after
+  /// it; anything that must depend on the event alone has to be taken from the event. The motion source and
+  /// `respond` must not call this world. Calls that list probe_in_progress fail with run_in_progress inside
+  /// all three.
   ///
-  /// Interruptions. On an error, and when mover, respond or the sink throw (which passes through run), the
-  /// world stands at a stop and can go on. No event is lost, none is told twice:
-  ///   - an event whose answer was refused, or could not be had or applied because respond or the mover
-  ///   threw,
-  ///     has changed no body; the next run() asks respond about it before anything else;
-  ///   - an event at which the sink threw has been answered and counts as told; those that were answered but
-  ///     not told are told first by the next run().
-  /// In both cases advance() returns these events instead, before anything else, whatever their time: so it
-  /// passes over an event that respond cannot answer. Until they have come save(), start_recording() and
-  /// stop_recording() fail with run_in_progress.
+  /// Interruptions. After an error, or after an exception of the motion source, `respond` or the sink
+  /// (which passes through run()), the world is at a stop and can continue. No event is lost and none is
+  /// delivered twice:
+  ///   - An event whose response was refused, or could not be obtained or applied because `respond` or the
+  ///     motion source threw, has changed no body. The next run() calls `respond` for it before anything
+  ///     else.
+  ///   - An event at which the sink threw has been responded to and counts as delivered. Events that were
+  ///     responded to but not delivered are delivered first by the next run().
+  /// In these two cases advance(), too, returns these events before anything else, whatever their time; it
+  /// can therefore pass over an event that `respond` cannot handle. Until they have been delivered, save(),
+  /// start_recording() and stop_recording() fail with run_in_progress.
   ///
-  /// The workers (workers.hpp) share the work, with the same outcome. Where there are several, events of some
-  /// time are told together, and one event after the other is answered where bodies rest, a pair filter is
-  /// set, or the world is being recorded or timed.
+  /// The workers (workers.hpp) share the work, with the same outcome. With several workers, events are
+  /// delivered in batches. Events are processed one at a time while bodies sleep, a pair filter is set, or
+  /// the world is recorded or profiled.
   ///
-  /// Errors: as advance(); run_in_progress; null_callback; workers_busy; for a velocity of an answer those of
-  /// set_velocity() and, for the second body of an event that has none, unknown_body.
+  /// Errors: as advance(); run_in_progress; null_callback; workers_busy; for a velocity in a response,
+  /// those of set_velocity() and, for the second body of an event without one, unknown_body.
   Result<void> run(double until, MotionSource& source, const ResponseFn& respond, const EventFn& sink,
                    Workers* workers = nullptr);
-  /// The same for bodies that nobody answers.
+  /// Advances to time `until` and calls `sink` for each event, without responses: the state of every body
+  /// comes from `probe`. Errors and interruptions: as the run() above.
   Result<void> run(double until, const Probe& probe, const EventFn& sink, Workers* workers = nullptr);
 
   double time() const;
   std::size_t size() const;
   const WorldDefinition& definition() const;
-  /// Whether the id is one of this world whose body has not been removed.
+  /// True if this world issued the id and the body has not been removed.
   bool contains(BodyId body) const;
   Result<BodyView> body(BodyId id) const;
-  /// The living bodies, disabled ones too, by index.
+  /// Returns all bodies that have not been removed, including disabled ones, by index.
   std::vector<BodyId> bodies() const;
   const Counters& counters() const;
 
-  // What the events so far add up to.
+  // Current contacts and sensor overlaps, as the events so far have reported them.
 
-  /// Whom the body touches, in the order in which the contacts began.
+  /// Returns the bodies in contact with the body, in the order in which the contacts began.
   Result<std::vector<BodyId>> touching(BodyId body) const;
-  /// Which sensor distances it is within: by partner, of each from the outermost inward.
+  /// Returns the sensor distances that the body is within, ordered by partner and, for each partner, from
+  /// the largest distance to the smallest.
   Result<std::vector<SensorOverlap>> sensor_overlaps(BodyId body) const;
 
-  // Seeing inside (inspection.hpp).
+  // Inspection of the internal state (inspection.hpp).
 
-  /// Cost: O(n).
+  /// Returns the memory in use, by part. Cost: O(n).
   Memory memory() const;
-  /// Cost: all bodies.
+  /// Returns the non-empty cells of the broad phase. Cost: O(n).
   std::vector<CellView> cells() const;
-  /// Of pairs, and of bodies with the walls, that may change before the first box_end of the two, in no
-  /// particular order. Cost: all of them.
+  /// Returns the certificates of pairs, and of bodies and the walls, that may fail before the earliest
+  /// box_end of their bodies, in no particular order. Cost: O(certificates).
   std::vector<Certificate> certificates() const;
-  /// Timing costs two looks at the clock a call of advance() and a probe; at first it is off, and costs
-  /// nothing. Switched on it begins from zero. It is no part of snapshots, clones and recordings. Errors:
-  /// probe_in_progress.
+  /// Switches profiling on or off; it is off at first. Switched on, it starts from zero, and costs two
+  /// clock reads per call of advance() and per probe; switched off, it costs nothing. Snapshots, clones and
+  /// recordings do not contain it. Errors: probe_in_progress.
   Result<void> set_profiling(bool on);
-  /// What was spent while timing was on.
+  /// Returns the time spent while profiling was on.
   Timings timings() const;
 
-  /// Rebuilds from scratch what should be true now (every registration, certificate and contact)
-  /// and returns the first difference. Meant for tests: O(n^2). From inside a probe or a pair filter of this
-  /// world it does no more than say so.
+  /// Recomputes from scratch every registration, certificate and contact, and returns the first difference
+  /// from the stored ones, or nothing. Intended for tests. Called inside a probe or pair filter of this
+  /// world, it only returns a finding that says so. Cost: O(n^2).
   std::optional<AuditFinding> audit() const;
 
-  // Certificates as answers (answers.hpp). Errors of all: probe_in_progress. With a Probe also as advance():
-  // null_probe; not_finite or out_of_range for a bad answer, which is dropped.
+  // Certified predictions (answers.hpp). Errors of all: probe_in_progress. Overloads with a Probe also
+  // return the errors of advance(): null_probe; not_finite or out_of_range for an invalid state, which is
+  // discarded.
 
-  /// The two do not begin to touch before this. Errors: out_of_range for the same body twice. Cost:
-  /// O(certificates of the world); with a probe at most two states.
+  /// Returns a time before which the two bodies do not begin to touch. Errors: out_of_range for the same
+  /// body twice. Cost: O(certificates of the world); with a probe, at most two states.
   Result<SafeTime> safe_until(BodyId first, BodyId second) const;
   Result<SafeTime> safe_until(BodyId first, BodyId second, Probe probe);
-  /// The body begins to touch no other and no wall before this. Cost: O(n), for most bodies a comparison;
-  /// with a probe that again for each state that limits the answer.
+  /// Returns a time before which the body begins to touch no other body and no wall. Cost: O(n), for most
+  /// bodies a single comparison; with a probe, as much again for each state that limits the result.
   Result<SafeTime> safe_until(BodyId body) const;
   Result<SafeTime> safe_until(BodyId body, Probe probe);
-  /// Nothing begins to touch before this. Cost: O(n) in a crowd; O(n^2) where the first
-  /// contact is far off. With a probe that again, at most 32 times.
+  /// Returns a time before which no contact begins in this world. Cost: O(n) in a dense scene; O(n^2) if
+  /// the first contact is far in the future. With a probe, as much again, at most 32 times.
   Result<SafeTime> safe_until() const;
   Result<SafeTime> safe_until(Probe probe);
-  /// As safe_until(body), naming what limits the answer: the partner or wall that may come first.
+  /// Returns the result of safe_until(body) together with the partner or wall that may come first. Errors
+  /// and cost: as safe_until(body).
   Result<EarliestContact> earliest_contact(BodyId body) const;
   Result<EarliestContact> earliest_contact(BodyId body, Probe probe);
-  /// The surfaces of the two do not come within `distance` (length >= 0, at most that of queries in
-  /// limits.hpp) of each other before this. It is about where the bodies are and nothing else: filters and
-  /// solid do not count. Errors: as safe_until(first, second); not_finite or out_of_range for `distance`. Of
-  /// two fixed bodies that are not both balls nothing is known: the answer is now. Cost: O(1); with a probe
-  /// at most two states.
+  /// Returns a time before which the surfaces of the two bodies do not come within `distance` (length >= 0,
+  /// at most limits::largest_query_length) of each other. The result depends on positions alone: filters
+  /// and `solid` are ignored. For two static bodies that are not both balls nothing is known, and the
+  /// result is the current time. Errors: as safe_until(first, second); not_finite or out_of_range for
+  /// `distance`. Cost: O(1); with a probe, at most two states.
   Result<SafeSeparation> safe_until(BodyId first, BodyId second, double distance) const;
   Result<SafeSeparation> safe_until(BodyId first, BodyId second, double distance, Probe probe);
-  /// The same for a body and all others that its filter and the pair filter let it meet (also those that are
-  /// not solid), and walls: who may be the first within `distance`. Two fixed bodies do not meet. Errors: as
-  /// safe_until(first); not_finite or out_of_range for `distance`. Cost: O(n); with a probe that again for
-  /// each state that limits the answer.
+  /// Returns a time before which no partner of the body comes within `distance` of it, and the partner that
+  /// may be the first. Partners are the walls and all bodies that the filters and the pair filter let the
+  /// body meet, including bodies that are not solid. Two static bodies do not meet. Errors: as
+  /// safe_until(body); not_finite or out_of_range for `distance`. Cost: O(n); with a probe, as much again
+  /// for each state that limits the result.
   Result<EarliestApproach> earliest_approach(BodyId body, double distance) const;
   Result<EarliestApproach> earliest_approach(BodyId body, double distance, Probe probe);
-  /// How far the two are apart at `time` >= now, at least and at most. Errors: as safe_until(first, second);
-  /// not_finite or time_backwards for `time`. Of two fixed bodies that are not both balls nothing is known.
-  /// Cost: O(1); with a probe at most two states.
+  /// Returns lower and upper limits of the distance between the two bodies at `time` >= time(). For two
+  /// static bodies that are not both balls nothing is known. Errors: as safe_until(first, second);
+  /// not_finite or time_backwards for `time`. Cost: O(1); with a probe, at most two states.
   Result<DistanceLimits> distance_limits(BodyId first, BodyId second, double time) const;
   Result<DistanceLimits> distance_limits(BodyId first, BodyId second, double time, Probe probe);
 
-  // Queries at the current time (queries.hpp). Errors: probe_in_progress; not_finite or out_of_range for
-  // points and lengths beyond limits.hpp, and for negative lengths; with a Probe
-  // also as above. Cost: a search, what it finds, and the bodies added or changed since the last
-  // advance.
+  // Spatial queries at the current time (queries.hpp). Errors of all: probe_in_progress; not_finite or
+  // out_of_range for points and lengths beyond limits.hpp and for negative lengths; overloads with a Probe
+  // also return the errors of the predictions above. Cost: a search, its results, and the bodies that were
+  // added or changed since the last advance.
 
-  /// The bodies that may overlap a sphere, by index. With a probe: one state for each that is in doubt.
+  /// Returns the bodies that may overlap a sphere, by index. With a probe: one state for each undecided
+  /// body.
   Result<std::vector<OverlapHit>> overlapping(const Vec3& centre, double radius) const;
   Result<std::vector<OverlapHit>> overlapping(const Vec3& centre, double radius, Probe probe);
-  /// The bodies that may overlap a box (lower <= upper on each axis), by index.
+  /// Returns the bodies that may overlap a box (lower <= upper on each axis), by index. With a probe: one
+  /// state for each undecided body.
   Result<std::vector<OverlapHit>> overlapping(const Box& box) const;
   Result<std::vector<OverlapHit>> overlapping(const Box& box, Probe probe);
-  /// All bodies that may be among the `count` nearest to a point, by lower limit of their distance: at least
-  /// `count`, or all there are. With a probe no more than that, except for ties and position errors, and all
-  /// of them probed. Cost: searches of doubling size.
+  /// Returns all bodies that may be among the `count` nearest to a point, ordered by the lower limit of
+  /// their distance: at least `count`, or all bodies if there are fewer. With a probe, all returned bodies
+  /// are probed, and there are exactly `count` except for ties and position errors. Cost: searches of
+  /// doubling size.
   Result<std::vector<NearestHit>> nearest(const Vec3& point, std::size_t count) const;
   Result<std::vector<NearestHit>> nearest(const Vec3& point, std::size_t count, Probe probe);
-  /// All bodies that may be the first on the way from `origin` along `direction` (of any length > 0), by
-  /// lower limit of that way: empty when there certainly is none within `length`. A single body that is
-  /// certainly the first is marked so. With a probe all of them are probed. Walls do not count. Where space
-  /// repeats the length may be at most 64 boxes, and a sphere's radius half a box (out_of_range). Cost: at
-  /// most 64 searches along the way.
+  /// Returns all bodies that a ray may hit first, ordered by the lower limit of the distance along the ray.
+  /// The result is empty if the ray certainly hits nothing within `length`, and a single body that is
+  /// certainly the first is marked Certainty::certainly. `direction` may have any length > 0. With a probe,
+  /// all returned bodies are probed. Walls are ignored. Errors: on periodic axes, out_of_range for a length
+  /// of more than 64 boxes or a sphere radius of more than half a box. Cost: at most 64 searches along the
+  /// ray.
   Result<std::vector<CastHit>> ray_cast(const Vec3& origin, const Vec3& direction, double length) const;
   Result<std::vector<CastHit>> ray_cast(const Vec3& origin, const Vec3& direction, double length,
                                         Probe probe);
-  /// The same for a sphere of this radius.
+  /// Returns all bodies that a sphere of this radius may hit first on its way along the ray. Errors and
+  /// cost: as ray_cast().
   Result<std::vector<CastHit>> sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
                                            double length) const;
   Result<std::vector<CastHit>> sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
                                            double length, Probe probe);
 
-  /// The whole world as bytes, at any stop. A world restored from them goes on as this one does, to the bit:
-  /// the same events, probes and counters, in this process or another, on this machine or another. What
-  /// moves the bodies is the caller's to save, and so is the pair filter. Errors: probe_in_progress. Cost:
-  /// O(n), about 0.25 KB a body.
+  /// Serializes the whole world; possible at any stop. A world restored from these bytes continues bit for
+  /// bit as this one does, with the same events, probes and counters, in any process and on any machine.
+  /// The caller must save its own motion and the pair filter. Errors: probe_in_progress. Cost: O(n), about
+  /// 0.25 KB a body.
   Result<std::vector<std::byte>> save() const;
-  /// The world that save() wrote, with the pair filter that it had (setting it later instead makes all bodies
-  /// search again). Errors: bad_snapshot for bytes that are foreign, cut short, damaged, of another format
-  /// version, or that describe a world that cannot be; never worse than that, whatever they are.
+  /// Restores the world that save() wrote. `pair_filter` must be the filter that the world had; setting it
+  /// later makes all bodies search again. Errors: bad_snapshot for bytes that are foreign, truncated,
+  /// damaged, of another format version, or that describe an impossible world. Arbitrary bytes cause no
+  /// other failure.
   static Result<World> restore(std::span<const std::byte> snapshot, PairFilter pair_filter = {});
-  /// A world of its own that goes on as this one does: the fast way to roll back in the same process. It is
-  /// not being recorded. Errors: probe_in_progress. Cost: O(n).
+  /// Returns an independent copy that continues as this world does: the fast way to roll back within one
+  /// process. The copy is not recorded. Errors: probe_in_progress. Cost: O(n).
   Result<World> clone() const;
 
-  /// From now on all that goes into this world and comes out of it is recorded (recording.hpp), in memory,
-  /// about 70 bytes a report, 10 to 140 a change and 230 an event. A world that is moved takes its recording
-  /// along; one that is assigned to loses it. Errors: probe_in_progress; recording when it is already. Cost:
-  /// as save(); later little more than copying what is recorded.
+  /// Starts recording all input and output of this world (recording.hpp) in memory: about 70 bytes per
+  /// probed state, 10 to 140 per change and 230 per event. Moving the world moves its recording; assigning
+  /// to the world discards it. Errors: probe_in_progress; recording if the world is already recorded. Cost:
+  /// as save(); later little more than copying the recorded data.
   Result<void> start_recording();
-  /// The recording: Replay::open. Errors: probe_in_progress; not_recording. Cost: as save().
+  /// Stops recording and returns the recording, for Replay::open(). Errors: probe_in_progress;
+  /// not_recording. Cost: as save().
   Result<std::vector<std::byte>> stop_recording();
   bool recording() const;
 
@@ -422,24 +444,25 @@ class World {
   explicit World(std::unique_ptr<Engine> engine);
   CallState activity() const;
   void require_idle(const char* done) const noexcept;
-  /// Throws BadResult with moved_from.
+  /// Returns the engine; throws BadResult with moved_from if there is none.
   const Engine& engine(std::string_view call) const;
 
-  // The only ways to change the engine. A recording learns of each.
+  // Every change of the engine goes through one of these functions, so that a recording captures it.
   Engine& changeable();
-  /// For this change, which has been found to be possible.
+  /// Returns an editor for `change`, which must have passed validation.
   template <class Change>
   WorldEditor changing(const Change& change);
   Result<std::optional<Event>> engine_advance(double until, const Probe& probe);
   Result<std::optional<Event>> recorded_advance(double until, const Probe& probe);
   Result<std::optional<Event>> timed_advance(double until, const Probe& probe);
-  /// For calls that probe outside advance(): those bodies whose reports are old. True when there were any.
+  /// Probes those of the bodies `numbers` whose reports are older than the current time, for calls that
+  /// probe outside advance(). Returns true if there were any.
   Result<bool> refresh(std::span<const std::uint32_t> numbers, const Probe& probe, std::string_view call);
 
   std::unique_ptr<const Engine> engine_;
-  std::unique_ptr<Recorder> recorder_;    ///< while there is a recording
-  std::unique_ptr<UntoldEvents> untold_;  ///< from the first run() on
-  bool running_ = false;                  ///< in a run()
+  std::unique_ptr<Recorder> recorder_;    ///< null unless the world is recorded
+  std::unique_ptr<UntoldEvents> untold_;  ///< null until the first run()
+  bool running_ = false;                  ///< true inside run()
   Timings timings_{};
   bool profiling_ = false;
 };

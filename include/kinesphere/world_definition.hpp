@@ -1,4 +1,4 @@
-// What a world is made with: its walls, and what counts as a contact. Which numbers it takes: limits.hpp.
+// Definition of a world: its walls and its contact criteria. limits.hpp gives the ranges of the numbers.
 #pragma once
 
 #include <limits>
@@ -8,17 +8,17 @@
 
 namespace kinesphere {
 
-/// Which contacts are reported.
+/// Which contact events a world reports.
 enum class ContactMode {
-  /// Each contact has a begin and an end.
+  /// Reports a begin and an end for each contact.
   begin_and_end,
-  /// For bodies that bounce: a begin whenever two bodies touch and approach, and no ends. Once
-  /// set_velocity() has turned them apart, the next approach is a new contact, however small the gap was in
-  /// between.
+  /// For bouncing bodies: reports a begin whenever two bodies touch and approach, and no ends. After
+  /// set_velocity() has made the two separate, their next approach is a new contact, however small the gap
+  /// was in between.
   impacts,
 };
 
-/// Some of the three axes.
+/// A subset of the three axes.
 struct Axes {
   bool x = false;
   bool y = false;
@@ -30,31 +30,31 @@ struct Axes {
 };
 
 struct WorldDefinition {
-  /// The walls. Without a box the world is unbounded.
+  /// Box whose faces are the walls. Without a box the world is unbounded.
   std::optional<Box> box{};
-  /// On these axes the box has no walls: space repeats with the box's size, and what leaves on one side comes
-  /// in on the other. States that come from the caller may be in any image. States that the world tells lie
-  /// in the box (lower <= position < upper), but the second of an event where it touches the first. A body
-  /// has to fit: on each of these axes 2 radius + 6 position_error + separation_distance + contact_tolerance
-  /// may be at most 3/8 of the box, which a diameter of a third is.
-  /// Cost: a body is asked at least once while it crosses half of the box.
+  /// Axes on which space is periodic with the size of the box, without walls: a body that leaves on one
+  /// side re-enters on the other. States from the caller may be in any image. States that the world returns
+  /// lie in the box (lower <= position < upper), except the second state of an event, which is in the image
+  /// nearest to the first. Each body must fit: on each periodic axis 2 radius + 6 position_error +
+  /// separation_distance + contact_tolerance may be at most 3/8 of the box; a diameter of a third of the
+  /// box satisfies this. Cost: a body is probed at least once while it crosses half of the box.
   Axes periodic{};
-  /// 2: bodies are discs in the plane z = 0. The z of every position, velocity and plan must be 0, and
-  /// that of the box does not matter.
+  /// 2 or 3. With 2, bodies are discs in the plane z = 0: the z of every position, velocity and planned
+  /// acceleration must be 0, and the z range of the box is ignored.
   int dimensions = 3;
-  /// eps > 0 (length): a contact begins at a time when the true gap is at most eps, and no gap
-  /// ever falls below -eps unreported.
+  /// eps > 0 (length): a contact begins at a time when the true gap is at most eps, and no gap falls below
+  /// -eps without a report.
   double contact_tolerance = 1e-6;
-  /// > contact_tolerance (length): a contact ends at a time when the gap is between this and this plus
-  /// eps. Default (NaN): 4 eps. Where reported positions have errors e0, choose it larger than
-  /// the sum of 2 e0 of both bodies, or contacts end and begin with the noise.
+  /// > contact_tolerance (length): a contact ends at a time when the gap is between this and this plus eps.
+  /// Default (NaN): 4 eps. With position errors e0, choose it larger than the sum of 2 e0 of the two
+  /// bodies; otherwise noise ends and begins contacts.
   double separation_distance = std::numeric_limits<double>::quiet_NaN();
   ContactMode contacts = ContactMode::begin_and_end;
-  /// When false, add() refuses a body that certainly overlaps another or a wall.
+  /// If false, add() refuses a body that certainly overlaps another body or a wall.
   bool allow_overlap = true;
-  /// >= 0 (time): a contact that comes less than this after the previous one of the same body is
-  /// marked as repeated. So is one that comes within 4 sqrt(eps / (A + |g|)): a hop within the tolerance
-  /// takes no longer.
+  /// >= 0 (time): a contact is marked Event::repeated if it follows the previous contact of the same body
+  /// within less than this time, or within 4 sqrt(eps / (A + |g|)), the longest time of a hop within the
+  /// tolerance.
   double zeno_interval = 0.0;
   double start_time = 0.0;
 };

@@ -1,4 +1,4 @@
-// Bodies that fly freely under a common gravity.
+// Ballistic: bodies in free flight under a common gravity.
 #pragma once
 
 #include <cstddef>
@@ -15,18 +15,18 @@ namespace kinesphere {
 struct BallisticDefinition {
   /// States at start_time, by body.
   std::vector<State> start;
-  /// Of all bodies (length / time^2).
+  /// Gravity of all bodies (length / time^2).
   Vec3 gravity;
   double start_time = 0.0;
 };
 
-/// Gravity is the planned acceleration, and nothing deviates from it: the limit is 0.
+/// Free flight: gravity is the planned acceleration, and the acceleration limit is 0.
 class Ballistic final : public PiecewiseAcceleration {
  public:
-  /// Errors: not_finite, naming the field and the body.
+  /// Creates the motion. Errors: not_finite, naming the field and the body.
   static Result<Ballistic> create(const BallisticDefinition& definition);
 
-  /// Adds a body that flies on from `state` at time t, and returns its number. Errors: not_finite.
+  /// Adds a body that continues from `state` at time t, and returns its number. Errors: not_finite.
   Result<std::uint32_t> add(double t, const State& state) { return add_body("add", t, state); }
 
   BodyDefinition definition(std::uint32_t body, double t) const override;

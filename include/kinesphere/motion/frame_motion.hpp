@@ -1,13 +1,14 @@
-// The motion of a game that moves its bodies in fixed steps: straight lines between its last two frames.
+// FrameMotion: bodies of a game that moves them in fixed steps, on straight lines between its last two
+// frames.
 //
-//   Frames frames = Frames::create({.start = positions,
-//                                   .velocities = velocities,
-//                                   .acceleration_limits = limits,
-//                                   .interval = 1.0 / 60}).value();
+//   FrameMotion frames = FrameMotion::create({.start = positions,
+//                                             .velocities = velocities,
+//                                             .acceleration_limits = limits,
+//                                             .interval = 1.0 / 60}).value();
 //   // add bodies with frames.definition(); then, each frame:
 //   frames.push(positions).value();
 //   while (auto event = world.advance(frames.latest_time(), frames.probe()).value()) { ... }
-//   positions = frames.latest();  // where changes at events have left the bodies
+//   positions = frames.latest();  // includes the changes made at events
 #pragma once
 
 #include <cstddef>
@@ -24,113 +25,117 @@
 namespace kinesphere {
 
 struct FrameMotionDefinition {
-  /// Positions in frame 0, by body.
+  /// Positions (length) in frame 0, by body.
   std::vector<Vec3> start;
-  /// Velocities there, by body; when empty all zero. They count for the promise: the second frame is to move
-  /// the bodies with these velocities up to A dt.
+  /// Velocities (length / time) in frame 0, by body; empty means zero. The motion limits include them: the
+  /// second frame must move the bodies with these velocities, up to A dt.
   std::vector<Vec3> velocities{};
-  /// A >= 0 (length / time^2), by body, gravity included. See Frames for what exactly it limits.
+  /// A >= 0 (length / time^2), by body, gravity included. See FrameMotion for its exact meaning.
   std::vector<double> acceleration_limits;
   /// dt > 0 (time): frame k shows the bodies at start_time + k dt.
   double interval = 1.0 / 60.0;
-  /// e >= 0 (length): how far off the game's positions may be, such as half a unit in the last place of the
-  /// numbers that it keeps them in.
+  /// e >= 0 (length): the largest error of the game's positions, such as half a unit in the last place of
+  /// their number format.
   double position_error = 0.0;
   double start_time = 0.0;
-  /// Whether push() refuses positions that break a promise, instead of reporting them in violations().
+  /// If true, push() refuses positions that violate a motion limit, instead of reporting them in
+  /// violations().
   bool refuse_violations = false;
 };
 
-/// Positions with which a body broke its promise: see Frames.
+/// A body whose pushed position violates its acceleration limit: see FrameMotion.
 struct FrameViolation {
   std::uint32_t body;
-  /// > 0 (length): how far the position lies beyond where the acceleration limit lets the body be.
+  /// > 0 (length): the distance by which the position exceeds what the acceleration limit permits.
   double excess;
-  /// (length / time^2): the limit that would have allowed it.
+  /// (length / time^2): the least limit that would have permitted the position.
   double acceleration;
-  /// (length / time): of the body in the frame that was pushed.
+  /// (length / time): velocity of the body in the pushed frame.
   Vec3 velocity;
 };
 
-/// A body's velocity is that of the chord between the two frames, so it jumps at each frame; still the body
-/// keeps a promise. If its true acceleration is at most A (or the game itself steps velocities by at most A
-/// dt) then chord velocities differ by at most A dt from frame to frame, that is, positions p of the game
-/// satisfy |p_(k+1) - 2 p_k + p_(k-1)| <= A dt^2. After a time s from any moment on, the jumps add up to at
-/// most
+/// Motion limits. The velocity of a body is that of the chord between the two frames, so it jumps at each
+/// frame, and still obeys motion limits. If the true acceleration is at most A (or the game itself steps
+/// velocities by at most A dt), chord velocities differ by at most A dt from frame to frame: positions p of
+/// the game satisfy |p_(k+1) - 2 p_k + p_(k-1)| <= A dt^2. After a time s from any moment on, the jumps add
+/// up to at most
 ///   sum over frames in between of A dt (s - their time) <= A dt s + 1/2 A s^2,
-/// which is the general bound with velocity error A dt and acceleration limit A. Positions that are off by e
-/// make chord velocities off by 2 e / dt, which is added to the velocity error.
+/// which is the general bound with velocity error A dt and acceleration limit A. Position errors of e cause
+/// chord velocity errors of 2 e / dt, which are added to the velocity error.
 ///
-/// States are known from the last frame but one to the last, so a game looks at the world one frame late.
+/// Delay. States are known from the previous frame to the latest one, so the game sees events one frame
+/// late.
 ///
-/// A contact comes at its exact time, between those two frames. Whoever wants it answered there changes the
-/// velocity in the frames and in the world (a BodyMap does both in one call):
+/// Responses. A contact is reported at its exact time, between those two frames. A response there changes
+/// the velocity in the frames and in the world (a BodyMap does this in one call):
 ///   frames.set_velocity(id.index, event->time, velocity).value();
 ///   world.set_velocity(id, velocity).value();
-/// From then to the last frame the body goes on with that velocity, and the game takes its place from
-/// latest() and its velocity from there.
+/// Until the latest frame the body continues with that velocity; the game then takes its position from
+/// latest() and continues from there with that velocity.
 ///
-/// A velocity jump that the game makes by itself, in a frame that it pushes, is not covered by the promise.
-/// push() holds every position against the formula above and reports such jumps in violations(): a bounce off
-/// the game's own walls, an explosion, a position that was set. The world must be told of each, with its time
-/// at latest_time() before the frame is pushed, and before it goes on:
-///   for (const FrameViolation& turn : frames.violations())
-///     world.set_velocity(ids[turn.body], turn.velocity).value();
-/// or, with a BodyMap, bodies.report_violations(world, frames). A jump that falls between two frames makes
-/// two chords differ from the one before, so it is reported twice, and told twice.
+/// Violations. The motion limits do not cover a velocity jump of the game itself, in a frame that it
+/// pushes: a bounce off the game's own walls, an explosion, a teleport. push() checks every position
+/// against the formula above and reports such jumps in violations(). The caller must declare each of them
+/// to the world, at world.time() == previous_time() (the latest time before the push), before the world
+/// advances:
+///   for (const FrameViolation& violation : frames.violations())
+///     world.set_velocity(ids[violation.body], violation.velocity).value();
+/// With a BodyMap, bodies.report_violations(world, frames) does this. A jump between two frames makes two
+/// chords differ from their predecessors, so it is reported, and must be declared, twice.
 class FrameMotion final : public Motion {
  public:
-  /// Errors: not_finite or out_of_range, naming the field and the body.
+  /// Creates the motion at frame 0. Errors: not_finite or out_of_range, naming the field and the body.
   static Result<FrameMotion> create(FrameMotionDefinition definition);
 
-  /// The next frame: the position of every body (that of a removed one is not looked at). Errors, which leave
-  /// everything as it was: out_of_range for a wrong number of positions and, with refuse_violations, for the
-  /// first position that breaks a promise; not_finite, naming the body.
+  /// Appends the next frame: the position (length) of every body; that of a removed body is ignored.
+  /// Errors, which leave everything unchanged: out_of_range for a wrong number of positions and, with
+  /// refuse_violations, for the first position that violates a motion limit; not_finite, naming the body.
   Result<void> push(std::span<const Vec3> positions);
-  /// Who broke its promise in the frame that was pushed last, by body.
+  /// Returns the violations in the latest pushed frame, by body.
   std::span<const FrameViolation> violations() const { return violations_; }
-  /// How often that has happened in all frames.
+  /// Returns the number of violations in all frames.
   std::uint64_t violation_count() const { return violation_count_; }
 
-  /// States can be asked for from previous_time() to latest_time(), once there are two frames; before that
-  /// both are start_time.
+  /// States are known from previous_time() to latest_time(), once there are two frames; before that, each
+  /// is start_time.
   double previous_time() const;
   double latest_time() const;
 
-  /// Where the bodies are at latest_time(), changes included.
+  /// Returns the positions at latest_time(), including changes.
   const std::vector<Vec3>& latest() const { return latest_; }
 
-  /// A new body, in `state` at time t, and its number: that of a removed body if there is one, else size() as
-  /// it was. It goes on with its velocity to the latest frame; later frames are to have its position. Needs
-  /// previous_time() <= t <= latest_time(). Errors: not_finite, time_backwards, out_of_range.
+  /// Adds a body in `state` at time t and returns its number: that of a removed body if there is one, else
+  /// the former size(). The body continues with its velocity to the latest frame; later frames must contain
+  /// its position. Needs previous_time() <= t <= latest_time(). Errors: not_finite, time_backwards,
+  /// out_of_range.
   Result<std::uint32_t> add(double t, const State& state, double acceleration_limit);
 
   std::size_t size() const override { return latest_.size(); }
   bool contains(std::uint32_t body) const override;
   BodyDefinition definition(std::uint32_t body, double t) const override;
   State state(std::uint32_t body, double t) const override;
-  /// One segment.
+  /// Returns one segment.
   Trajectory trajectory(std::uint32_t body, double begin, double end) const override;
-  /// Both need previous_time() <= t <= latest_time().
+  /// set_velocity() and teleport() need previous_time() <= t <= latest_time().
   Result<void> set_velocity(std::uint32_t body, double t, const Vec3& velocity) override;
   Result<void> teleport(std::uint32_t body, double t, const State& state) override;
-  /// The last change in the latest frame, or the frame before it.
+  /// Returns the last change since the previous frame, or else the body at the previous frame.
   MotionOrigin origin(std::uint32_t body) const override;
-  /// Needs previous_time() <= departure.time <= latest_time().
+  /// Needs previous_time() <= origin.time <= latest_time().
   Result<void> set_origin(std::uint32_t body, const MotionOrigin& origin) override;
   Result<void> remove(std::uint32_t body) override;
-  /// A body can be read only in the frame in which it was written: a motion that was created anew takes as
-  /// many push() before (of no positions while it has no bodies). Later frames are to have its position.
-  /// What violations() says of the body stays where it was written.
+  /// read_body() accepts a body only in the frame in which it was written: a newly created motion must
+  /// first have had as many calls of push() (without positions while it has no bodies). Later frames must
+  /// contain the body's position. Entries in violations() are not transferred.
   Result<void> write_body(std::uint32_t body, std::vector<std::byte>& bytes) const override;
   Result<std::uint32_t> read_body(std::span<const std::byte>& bytes) override;
   std::unique_ptr<Motion> clone() const override;
 
  private:
   explicit FrameMotion(FrameMotionDefinition definition);
-  /// From its time to latest_time().
+  /// Straight line of a body from `begin` to latest_time().
   struct Chord {
-    double begin;  ///< of the frame before the last one, or the last change since; infinite once removed
+    double begin;  ///< time of the previous frame or of the last change since; infinite once removed
     Vec3 position;
     Vec3 velocity;
 
@@ -146,7 +151,7 @@ class FrameMotion final : public Motion {
 
   std::vector<Chord> chords_;
   std::vector<Vec3> latest_;
-  std::vector<Vec3> pushed_;  ///< positions in the latest frame, without the changes since
+  std::vector<Vec3> pushed_;  ///< positions in the latest frame, without later changes
   std::vector<double> limits_;
   std::vector<std::uint32_t> free_;  ///< numbers of removed bodies
   std::vector<FrameViolation> violations_;

@@ -1,4 +1,4 @@
-// Bodies pushed around by random forces that change at fixed times (the first experiment of the paper).
+// RandomForces: bodies under random forces that change at fixed times (the first experiment of the paper).
 #pragma once
 
 #include <cstddef>
@@ -24,15 +24,16 @@ struct RandomForcesDefinition {
 };
 
 /// During each interval a body has a constant acceleration, drawn uniformly from the ball of radius A. The
-/// draw depends on nothing but (seed, name of the body, interval), so set_velocity() leaves the force as it
-/// is. The name of a body is its number in the motion that it began in. It keeps it wherever it is read
-/// (read_body), so bodies that began in different motions and come together may be given the same forces.
+/// draw depends on nothing but (seed, name of the body, interval), so set_velocity() does not change the
+/// force. The name of a body is its number in the motion that created it, and stays with it through
+/// read_body(). Bodies that were created in different motions and come together may therefore have equal
+/// names and equal forces.
 class RandomForces final : public PiecewiseAcceleration {
  public:
-  /// Errors: not_finite or out_of_range, naming the field and the body.
+  /// Creates the motion. Errors: not_finite or out_of_range, naming the field and the body.
   static Result<RandomForces> create(RandomForcesDefinition definition);
 
-  /// Adds a body that moves on from `state` at time t, and returns its number, which is its name too.
+  /// Adds a body that continues from `state` at time t, and returns its number, which is also its name.
   /// Errors: not_finite; out_of_range for a negative limit and for times beyond 2^50 intervals.
   Result<std::uint32_t> add(double t, const State& state, double acceleration_limit);
 
@@ -46,7 +47,7 @@ class RandomForces final : public PiecewiseAcceleration {
   Vec3 acceleration(std::uint32_t body, std::int64_t k, const State& state) const override;
 
   std::vector<double> limits_;
-  std::vector<std::uint32_t> names_;  ///< under which forces are drawn
+  std::vector<std::uint32_t> names_;  ///< names under which forces are drawn
   std::uint64_t seed_;
 };
 

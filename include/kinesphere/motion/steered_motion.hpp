@@ -1,7 +1,7 @@
-// Bodies steered by hand: by a player, a test, a controller outside.
+// SteeredMotion: bodies steered from outside, by a player, a test or a controller.
 //
-//   Steered ships = Steered::create({.start = states, .acceleration_limits = limits}).value();
-//   ships.steer(3, world.time(), {0, 0, 5}).value();  // from now on, until told otherwise
+//   SteeredMotion ships = SteeredMotion::create({.start = states, .acceleration_limits = limits}).value();
+//   ships.steer(3, world.time(), {0, 0, 5}).value();  // from now on, until the next call
 #pragma once
 
 #include <cstddef>
@@ -23,25 +23,25 @@ struct SteeredMotionDefinition {
   double start_time = 0.0;
 };
 
-/// Each body keeps its acceleration, at first zero, until it is steered again. Steering leaves position and
-/// velocity as they are, so the world need not hear of it; set_velocity() leaves the acceleration as it is.
-/// States before the last change of a body are forgotten.
+/// Each body keeps its acceleration, at first zero, until it is steered again. Steering does not change
+/// position and velocity, so the world needs no notice of it; set_velocity() does not change the
+/// acceleration. States before the last change of a body are discarded.
 class SteeredMotion final : public PiecewiseAcceleration {
  public:
-  /// Errors: not_finite or out_of_range, naming the field and the body.
+  /// Creates the motion. Errors: not_finite or out_of_range, naming the field and the body.
   static Result<SteeredMotion> create(SteeredMotionDefinition definition);
 
-  /// Adds a body that moves on from `state` at time t, at first without acceleration, and returns its number.
-  /// Errors: not_finite; out_of_range for a negative limit.
+  /// Adds a body that continues from `state` at time t, at first without acceleration, and returns its
+  /// number. Errors: not_finite; out_of_range for a negative limit.
   Result<std::uint32_t> add(double t, const State& state, double acceleration_limit);
 
-  /// Sets the acceleration of a body from t on. Errors: unknown_body; stale_body; not_finite; out_of_range
-  /// when it is longer than the body's limit; time_backwards when t lies before the last change of the
-  /// body.
+  /// Sets the acceleration (length / time^2) of a body from t on. Errors: unknown_body; stale_body;
+  /// not_finite; out_of_range if it is longer than the body's limit; time_backwards if t lies before the
+  /// last change of the body.
   Result<void> steer(std::uint32_t body, double t, const Vec3& acceleration);
 
-  /// The limit is a relative 1e-12 more than that of the definition, so that an acceleration that was scaled
-  /// to that length passes however it was rounded.
+  /// Returns the definition. Its acceleration limit exceeds the given one by a relative 1e-12, so that an
+  /// acceleration scaled to the given length is valid however it was rounded.
   BodyDefinition definition(std::uint32_t body, double t) const override;
   Result<void> write_body(std::uint32_t body, std::vector<std::byte>& bytes) const override;
   Result<std::uint32_t> read_body(std::span<const std::byte>& bytes) override;

@@ -1,4 +1,4 @@
-// Exact motion: cubic pieces, one after the other.
+// Trajectory: exact motion as consecutive cubic segments.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ struct Segment {
   Vec3 jerk{};
 
   State state_at(double t) const;
-  /// Acceleration at time t.
+  /// Returns the acceleration at time t.
   [[gnu::always_inline]] Vec3 acceleration_at(double t) const { return acceleration + jerk * (t - begin); }
 };
 

@@ -1,4 +1,4 @@
-// Bodies that follow a velocity field as well as a limited acceleration lets them (paper, section 4.3).
+// VelocityField: bodies that follow a velocity field within a limited acceleration (paper, section 4.3).
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,13 @@
 
 namespace kinesphere {
 
-/// The field of the paper's example: up along the centre line of a box, out under the top, down the sides, in
-/// along the bottom. With x', y' in [-1, 1] across the box of half widths a and b, z' in [0, 1] up its height
-/// H, and h(z) = 4 z (1 - z), q(s) = 1 - 3 s^2, Q(s) = s - s^3 (so Q' = q),
+/// The velocity field of the paper's example: up along the centre line of a box, out under the top, down
+/// the sides, in along the bottom. With x', y' in [-1, 1] across the box of half widths a and b, z' in [0,
+/// 1] up its height H, and h(z) = 4 z (1 - z), q(s) = 1 - 3 s^2, Q(s) = s - s^3 (so Q' = q),
 ///   w =  speed h(z') (q(x') + q(y')) / 2
 ///   u = -speed h'(z') Q(x') a / (2 H),    v = -speed h'(z') Q(y') b / (2 H).
-/// It has no divergence, no flow through the walls, and w = speed in the middle. Outside the box it is that
-/// of the nearest point of the box.
+/// The field has no divergence, no flow through the walls, and w = speed in the middle. Outside the box it
+/// equals the field at the nearest point of the box.
 struct Circulation {
   Box box;             ///< with lower < upper on every axis
   double speed = 0.0;  ///< (length / time)
@@ -28,29 +28,30 @@ struct Circulation {
 };
 
 struct VelocityFieldDefinition {
-  /// Velocity by position: a Circulation, or a function of your own, which must always give the same finite
-  /// answer to the same question.
+  /// Velocity by position: a Circulation, or a user-defined function, which must always return the same
+  /// finite value for the same argument.
   std::function<Vec3(const Vec3&)> field;
   /// States at start_time, by body.
   std::vector<State> start;
   /// A >= 0 (length / time^2), by body.
   std::vector<double> acceleration_limits;
-  /// > 0 (time): bodies look at the field at its multiples, and when their velocity is set.
+  /// > 0 (time): bodies sample the field at its multiples, and when their velocity is set.
   double interval = 0.1;
-  /// > 0 (time): in which a body would reach the velocity of the field, if its limit lets it. Less than half
-  /// the interval makes it overshoot more and more.
+  /// > 0 (time): time in which a body would reach the velocity of the field if its limit permits. Less than
+  /// half the interval causes growing overshoot.
   double response_time = 0.5;
   double start_time = 0.0;
 };
 
 /// During each interval the acceleration is constant: (field(x) - v) / response_time with x and v at the
-/// interval's beginning, shortened to the body's limit where it is longer.
+/// beginning of the interval, shortened to the body's limit if it is longer.
 class VelocityField final : public PiecewiseAcceleration {
  public:
-  /// Errors: not_finite or out_of_range, naming the field of the definition and the body.
+  /// Creates the motion. Errors: not_finite or out_of_range, naming the field of the definition and the
+  /// body.
   static Result<VelocityField> create(VelocityFieldDefinition definition);
 
-  /// Adds a body that moves on from `state` at time t, and returns its number. Errors: not_finite (also where
+  /// Adds a body that continues from `state` at time t, and returns its number. Errors: not_finite (also if
   /// the field is not finite there); out_of_range for a negative limit and for times beyond 2^50 intervals.
   Result<std::uint32_t> add(double t, const State& state, double acceleration_limit);
 
