@@ -62,7 +62,7 @@ struct StaticDefinition {
 /// with two equal corners or three nearly collinear ones (its least height below 2^-20 of its longest
 /// side); not_finite.
 Result<std::vector<StaticDefinition>> mesh(std::span<const Vec3> vertices,
-                                           std::span<const std::array<std::uint32_t, 3>> aabb,
+                                           std::span<const std::array<std::uint32_t, 3>> corners,
                                            const Filter& filter = {});
 
 /// The point of a shape nearest to a given point.

@@ -100,11 +100,11 @@ Box bounding_box(const Shape& shape, double limit) {
 }
 
 Result<std::vector<StaticDefinition>> mesh(std::span<const Vec3> vertices,
-                                           std::span<const std::array<std::uint32_t, 3>> aabb,
+                                           std::span<const std::array<std::uint32_t, 3>> corners,
                                            const Filter& filter) {
   std::vector<StaticDefinition> triangles;
-  triangles.reserve(aabb.size());
-  for (const auto& [a, b, c] : aabb) {
+  triangles.reserve(corners.size());
+  for (const auto& [a, b, c] : corners) {
     const std::string call = "mesh: triangle " + std::to_string(triangles.size());
     InputCheck check(call);
     for (const std::size_t corner : {a, b, c}) {

@@ -53,16 +53,16 @@ struct TriangleSide {
 class TriangleFrame {
  public:
   explicit TriangleFrame(const Triangle& t) {
-    const std::array<Vec3, 3> aabb{t.a, t.b, t.c};
+    const std::array<Vec3, 3> corners{t.a, t.b, t.c};
     std::size_t first = 0;
     double longest = norm_squared(t.b - t.a);
     for (std::size_t k = 1; k < 3; ++k) {
-      const double square = norm_squared(aabb[(k + 1) % 3] - aabb[k]);
+      const double square = norm_squared(corners[(k + 1) % 3] - corners[k]);
       if (!(square > longest)) continue;
       longest = square;
       first = k;
     }
-    corners_ = {aabb[first], aabb[(first + 1) % 3], aabb[(first + 2) % 3]};
+    corners_ = {corners[first], corners[(first + 1) % 3], corners[(first + 2) % 3]};
     const Vec3 side = corners_[1] - corners_[0];
     const Vec3 third = corners_[2] - corners_[0];
     length_ = norm(side);

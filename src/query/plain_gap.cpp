@@ -71,13 +71,13 @@ Range from(const Point& centre, const Box& box) {
 /// triangle lies behind its supporting plane in any direction. So the nearest of some points and the farthest
 /// of some planes enclose the distance, however those were chosen.
 Range from(const Point& centre, const Triangle& triangle) {
-  const std::array aabb{point(triangle.a), point(triangle.b), point(triangle.c)};
+  const std::array corners{point(triangle.a), point(triangle.b), point(triangle.c)};
   Range range{0, std::numeric_limits<Long>::infinity()};
   const auto try_direction = [&](const Point& direction) {
     const Long size = length(direction);
     if (!(size > 0)) return;
     Long least = std::numeric_limits<Long>::infinity();
-    for (const Point& corner : aabb) least = std::min(least, dot(direction, centre - corner) / size);
+    for (const Point& corner : corners) least = std::min(least, dot(direction, centre - corner) / size);
     range.lower = std::max(range.lower, least);
   };
   const auto try_point = [&](const Point& on) {
@@ -85,20 +85,20 @@ Range from(const Point& centre, const Triangle& triangle) {
     try_direction(centre - on);
   };
   for (std::size_t k = 0; k < 3; ++k) {
-    const Point side = aabb[(k + 1) % 3] - aabb[k];
-    const Long part = dot(centre - aabb[k], side) / dot(side, side);
-    try_point(aabb[k] + side * std::clamp(part, Long(0), Long(1)));
+    const Point side = corners[(k + 1) % 3] - corners[k];
+    const Long part = dot(centre - corners[k], side) / dot(side, side);
+    try_point(corners[k] + side * std::clamp(part, Long(0), Long(1)));
   }
-  const Point to_b = aabb[1] - aabb[0];
-  const Point to_c = aabb[2] - aabb[0];
+  const Point to_b = corners[1] - corners[0];
+  const Point to_c = corners[2] - corners[0];
   const Point across = cross(to_b, to_c);
-  const Point way = centre - aabb[0];
+  const Point way = centre - corners[0];
   try_direction(across);
   try_direction(across * -1);
   const Long square = dot(across, across);
   const Long along_b = std::clamp(dot(cross(way, to_c), across) / square, Long(0), Long(1));
   const Long along_c = std::clamp(dot(cross(to_b, way), across) / square, Long(0), 1 - along_b);
-  try_point(aabb[0] + to_b * along_b + to_c * along_c);
+  try_point(corners[0] + to_b * along_b + to_c * along_c);
   return range;
 }
 

@@ -281,8 +281,8 @@ TEST(Mesh, NamesTheTriangleThatIsWrong) {
   EXPECT_EQ(std::get<Triangle>(good[1].shape), (Triangle{vertices[1], vertices[3], vertices[2]}));
   EXPECT_EQ(good[1].user_data, 1u);
   EXPECT_EQ(good[1].filter.category, 4u);
-  const auto refused = [&](const std::array<std::uint32_t, 3>& aabb) {
-    const auto result = mesh(vertices, Corners{{0, 1, 2}, aabb});
+  const auto refused = [&](const std::array<std::uint32_t, 3>& corners) {
+    const auto result = mesh(vertices, Corners{{0, 1, 2}, corners});
     EXPECT_FALSE(result);
     EXPECT_EQ(result.error().message.rfind("mesh: triangle 1: ", 0), 0u) << result.error().message;
     return result.error();

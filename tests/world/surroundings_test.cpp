@@ -192,21 +192,21 @@ class MarginOf : public testing::TestWithParam<const char*> {
         }
       return all;
     }
-    std::vector<Vec3> aabb;
-    for (int k = 0; k < 8; ++k) aabb.push_back({size * (k & 1), size * (k >> 1 & 1), size * (k >> 2 & 1)});
+    std::vector<Vec3> corners;
+    for (int k = 0; k < 8; ++k) corners.push_back({size * (k & 1), size * (k >> 1 & 1), size * (k >> 2 & 1)});
     using Corners = std::vector<std::array<std::uint32_t, 3>>;
-    return mesh(aabb, Corners{{0, 1, 3},
-                              {0, 3, 2},
-                              {4, 5, 7},
-                              {4, 7, 6},
-                              {0, 1, 5},
-                              {0, 5, 4},
-                              {2, 3, 7},
-                              {2, 7, 6},
-                              {0, 2, 6},
-                              {0, 6, 4},
-                              {1, 3, 7},
-                              {1, 7, 5}})
+    return mesh(corners, Corners{{0, 1, 3},
+                                 {0, 3, 2},
+                                 {4, 5, 7},
+                                 {4, 7, 6},
+                                 {0, 1, 5},
+                                 {0, 5, 4},
+                                 {2, 3, 7},
+                                 {2, 7, 6},
+                                 {0, 2, 6},
+                                 {0, 6, 4},
+                                 {1, 3, 7},
+                                 {1, 7, 5}})
         .value();
   }
 };
@@ -255,8 +255,8 @@ INSTANTIATE_TEST_SUITE_P(, MarginOf, testing::Values("half_spaces", "boxes", "tr
 TEST(Surroundings, OneBounceOnASharedEdge) {
   Surroundings p({.contact_tolerance = eps, .contacts = ContactMode::impacts});
   const std::vector<Vec3> vertices{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
-  const std::vector<std::array<std::uint32_t, 3>> aabb{{0, 1, 2}, {0, 2, 3}};
-  p.place_all(mesh(vertices, aabb).value());
+  const std::vector<std::array<std::uint32_t, 3>> corners{{0, 1, 2}, {0, 2, 3}};
+  p.place_all(mesh(vertices, corners).value());
   const BodyId ball = p.add({.radius = 1, .position = {2, 2, 3}, .velocity = {0, 0, -1}});
   const auto events = p.run(10.0, [&](const Event& event) {
     EXPECT_EQ(event.kind, EventKind::contact_begin);
@@ -271,8 +271,8 @@ TEST(Surroundings, ABallRestsAndRollsOnAMesh) {
   // Stopped dead again and again: the Zeno guard and the mesh's edges together.
   Surroundings p({.contact_tolerance = eps, .contacts = ContactMode::impacts});
   const std::vector<Vec3> vertices{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
-  const std::vector<std::array<std::uint32_t, 3>> aabb{{0, 1, 2}, {0, 2, 3}};
-  p.place_all(mesh(vertices, aabb).value());
+  const std::vector<std::array<std::uint32_t, 3>> corners{{0, 1, 2}, {0, 2, 3}};
+  p.place_all(mesh(vertices, corners).value());
   const BodyId ball = p.add(
       {.radius = 0.5, .planned_acceleration = {0, 0, -10}, .position = {1, 3, 0.6}, .velocity = {1, -1, 0}});
   double lowest = infinity;
@@ -297,14 +297,14 @@ std::vector<StaticDefinition> terrain(int n, double width) {
       vertices.push_back(
           {width * x, width * y, 12.0 * x * (1 - x) * (3 * y - 1) * (y - 0.8) + 0.1 * ((i * 7 + j * 5) % 3)});
     }
-  std::vector<std::array<std::uint32_t, 3>> aabb;
+  std::vector<std::array<std::uint32_t, 3>> corners;
   const auto at = [n](int i, int j) { return static_cast<std::uint32_t>(i * (n + 1) + j); };
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
-      aabb.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      aabb.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+      corners.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      corners.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
     }
-  return mesh(vertices, aabb).value();
+  return mesh(vertices, corners).value();
 }
 
 TEST(Terrain, BallsThatFallThroughTouchWhatBruteForceSays) {
