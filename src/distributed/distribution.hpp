@@ -25,7 +25,8 @@ class Distribution {
   /// Ends the windows of these bodies, which end on all ranks. Drops ghosts among them and removes these from
   /// `ending`; clears the holders of own bodies, as the holders have dropped their ghosts.
   void drop_ghosts(std::vector<std::uint32_t>& ending);
-  /// Repartitions space by the work of bodies since the last partition, if the imbalance exceeds its limit.
+  /// Repartitions space by the work of bodies since the last partition, if the imbalance exceeds its limit or
+  /// space has not been partitioned yet.
   void divide_space(std::span<const BroadPhase::Starter> starters);
   /// Migrates starters to the ranks whose region contains them. Appends arriving starters to `starters`.
   Result<void> migrate(std::vector<BroadPhase::Starter>& starters);

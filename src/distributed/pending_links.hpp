@@ -21,7 +21,8 @@ class PendingLinks {
     bool empty() const { return partners.empty() && overlaps.empty(); }
   };
 
-  /// Returns the pending links of the body, or null if it has none. Invalidated by any change.
+  /// Returns the pending links of the body, or null if it has none. Invalidated by set() and remove() of this
+  /// body.
   const Links* of(std::uint32_t name) const;
   /// Replaces the pending links of the body.
   void set(std::uint32_t name, Links links);

@@ -28,8 +28,7 @@ struct JoinList {
     }
   };
   std::vector<Member> together{};
-  /// Names of bodies in the cluster's read set: the cluster is valid only while they belong to no other
-  /// cluster.
+  /// Names of bodies in the cluster's read set, which the cluster assumes to belong to no cluster.
   std::vector<std::uint32_t> counted_on{};
 
   template <class Self, class Archive>
