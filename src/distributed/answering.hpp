@@ -1,5 +1,4 @@
-// How the bodies that a rank knows move on, and what happens to them in an event: by the motion and the
-// answers of the caller.
+// RankSource and RankResponder connect a rank's bodies to the caller's motion and responses.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +12,7 @@
 
 namespace kinesphere {
 
-/// Moves own bodies and copies by the rank's motion.
+/// Motion source for own bodies and ghosts, backed by the rank's motion.
 class RankSource final : public MotionSource {
  public:
   RankSource(Motion& motion, const BodyDirectory& directory) : motion_(motion), directory_(directory) {}
@@ -28,7 +27,8 @@ class RankSource final : public MotionSource {
   const BodyDirectory& directory_;
 };
 
-/// Asks `respond`, and refuses answers that are none.
+/// Calls `respond` and validates the response. Errors: unknown_body for a velocity of a body that is not part
+/// of the event; those of check_velocity().
 class RankResponder final : public ResponseHandler {
  public:
   RankResponder(const ResponseFn& respond, MotionSource& source, const WorldDefinition& definition)

@@ -40,7 +40,8 @@ bool BatchExchange::is_ours(const Cluster& group) const {
   return std::any_of(members.begin(), members.end(), [this](std::uint32_t number) { return is_own(number); });
 }
 
-/// All pairs of its bodies are known here.
+/// True if the cluster has an own member and this rank knows all pairs of its members: each registered ghost
+/// in it has its swept sphere within this rank's halo region.
 bool BatchExchange::is_ready(const Cluster& group) const {
   const auto members = runner_.members_of(group);
   return is_ours(group) && std::all_of(members.begin(), members.end(), [this](std::uint32_t number) {
@@ -49,7 +50,7 @@ bool BatchExchange::is_ready(const Cluster& group) const {
          });
 }
 
-/// In ascending order.
+/// Returns the ranks that own members of the cluster, in ascending order.
 std::vector<int> BatchExchange::owners_of(const Cluster& group) const {
   std::vector<int> owners;
   for (const std::uint32_t number : runner_.members_of(group)) {
@@ -60,7 +61,8 @@ std::vector<int> BatchExchange::owners_of(const Cluster& group) const {
   return owners;
 }
 
-/// Tells the others what is new of islands, and learns the same from them. False when nothing is, anywhere.
+/// Exchanges one round of news about clusters with all ranks. Returns false if no rank has news. Errors: the
+/// first error that a rank has noted.
 Result<bool> BatchExchange::share() {
   if (!agreement_.has_noted() && communicator_.ranks() > 1) note_news();
   const Standing standing = agreement_.has_noted() ? Standing::has_failed
@@ -91,13 +93,13 @@ Result<bool> BatchExchange::share() {
   }
   round_ = Round(communicator_.ranks());
   take_in(outbox.exchange(communicator_));
-  // What has come with space that was asked for may be in the way of those who asked.
+  // Bodies that arrived with requested boxes may interact with the clusters that requested them.
   for (const std::uint32_t own : std::exchange(asking_, {}))
     if (!runner_.clusters()[own].is_merged()) runner_.run_again(own);
   return true;
 }
 
-/// What the round has for this rank.
+/// Writes this round's message for `rank` to the outbox, with the bodies that it sends there.
 void BatchExchange::send_to(int rank, SendBuffers& outbox) {
   auto& [message, bodies] = round_.to(rank);
   for (const std::uint32_t number : bodies) {
@@ -147,12 +149,13 @@ void BatchExchange::take_in(const std::vector<Communicator::Bytes>& incoming) {
   }
 }
 
-/// SpeculativeRunner that others have joined are joined here, as soon as all of their bodies are known.
+/// Merges the clusters in received lists as soon as this rank holds all of their bodies.
 void BatchExchange::join_as_told() {
   std::erase_if(lists_, [this](JoinList& list) { return join_as_told(list); });
 }
 
-/// False if the list has to wait.
+/// Merges the bodies of one list. Returns false if the list has to wait for bodies to arrive or to join a
+/// cluster.
 bool BatchExchange::join_as_told(JoinList& list) {
   std::vector<std::uint32_t> numbers;
   for (const JoinList::Member& member : list.together) {
@@ -175,7 +178,7 @@ bool BatchExchange::join_as_told(JoinList& list) {
   return list.counted_on.empty();
 }
 
-/// A registered body comes with the space around it, others by their names.
+/// Requests a body that this rank does not hold: a registered one by its box, others by name.
 void BatchExchange::ask_for(const JoinList::Member& member) {
   if (member.is_registered) {
     ask_for(member.box);
@@ -184,14 +187,15 @@ void BatchExchange::ask_for(const JoinList::Member& member) {
   }
 }
 
-/// False if the space is known.
+/// Adds the box to the halo region and requests its bodies. Returns false if the halo region covers it
+/// already.
 bool BatchExchange::ask_for(const Box& box) {
   const bool is_new = known_.cover(box);
   if (is_new) round_.asks.push_back(box);
   return is_new;
 }
 
-/// The rank gets a copy of an own body, unless it has one.
+/// Schedules a ghost of an own body for rank `to`, unless that rank holds one.
 void BatchExchange::send(std::uint32_t number, int to) {
   if (local_.directory.add_holder(number, to)) round_.to(to).bodies.push_back(number);
 }
@@ -210,7 +214,7 @@ void BatchExchange::note_news() {
   }
 }
 
-/// Asks for what lies in the way of the island's bodies.
+/// Requests the boxes that the swept spheres of the cluster's ghosts and of its updates need.
 void BatchExchange::note_space(const Cluster& group) {
   bool any = false;
   for (const std::uint32_t number : runner_.members_of(group))
@@ -221,7 +225,8 @@ void BatchExchange::note_space(const Cluster& group) {
   if (any) asking_.push_back(group.index);
 }
 
-/// Tells the owners of its bodies and of those it counts on of an island; or the owner of one that it meets.
+/// Sends the cluster's list to the owners of its members and of its read set; if `met` is given, only to the
+/// owner of `met`, which the cluster has to merge with.
 void BatchExchange::note_list(const Cluster& group, std::optional<std::uint32_t> met) {
   std::vector<int> owners;
   const auto note = [&](std::uint32_t number) {
@@ -249,7 +254,8 @@ void BatchExchange::note_list(const Cluster& group, std::optional<std::uint32_t>
   for (const int owner : owners) round_.to(owner).message.lists.push_back(list);
 }
 
-/// Tells of kicked bodies all ranks to whose space they come.
+/// Sends each swept-sphere update of an own body to the ranks whose halo region it meets and that own no
+/// member of the cluster.
 void BatchExchange::note_updates(const Cluster& group) {
   std::optional<std::vector<int>> owners;
   for (const SweptSphereUpdate& update : runner_.updates_of(group)) {

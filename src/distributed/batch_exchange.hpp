@@ -1,5 +1,6 @@
-// A part of a phase: each rank runs the islands that have a body of its own, and ranks tell each other what
-// joins islands, until each has run its islands with all bodies that belong to them.
+// BatchExchange runs one batch of an epoch: each rank executes the clusters that contain an own body, and
+// ranks exchange which clusters have to be merged, until each has executed its clusters with all their
+// members.
 #pragma once
 
 #include <cstdint>
@@ -15,28 +16,29 @@
 
 namespace kinesphere {
 
-/// One part, for which islands have been opened. run(), finish() and renew_copies() are called once each, in
-/// this order.
+/// Exchange of one batch, whose clusters have been formed with SpeculativeRunner::begin_batch(). Call run(),
+/// finish() and renew_ghosts() once each, in this order.
 class BatchExchange {
  public:
   BatchExchange(Communicator& communicator, ErrorConsensus& agreement, RankState& local, Migration& transit,
                 HaloRegions& known, SpeculativeRunner& islands);
 
-  /// Collective. Runs islands, and has rounds with the other ranks, until none has news. Errors: of the first
-  /// rank in whose islands something has failed, the same on all.
+  /// Collective. Executes clusters and exchanges rounds with the other ranks until no rank has news. Errors:
+  /// the error of the first rank in which a cluster has failed, equal on all ranks.
   Result<void> run();
-  /// What came of the islands becomes what came of everybody. Returns the events whose first body is this
-  /// rank's, in their order.
+  /// Commits the results of all executed clusters. Returns, in order, the events whose first body is owned by
+  /// this rank.
   std::vector<OrderedEvent> finish();
-  /// Collective. Bodies that have changed go to those who have copies but have not run their island, and to
-  /// those to whose space they have been kicked. Errors: those of Transit::exchange().
+  /// Collective. Sends changed own bodies to ranks that hold ghosts of them but have not executed their
+  /// cluster, and to ranks whose halo region the swept spheres of updated bodies meet. Errors: those of
+  /// Migration::exchange().
   Result<void> renew_ghosts();
 
-  /// How often ranks have told each other something.
+  /// Number of exchange rounds so far.
   std::uint64_t rounds() const { return rounds_; }
 
  private:
-  // phase_part.cpp: the rounds.
+  // batch_exchange.cpp: the rounds.
   Result<bool> share();
   void send_to(int rank, SendBuffers& outbox);
   void take_in(const std::vector<Communicator::Bytes>& incoming);
@@ -54,7 +56,7 @@ class BatchExchange {
   bool is_ready(const Cluster& group) const;
   std::vector<int> owners_of(const Cluster& group) const;
 
-  // phase_part_end.cpp: what came of it.
+  // batch_exchange_end.cpp: committing results and renewing ghosts.
   void add_costs();
   std::vector<std::uint32_t> own_updated(const Cluster& group) const;
   BodyMessage pack_changed(std::uint32_t number, bool is_kicked, const Cluster& group) const;
@@ -66,9 +68,9 @@ class BatchExchange {
   Migration& transit_;
   HaloRegions& known_;
   SpeculativeRunner& runner_;
-  std::vector<JoinList> lists_;        ///< that wait for bodies to become known, or to be in an island
-  std::vector<std::uint32_t> asking_;  ///< groups that have asked for space
-  Round round_;                        ///< what is to be said next
+  std::vector<JoinList> lists_;        ///< lists that wait for a body to arrive or to join a cluster
+  std::vector<std::uint32_t> asking_;  ///< indices of clusters that have requested boxes
+  Round round_;                        ///< messages of the next round
   std::uint64_t rounds_ = 0;
 };
 

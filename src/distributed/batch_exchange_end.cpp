@@ -1,4 +1,4 @@
-// What came of the islands of a part of a phase: events, and copies that are renewed.
+// The end of a batch: BatchExchange commits events and renews ghosts.
 #include <algorithm>
 
 #include "distributed/batch_exchange.hpp"
@@ -9,7 +9,7 @@ namespace kinesphere {
 std::vector<OrderedEvent> BatchExchange::finish() {
   add_costs();
   const BodyTable& table = local_.bodies().table();
-  // Of several owners, the one of the first body counts the work.
+  // If several ranks own members, the owner of the first member counts the work.
   const auto is_counted = [&](const Cluster& group) {
     const auto members = runner_.members_of(group);
     return is_own(*std::min_element(members.begin(), members.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -26,7 +26,7 @@ std::vector<OrderedEvent> BatchExchange::finish() {
   return events;
 }
 
-/// An island costs each of its bodies the same.
+/// Distributes the cost of each executed cluster equally over its members.
 void BatchExchange::add_costs() {
   for (const Cluster& group : runner_.clusters()) {
     if (group.is_merged() || !group.executed) continue;
@@ -46,7 +46,8 @@ Result<void> BatchExchange::renew_ghosts() {
   return renewed ? Result<void>() : renewed.error();
 }
 
-/// Of own bodies of the island.
+/// Writes to the outbox the cluster's own bodies whose ghosts on other ranks are outdated, and ghosts for
+/// ranks whose halo region an updated swept sphere meets.
 void BatchExchange::renew_ghosts(const Cluster& group, SendBuffers& outbox) {
   const std::vector<std::uint32_t> kicked = own_updated(group);
   for (const std::uint32_t number : kicked)
@@ -56,7 +57,7 @@ void BatchExchange::renew_ghosts(const Cluster& group, SendBuffers& outbox) {
   for (const std::uint32_t number : runner_.members_of(group)) {
     if (!is_own(number) || local_.directory[number].holders.empty()) continue;
     const bool is_kicked = std::binary_search(kicked.begin(), kicked.end(), number);
-    // Its copies are dropped in any case.
+    // The window ends now, so its ghosts are dropped at the next window start.
     if (!is_kicked && local_.state.broad_phase.end_of(number) <= local_.time()) continue;
     if (!owners) owners = owners_of(group);
     std::optional<BodyMessage> message;
@@ -68,7 +69,7 @@ void BatchExchange::renew_ghosts(const Cluster& group, SendBuffers& outbox) {
   }
 }
 
-/// In ascending order.
+/// Returns the numbers of own bodies with swept-sphere updates in the cluster, unique and in ascending order.
 std::vector<std::uint32_t> BatchExchange::own_updated(const Cluster& group) const {
   std::vector<std::uint32_t> kicked;
   for (const SweptSphereUpdate& update : runner_.updates_of(group))
@@ -78,7 +79,7 @@ std::vector<std::uint32_t> BatchExchange::own_updated(const Cluster& group) cons
   return kicked;
 }
 
-/// The body with the hot pairs that the island has left.
+/// Packs the body with the certificates that the cluster has left for later.
 BodyMessage BatchExchange::pack_changed(std::uint32_t number, bool is_kicked, const Cluster& group) const {
   BodyMessage message = transit_.pack(number);
   message.enters = is_kicked;

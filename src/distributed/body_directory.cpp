@@ -40,7 +40,7 @@ void BodyDirectory::remove(std::uint32_t name, std::uint32_t number) {
   const std::uint32_t place = std::exchange(entries_[number], {}).place;
   if (is_own(number)) return;
   are_ghosts_[number] = 0;
-  // The last copy of the list takes its place.
+  // The last ghost in the list moves to the vacated position.
   ghosts_[place] = ghosts_.back();
   entries_[ghosts_[place]].place = place;
   ghosts_.pop_back();

@@ -1,7 +1,7 @@
-// The bodies that a rank knows, which are its own and copies of others: their numbers here, by name; who owns
-// each of them; which other ranks have copies of own ones.
+// BodyDirectory lists the bodies that a rank holds, own bodies and ghosts: number by name, owner of each, and
+// which other ranks hold ghosts of own bodies.
 //
-// A body has the same name on all ranks (BodyTable), and a number of each rank's own.
+// A body has one name on all ranks (BodyTable) and a separate number on each rank.
 #pragma once
 
 #include <cstddef>
@@ -16,36 +16,36 @@ namespace kinesphere {
 class BodyDirectory {
  public:
   struct Entry {
-    int owner = 0;                ///< the rank whose body it is
-    std::uint32_t in_motion = 0;  ///< its number in this rank's motion
-    /// What it has taken since space was divided last, in looks at pairs and windows' starts.
+    int owner = 0;                ///< rank that owns the body
+    std::uint32_t in_motion = 0;  ///< number in this rank's motion
+    /// Work since the last partition, counted in pair rechecks and window starts.
     float cost = 0.0f;
-    std::uint32_t place = 0;     ///< of a copy: where it stands in copies()
-    std::vector<int> holders{};  ///< of an own body: the other ranks that have a copy
+    std::uint32_t place = 0;     ///< ghosts only: position in ghosts()
+    std::vector<int> holders{};  ///< own bodies only: other ranks that hold a ghost
   };
 
   explicit BodyDirectory(int rank) : rank_(rank) {}
 
-  /// The number of the body of this name, if it is known.
+  /// Returns the number of the body of this name, or nullopt if this rank does not hold it.
   std::optional<std::uint32_t> find(std::uint32_t name) const;
   bool empty() const { return numbers_.empty(); }
   std::size_t own_count() const { return numbers_.size() - ghosts_.size(); }
-  /// The numbers of all copies, in no order.
+  /// Numbers of all ghosts, unordered. Invalidated by add() and remove().
   std::span<const std::uint32_t> ghosts() const { return ghosts_; }
-  /// By number: 1 for a copy, 0 for all others.
+  /// By number: 1 for a ghost, 0 otherwise.
   const std::vector<std::uint8_t>& are_ghosts() const { return are_ghosts_; }
 
-  // By a number that is that of a known body.
+  // Precondition of the following functions: this rank holds the body of this number.
   Entry& operator[](std::uint32_t number) { return entries_[number]; }
   const Entry& operator[](std::uint32_t number) const { return entries_[number]; }
   bool is_own(std::uint32_t number) const { return are_ghosts_[number] == 0; }
   bool is_held(std::uint32_t number, int by) const;
-  /// False if that rank has a copy already.
+  /// Records that `rank` holds a ghost. Returns false if it does already.
   bool add_holder(std::uint32_t number, int rank);
 
-  /// A body has become known.
+  /// Adds an entry for a body that this rank now holds.
   void add(std::uint32_t name, std::uint32_t number, int owner);
-  /// It is known no longer.
+  /// Removes the entry of a body that this rank no longer holds.
   void remove(std::uint32_t name, std::uint32_t number);
 
  private:

@@ -1,4 +1,4 @@
-// A body on its way from rank to rank, with all that is known of it and the motion that moves it.
+// BodyMessage carries one body from rank to rank, with its state, contacts, certificates and motion.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,9 @@
 
 namespace kinesphere {
 
-/// Bodies are named by the indices of their ids.
+/// One serialized body. Bodies are identified by name, the index of their id.
 struct BodyMessage {
-  /// A hot pair of the body; the other may be PairCertificate::walls or PairCertificate::window_end.
+  /// Pair certificate of the body. `other` is a name, PairCertificate::walls or PairCertificate::window_end.
   struct Due {
     double time;
     std::uint32_t other;
@@ -28,22 +28,23 @@ struct BodyMessage {
   };
 
   std::uint32_t name = 0;
-  std::int32_t owner = 0;  ///< the rank whose it is
+  std::int32_t owner = 0;  ///< rank that owns the body
   Body body{};
   PeriodicImage image{};
   Filter filter{};
   ContactCheckpoint contacts{};
-  /// Where it is registered, if it is. `enters`: with a new capsule, from now on. `starts`: with all others
-  /// whose windows start now.
+  /// Registration in the broad phase and, if registered, the window (`tier`, `end`). `enters`: the receiver
+  /// inserts it now, with a new swept sphere. `starts`: it takes part in the bulk window start that is in
+  /// progress.
   bool is_registered = false;
   bool enters = false;
   bool starts = false;
   std::int32_t tier = 0;
   double end = 0.0;
-  /// Hot pairs that were known of it before are void.
+  /// True if certificates that the receiver holds for the body are stale.
   bool is_void = false;
   std::vector<Due> due{};
-  std::vector<Event> pending{};  ///< news of it that has not been told
+  std::vector<Event> pending{};  ///< events of the body that have not been reported yet
   std::vector<std::byte> motion{};
 
   Window window() const { return {tier, end}; }

@@ -1,7 +1,7 @@
-// The whole of a distributed world as bytes: a part for each rank, which any number of ranks can go on from.
+// Checkpoint serializes a distributed world to one part per rank, which any number of ranks can restore.
 //
-// Of windows, no more is kept than in which one each body is: a capsule that is made anew holds what the body
-// may do from now on, and decides nothing (docs/distributed.md).
+// For each body, only its window is saved, not its swept sphere. A swept sphere computed at restore contains
+// the body's motion from then on, and it does not affect any result (docs/distributed.md).
 #pragma once
 
 #include <array>
@@ -22,9 +22,9 @@
 
 namespace kinesphere {
 
-/// A part of a checkpoint: what one rank has of the world.
+/// One part of a checkpoint: the state of one rank.
 struct Checkpoint {
-  /// The same in all parts of one checkpoint.
+  /// Identity of a checkpoint; equal in all of its parts.
   struct Stamp {
     std::uint64_t parts = 0;
     double time = 0.0;
@@ -41,11 +41,11 @@ struct Checkpoint {
   Stamp stamp{};
   std::uint64_t part = 0;
   WorldDefinition definition{};
-  // The same in all parts, too.
+  // Shared state; equal in all parts.
   std::vector<std::byte> window_policy{};
   SensorTable sensors{};
   double epoch_end = infinity;
-  // Of this part.
+  // State of this part alone.
   RenewalCounts kicks{};
   Counters counters{};
   std::array<std::uint64_t, 2> hash{};
@@ -58,17 +58,17 @@ struct Checkpoint {
   }
 
   std::vector<std::byte> write() const;
-  /// Errors: bad_snapshot.
+  /// Reads one part. Errors: bad_snapshot.
   static Result<Checkpoint> read(std::span<const std::byte> bytes);
   static Result<std::vector<Checkpoint>> read_all(std::span<const std::vector<std::byte>> parts);
 };
 
-/// Collective: each rank has some of the parts, or none. Sets `common` to what all parts have alike, as far
-/// as there are parts. Errors: bad_snapshot, if the parts of all ranks are not those of one world, each of
-/// them once.
+/// Collective; each rank passes some of the parts or none. Sets `common` to the state that all parts share,
+/// as far as there are parts. Errors: bad_snapshot unless the parts of all ranks are exactly those of one
+/// world, each present once.
 Result<void> gather_common(Communicator& communicator, std::span<const Checkpoint> here, Checkpoint& common);
 
-/// Errors: bad_snapshot.
+/// Reads a window policy. Errors: bad_snapshot.
 Result<void> read_window_policy(std::span<const std::byte> bytes, WindowPolicy& window_policy);
 
 }  // namespace kinesphere

@@ -12,7 +12,7 @@
 namespace kinesphere {
 namespace {
 
-/// MPI counts in int, so long messages go in pieces.
+/// Maximum bytes per MPI message; MPI counts are int, so longer messages are split.
 constexpr std::size_t longest_piece = std::size_t{1} << 30;
 
 double processor_seconds() {

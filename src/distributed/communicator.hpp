@@ -1,5 +1,5 @@
-// What the processes of a distributed world tell each other, over MPI. All functions but the counters are
-// collective: every rank has to call the same ones in the same order.
+// Communicator wraps the MPI calls of a distributed world. All functions except accessors are collective:
+// every rank has to make equal calls in an equal order.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@ class Communicator {
  public:
   using Bytes = std::vector<std::byte>;
 
-  /// Of all ranks of the program: a communicator of its own, so that no message is mixed up with those of
-  /// others. MPI has been initialised.
+  /// Duplicates MPI_COMM_WORLD, so that messages do not mix with those of other code. Precondition: MPI has
+  /// been initialised.
   Communicator();
   Communicator(const Communicator&) = delete;
   Communicator& operator=(const Communicator&) = delete;
@@ -23,8 +23,7 @@ class Communicator {
   int rank() const { return rank_; }
   int ranks() const { return ranks_; }
 
-  /// In the place of each number, the sum (added up in the order of ranks) or the least of those of all
-  /// ranks.
+  /// Replaces each number by its sum over all ranks (added in rank order) or by its minimum over all ranks.
   void sum(std::span<std::uint64_t> numbers);
   void sum(std::span<double> numbers);
   void least(std::span<double> numbers);
@@ -36,23 +35,24 @@ class Communicator {
     sum(std::span(&number, 1));
     return number;
   }
-  /// What each rank gives, by rank.
+  /// Returns the bytes of each rank, indexed by rank.
   std::vector<Bytes> gather(std::span<const std::byte> bytes);
-  /// The k-th message goes to rank k; returns those that came, by rank. Empty ones cost no message.
+  /// Sends the k-th message to rank k and returns the received messages, indexed by rank. Empty messages are
+  /// not sent.
   std::vector<Bytes> exchange(std::vector<Bytes> outgoing);
 
-  // What has been done so far by this rank.
+  // Traffic of this rank so far.
   struct Traffic {
-    std::uint64_t bytes = 0;        ///< to other ranks
-    std::uint64_t messages = 0;     ///< from rank to rank
-    std::uint64_t collectives = 0;  ///< calls in which all ranks take part
-    double seconds = 0.0;           ///< of processor time, waiting for others included
+    std::uint64_t bytes = 0;        ///< sent to other ranks
+    std::uint64_t messages = 0;     ///< point-to-point messages sent
+    std::uint64_t collectives = 0;  ///< collective calls
+    double seconds = 0.0;           ///< processor time, including waiting
   };
   const Traffic& traffic() const { return traffic_; }
 
  private:
   class Timer;
-  struct Handle;  // of MPI, which is known in the source alone
+  struct Handle;  // holds the MPI communicator; defined in communicator.cpp only
 
   Handle* handle_;
   int rank_ = 0;

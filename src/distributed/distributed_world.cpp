@@ -28,7 +28,8 @@ Result<DistributedWorld> DistributedWorld::create(const WorldDefinition& definit
     return {};
   };
   const auto checked = valid();
-  // A world that cannot be has none of these, but all ranks have to hear of it.
+  // An invalid definition is replaced by the default one, because the error has to reach all ranks through
+  // the engine's communicator.
   auto domain = std::make_unique<RankEngine>(checked ? definition : WorldDefinition{}, motion);
   if (auto agreed = domain->agree(checked); !agreed) return agreed.error();
   return DistributedWorld(std::move(domain));

@@ -11,9 +11,10 @@
 namespace kinesphere {
 namespace {
 
-/// Known space reaches so many times the mean width of capsules beyond what is a rank's.
+/// Margin of the halo region around a rank's region of space, in mean widths of swept-sphere boxes. A larger
+/// margin means more ghosts; a smaller one means more requests for boxes within batches.
 constexpr double margin_in_widths = 2.0;
-/// Space is divided anew where a rank has so many times the work that it should have.
+/// Limit of the imbalance, greatest work of a rank over mean work, beyond which space is repartitioned.
 constexpr double most_imbalance = 1.2;
 
 Box grown(Box box, double by) {
@@ -72,7 +73,7 @@ void Distribution::divide_space(std::span<const BroadPhase::Starter> starters) {
   ++partitions_;
 }
 
-/// The body with the window that starts for it now.
+/// Packs the body with the window that starts for it now.
 BodyMessage Distribution::pack_to_start(const BroadPhase::Starter& starter) const {
   BodyMessage message = transit_.pack(starter.number);
   message.starts = true;
@@ -98,7 +99,8 @@ Result<void> Distribution::migrate(std::vector<BroadPhase::Starter>& starters) {
   return exchange(outbox, starters);
 }
 
-/// Bodies that come and start with all others are added to `starters`.
+/// Sends the outbox and installs arriving bodies. Appends those that take part in the bulk start to
+/// `starters`.
 Result<void> Distribution::exchange(SendBuffers& outbox, std::vector<BroadPhase::Starter>& starters) {
   const auto messages = transit_.exchange(communicator_, agreement_, outbox);
   if (!messages) return messages.error();
@@ -117,7 +119,7 @@ Result<void> Distribution::spread(std::vector<BroadPhase::Starter>& starters, bo
   std::vector<Box> ways;
   ways.reserve(starters.size());
   for (const BroadPhase::Starter& starter : starters) ways.push_back(way_of(starter));
-  std::vector<std::uint32_t> others;  // own bodies whose windows go on
+  std::vector<std::uint32_t> others;  // own bodies whose windows continue
   if (anew) {
     for (std::uint32_t number = 0; number < local_.bodies().numbers(); ++number)
       if (local_.state.broad_phase.contains(number) && local_.directory.is_own(number))
@@ -143,7 +145,7 @@ Result<void> Distribution::spread(std::vector<BroadPhase::Starter>& starters, bo
   return exchange(outbox, starters);
 }
 
-/// Around the way of the body until its window ends.
+/// Returns the box around the body's swept sphere until its window ends.
 Box Distribution::way_of(const BroadPhase::Starter& starter) const {
   const Bodies& bodies = local_.bodies();
   const double now = local_.time();
@@ -151,7 +153,7 @@ Box Distribution::way_of(const BroadPhase::Starter& starter) const {
   return bodies.space().within(bound.box_of_way(starter.window.end - now));
 }
 
-/// This rank's part of space with a margin around it.
+/// Returns this rank's region of space, grown by the halo margin.
 Box Distribution::core_of(std::span<const Box> ways, std::span<const std::uint32_t> others) {
   double widths[] = {0.0, static_cast<double>(ways.size() + others.size())};
   for (const Box& way : ways) widths[0] += width_of(way);
@@ -167,7 +169,7 @@ Box Distribution::core_of(std::span<const Box> ways, std::span<const std::uint32
   return widths[1] > 0.0 ? grown(core, margin_in_widths * widths[0] / widths[1]) : core;
 }
 
-/// Those of all ranks, by rank.
+/// Returns the boxes of all ranks, indexed by rank.
 std::vector<std::vector<Box>> Distribution::gather_boxes(std::span<const Box> boxes) {
   ByteWriter writer;
   writer(std::vector<Box>(boxes.begin(), boxes.end()));
@@ -179,7 +181,8 @@ std::vector<std::vector<Box>> Distribution::gather_boxes(std::span<const Box> bo
   return all;
 }
 
-/// Of the registered bodies, those that the rank has to know of and does not.
+/// Sends ghosts of those registered bodies that meet the halo region of rank `to` and that it does not hold
+/// yet.
 void Distribution::send_ghosts(int to, std::span<const std::uint32_t> numbers, SendBuffers& outbox) {
   std::vector<std::uint32_t> sent;
   std::vector<BodyMessage> messages;
@@ -196,7 +199,8 @@ void Distribution::send_ghosts(int to, std::span<const std::uint32_t> numbers, S
   for (const BodyMessage& message : messages) outbox.add(to, message);
 }
 
-/// Copies of bodies whose windows start, whose ways these are, to those who may meet them.
+/// Sends ghosts of the starters to all ranks whose halo region their swept box meets; ways[k] is the box of
+/// starters[k].
 void Distribution::send_starters(std::span<const BroadPhase::Starter> starters, std::span<const Box> ways,
                                  SendBuffers& outbox) {
   for (std::size_t k = 0; k < starters.size(); ++k) {

@@ -1,5 +1,5 @@
-// Which rank has which bodies: space is divided among the ranks, bodies go to the rank in whose space they
-// are, and copies of them to all ranks that have to know of them.
+// Distribution assigns bodies to ranks: it partitions space, migrates bodies to the rank whose region
+// contains them, and sends ghosts to all ranks that need them.
 #pragma once
 
 #include <cstdint>
@@ -12,30 +12,35 @@
 
 namespace kinesphere {
 
-/// All functions but drop_copies() and partitions() are collective. Errors: those of Transit::exchange().
+/// All functions except drop_ghosts() and partitions() are collective. Errors: those of
+/// Migration::exchange().
 class Distribution {
  public:
   Distribution(Communicator& communicator, ErrorConsensus& agreement, RankState& local, Migration& transit,
                HaloRegions& known);
 
-  // Windows start in these steps. `starters` are the bodies whose windows start now: first own ones alone,
-  // and in the end the own ones that are left, those that have come, and copies of others.
-  /// The windows of these bodies end on all ranks. Copies among them are dropped, and taken out of `ending`;
-  /// own ones have no holders any longer, as these have dropped theirs.
+  // Windows start in the following steps, in this order. `starters` are the bodies whose windows start now:
+  // at first own bodies only; in the end the remaining own bodies, bodies that have migrated here, and
+  // ghosts.
+  /// Ends the windows of these bodies, which end on all ranks. Drops ghosts among them and removes these from
+  /// `ending`; clears the holders of own bodies, as the holders have dropped their ghosts.
   void drop_ghosts(std::vector<std::uint32_t>& ending);
-  /// Divides space anew by the work that bodies have made since the last time, if that was not shared well.
+  /// Repartitions space by the work of bodies since the last partition, if the imbalance exceeds its limit or
+  /// space has not been partitioned yet.
   void divide_space(std::span<const BroadPhase::Starter> starters);
-  /// Starters go to the ranks in whose space they are; those that come are added to `starters`.
+  /// Migrates starters to the ranks whose region contains them. Appends arriving starters to `starters`.
   Result<void> migrate(std::vector<BroadPhase::Starter>& starters);
-  /// Known space grows by the ways of the starters. Ranks tell each other, and own bodies that may come into
-  /// the known space of others go there as copies; copies of others that start are added to `starters`.
-  /// `anew`: known space is made anew from this rank's part of space and the ways of all its own bodies.
+  /// Extends this rank's halo region by the swept boxes of the starters, and exchanges the additions with all
+  /// ranks. Sends own bodies that may enter the halo region of another rank there as ghosts. Appends arriving
+  /// ghosts that start to `starters`. `anew`: rebuilds the halo region from this rank's region of space and
+  /// the swept boxes of all its own bodies.
   Result<void> spread(std::vector<BroadPhase::Starter>& starters, bool anew);
 
-  /// Divides space for the bodies of a checkpoint, and sends each to its rank. Copies come with spread().
+  /// Partitions space for the bodies of a checkpoint and sends each body to its rank. Does not send ghosts;
+  /// spread() does.
   Result<void> distribute(std::vector<BodyMessage> messages);
 
-  /// How often space has been divided.
+  /// Number of times that space has been partitioned.
   std::uint64_t partitions() const { return partitions_; }
 
  private:

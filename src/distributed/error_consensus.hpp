@@ -1,5 +1,5 @@
-// Whether all ranks can go on: an error on one rank has to become an error on all, or the others would wait
-// for it.
+// ErrorConsensus turns an error on one rank into an error on all ranks; otherwise the other ranks would wait
+// forever.
 #pragma once
 
 #include <optional>
@@ -14,20 +14,19 @@ class ErrorConsensus {
  public:
   explicit ErrorConsensus(Communicator& communicator) : communicator_(communicator) {}
 
-  /// Collective. Each rank says whether it has an error: returns that of the first rank that has one, the
-  /// same on all ranks. The world goes on as it was.
+  /// Collective. Agrees on the errors stored by note().
   Result<void> first_error(const Result<void>& here);
-  /// Collective. The same, but after an error the world cannot go on.
+  /// Collective. Like first_error(), but after an error the world cannot continue.
   Result<void> agree(const Result<void>& here);
 
-  /// An error of this rank, if it is one, of which the others learn in the next agree_on_noted(). Only the
-  /// first is kept.
+  /// Stores the error in `here`, if any, for the next agree_on_noted(), which makes it known to all ranks.
+  /// Only the first error is kept.
   void note(const Result<void>& here);
   /// Collective.
   Result<void> agree_on_noted() { return agree(noted_ ? Result<void>(*noted_) : Result<void>()); }
   bool has_noted() const { return noted_.has_value(); }
 
-  /// rank_failed if the world cannot go on. `call`: the name of the public function.
+  /// Returns rank_failed if the world cannot continue. `call` is the name of the public function.
   Result<void> check(std::string_view call) const;
 
  private:

@@ -1,4 +1,4 @@
-// What the caller's functions throw: other ranks have to hear of it, so it becomes an error.
+// guarded() converts exceptions of the caller's functions into errors, which can be sent to other ranks.
 #pragma once
 
 #include <exception>
@@ -8,7 +8,8 @@
 
 namespace kinesphere {
 
-/// The result of f(), if it has one, or what it throws.
+/// Returns the result of f(), or callback_threw if f() throws. The error of a BadResult keeps its argument
+/// and body.
 template <class F>
 Result<void> guarded(F f) {
   try {

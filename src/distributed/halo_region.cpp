@@ -8,7 +8,8 @@
 namespace kinesphere {
 namespace {
 
-/// Whole periods, to be added to a box on this axis for its lower side not to lie below `lower`.
+/// Returns the multiple of the period that, added to `side`, moves it to or above `lower`; 0 if `lower` is
+/// infinite.
 double shift_above(double side, double lower, double period) {
   return lower > -infinity ? std::ceil((lower - side) / period) * period : 0.0;
 }

@@ -1,5 +1,5 @@
-// The space of which a rank knows all bodies: boxes. A body that may come into one of them, before its window
-// ends, is known to the rank.
+// HaloRegion is a set of boxes in which a rank knows all bodies: the rank holds every body that may enter one
+// of the boxes before the body's window ends.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,13 @@ namespace kinesphere {
 
 class HaloRegion {
  public:
-  /// These boxes and no others.
+  /// Replaces all boxes.
   void assign(std::span<const Box> boxes) { boxes_.assign(boxes.begin(), boxes.end()); }
   void add(const Box& box) { boxes_.push_back(box); }
-  /// Whether the whole box, or where space repeats an image of it, lies within one of the boxes.
+  /// Returns whether one of the boxes contains the whole box or, in periodic space, a periodic image of it.
+  /// Cost: O(boxes).
   bool covers(const Box& box, const Space& space) const;
-  /// Whether a part of it lies in one of them.
+  /// Returns whether one of the boxes intersects the box or a periodic image of it. Cost: O(boxes).
   bool meets(const Box& box, const Space& space) const;
   const std::vector<Box>& boxes() const { return boxes_; }
 
@@ -26,10 +27,10 @@ class HaloRegion {
   std::vector<Box> boxes_;
 };
 
-/// As HaloRegion::meets() has it.
+/// Returns whether `a` intersects `b` or a periodic image of it.
 bool meet(const Box& a, const Box& b, const Space& space);
 
-/// The known space of all ranks: of this one, and of the others as far as they have told.
+/// Halo regions of all ranks: this rank's own, and those of other ranks as far as they have sent them.
 class HaloRegions {
  public:
   HaloRegions(int ranks, int here, const Space& space)
@@ -38,9 +39,9 @@ class HaloRegions {
   HaloRegion& operator[](int rank) { return by_rank_[static_cast<std::size_t>(rank)]; }
   const HaloRegion& here() const { return by_rank_[static_cast<std::size_t>(here_)]; }
   bool covers(const Box& box) const { return here().covers(box, space_); }
-  /// Makes the box known on this rank. False if it is already.
+  /// Adds the box to this rank's halo region unless it is covered. Returns false if it was covered.
   bool cover(const Box& box);
-  /// The other ranks whose known space a part of the box lies in, in ascending order.
+  /// Returns, in ascending order, the other ranks whose halo region intersects the box.
   std::vector<int> ranks_that_meet(const Box& box) const;
 
  private:

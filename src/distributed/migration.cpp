@@ -8,7 +8,7 @@
 namespace kinesphere {
 namespace {
 
-/// The body has set out from `departure`, if there is one, for as long as this lives.
+/// Sets the motion origin of a body to `origin`, if given, and restores the previous origin on destruction.
 class TemporaryDeparture {
  public:
   TemporaryDeparture(Motion& motion, std::uint32_t number, const std::optional<MotionOrigin>& origin)
@@ -49,7 +49,7 @@ BodyMessage Migration::pack(std::uint32_t number) const {
     message.end = windows.end_of(number);
   }
   motion_.write_body(entry.in_motion, message.motion).value();
-  // Numbers become names.
+  // Replace numbers by names.
   PartnerList partners;
   std::vector<OverlapRecord>& overlaps = message.contacts.overlaps;
   for (const std::uint32_t partner : message.contacts.partners.all()) partners.add(local_.name_of(partner));
@@ -94,7 +94,8 @@ BodyMessage::Due Migration::due_of(const PairCertificate& pair, std::uint32_t nu
   return {pair.failure_time, local_.name_of(pair.first == number ? pair.second : pair.first)};
 }
 
-/// When the part of the phase began, if there is one; else now.
+/// Returns the body's revision at the start of the batch, if a batch is running and has changed the body;
+/// otherwise its current revision.
 std::uint32_t Migration::revision_of(std::uint32_t number, const SpeculativeRunner* islands) const {
   const BodyCheckpoint* checkpoint = islands != nullptr ? islands->checkpoint_of(number) : nullptr;
   return checkpoint != nullptr ? checkpoint->body.body.revision : local_.bodies()[number].revision;
@@ -174,7 +175,7 @@ Result<InitialWork> Migration::install(std::vector<BodyMessage>& messages, const
       beginning.pending.push_back(event);
     }
   }
-  // Of two bodies that have come together, each has brought their pair.
+  // If two bodies have arrived together, each has brought the certificate of their pair: remove duplicates.
   std::sort(beginning.due.begin(), beginning.due.end());
   const auto same = [](const PairCertificate& a, const PairCertificate& b) { return !(a < b) && !(b < a); };
   beginning.due.erase(std::unique(beginning.due.begin(), beginning.due.end(), same), beginning.due.end());
@@ -182,7 +183,7 @@ Result<InitialWork> Migration::install(std::vector<BodyMessage>& messages, const
   return beginning;
 }
 
-/// The body itself: whom it touches, and where it is registered, comes later.
+/// Installs the body's own state. Contacts and the broad phase follow in link() and in install() of the list.
 Result<std::uint32_t> Migration::install(BodyMessage& message) {
   Bodies& bodies = local_.bodies();
   BodyDirectory& directory = local_.directory;
@@ -218,7 +219,7 @@ Result<std::uint32_t> Migration::install(BodyMessage& message) {
   return number;
 }
 
-/// Links of the two that have found each other dangle no longer.
+/// Sets the body's links in the contact graph, and moves pending links between it and bodies held here there.
 void Migration::link(const BodyMessage& message) {
   std::vector<std::uint32_t> partners;
   std::vector<OverlapRecord> overlaps;

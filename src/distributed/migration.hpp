@@ -1,4 +1,5 @@
-// Bodies come to a rank and go from it: own ones to another owner, copies to those who may meet them.
+// Migration moves bodies between ranks: own bodies to a new owner, ghosts to ranks that hold bodies they may
+// meet.
 #pragma once
 
 #include <cstdint>
@@ -17,42 +18,40 @@
 
 namespace kinesphere {
 
-/// Packs bodies into parcels, and installs those that come.
+/// Packs bodies into messages and installs the messages that arrive.
 ///
-/// While a part of a phase runs, islands have changed bodies that may have to run again from where the part
-/// began. So a body that is sent then has to be as it was when the part began, and its hot pairs too.
-/// Functions that take `islands` do that; null stands for the time between parts.
+/// While a batch runs, clusters have changed bodies that may be rolled back to the start of the batch. So a
+/// body sent during a batch has to be packed, with its certificates, as it was when the batch began.
+/// Functions that take `islands` do that; null means that no batch is running.
 class Migration {
  public:
   Migration(Motion& motion, RankState& local) : motion_(motion), local_(local) {}
 
-  /// The body as it is now, but for hot pairs. Throws what Motion::write_body throws, and BadResult with its
-  /// errors.
+  /// Packs the body in its current state, without its certificates. Throws what Motion::write_body throws,
+  /// and BadResult with the errors of Motion::write_body.
   BodyMessage pack(std::uint32_t number) const;
-  /// The body as it was when the part of the phase began, with events of it that waited to be told then; but
-  /// for hot pairs.
+  /// Packs the body as it was when the batch began, with its events that were pending then; without its
+  /// certificates.
   BodyMessage pack_checkpoint(std::uint32_t number, SpeculativeRunner& islands);
-  /// Adds their hot pairs to the parcels of these bodies, numbers[k] to parcels[k]. Cost: O(hot
-  /// pairs of the rank).
+  /// Adds the certificates of bodies numbers[k] to messages[k]. Cost: O(certificates of the rank).
   void add_due(std::vector<BodyMessage>& messages, std::span<const std::uint32_t> numbers,
                SpeculativeRunner* islands);
-  /// Adds those of the pairs that the body has a part in to its parcel.
+  /// Adds to `message` the certificates in `pairs` that involve the body.
   void add_due(BodyMessage& message, std::uint32_t number, std::span<const PairCertificate> pairs) const;
 
-  /// The bodies are known from now on, or as the parcels have them; returns what has to be begun with, of
-  /// which the pairs may be due at any time. Errors: those of Motion::read_body.
+  /// Installs the bodies: adds unknown ones and replaces the state of known ones. Returns the initial work,
+  /// whose certificates may fail at any time. Errors: those of Motion::read_body.
   Result<InitialWork> install(std::vector<BodyMessage>& messages, const SpeculativeRunner* islands);
-  /// Collective, between parts. Sends the parcels that have been written to the outbox, and installs those
-  /// that come, which are returned. Errors, the same on all ranks: what one of them has noted, also of
-  /// Motion::read_body.
+  /// Collective; not during a batch. Sends the messages in the outbox and installs and returns those that
+  /// arrive. Errors, equal on all ranks: those that a rank has noted, including those of Motion::read_body.
   Result<std::vector<BodyMessage>> exchange(Communicator& communicator, ErrorConsensus& agreement,
                                             SendBuffers& outbox);
-  /// The body is not known here any more.
+  /// Removes the body from this rank.
   void drop(std::uint32_t number);
 
-  // A checkpoint may bring two bodies to different ranks that have a hot pair: neither of them knows both
-  // until copies have come. In between the pair is loose, and goes with the own body to where copies of it
-  // go. Between parts only.
+  // Restore may send the two bodies of a certificate to different ranks, so that neither rank holds both
+  // until ghosts have arrived. Until then the certificate is kept with the own body as a loose pair, and is
+  // sent with ghosts of that body. Not during a batch.
   void keep_loose_pairs() { loose_.emplace(); }
   void forget_loose_pairs() { loose_.reset(); }
 
@@ -68,7 +67,7 @@ class Migration {
   RankState& local_;
   PendingLinks dangling_;
   std::optional<std::unordered_map<std::uint32_t, std::vector<BodyMessage::Due>>> loose_;  ///< by number
-  /// By number: of a body whose parcel gets its hot pairs, one more than the parcel's place; 0 of all others.
+  /// By number: index of the body's message plus 1 while add_due() collects certificates; 0 otherwise.
   std::vector<std::uint32_t> places_;
 };
 

@@ -18,7 +18,7 @@ struct Points {
   std::span<const double> costs;
 };
 
-// What Zoltan asks.
+// Zoltan query callbacks.
 const Points& points_of(void* data) { return *static_cast<const Points*>(data); }
 int count_of(void* data, int* error) {
   *error = ZOLTAN_OK;
@@ -49,7 +49,7 @@ struct Destroy {
   void operator()(Zoltan_Struct* zoltan) const { Zoltan_Destroy(&zoltan); }
 };
 
-/// What Zoltan says where there is no end.
+/// Converts Zoltan's representation of an unbounded coordinate to infinity.
 double unbounded(double value) {
   constexpr double far = 1e300;
   return value > far ? infinity : value < -far ? -infinity : value;
@@ -90,7 +90,7 @@ Partition Partition::choose(Communicator& communicator, std::span<const Vec3> po
   int changes = 0, id_entries = 0, local_entries = 0, imported = 0, exported = 0;
   ZOLTAN_ID_PTR import_ids = nullptr, import_locals = nullptr, export_ids = nullptr, export_locals = nullptr;
   int *import_ranks = nullptr, *import_parts = nullptr, *export_ranks = nullptr, *export_parts = nullptr;
-  // Where there are no positions at all, everything stays with rank 0.
+  // Without any positions, all of space remains with rank 0.
   if (communicator.sum(positions_here.size()) == 0) return partition;
   Zoltan_LB_Partition(zoltan.get(), &changes, &id_entries, &local_entries, &imported, &import_ids,
                       &import_locals, &import_ranks, &import_parts, &exported, &export_ids, &export_locals,
@@ -115,8 +115,8 @@ Partition Partition::choose(Communicator& communicator, std::span<const Vec3> po
   return partition;
 }
 
-/// Space among ranks whose boxes, as Zoltan has them, are about there: the place of its cut. Points on a cut
-/// are on either side in Zoltan's eyes; here they are above it.
+/// Divides `space` among `ranks` along the boxes reported by Zoltan, which are approximate, and returns the
+/// index of the new cut. Zoltan may put points on a cut on either side; here they belong to the upper side.
 int Partition::cut(std::span<const int> ranks, const Box& space, std::span<const Box> boxes) {
   const auto place = cuts_.size();
   cuts_.emplace_back();
@@ -143,7 +143,7 @@ int Partition::cut(std::span<const int> ranks, const Box& space, std::span<const
       return static_cast<int>(place);
     }
   }
-  // Of several ranks that nothing divides, one has all.
+  // If no cut separates several ranks, the first one gets all of the space.
   cuts_[place].below = ranks.front();
   regions_[static_cast<std::size_t>(ranks.front())] = space;
   return static_cast<int>(place);

@@ -1,4 +1,4 @@
-// Which part of space is whose: boxes that together are all of space, one for each rank.
+// Partition divides space into one box per rank; together the boxes cover all of space.
 #pragma once
 
 #include <array>
@@ -13,32 +13,33 @@ namespace kinesphere {
 
 class Partition {
  public:
-  /// All of space belongs to rank 0.
+  /// Assigns all of space to rank 0.
   explicit Partition(int ranks);
-  /// So that bodies at these positions cost each rank about the same, by Zoltan's recursive coordinate
-  /// bisection. Collective: each rank has some of the positions, or none. `costs`: one each, > 0.
+  /// Collective; each rank passes some of the positions or none. Balances the cost of the bodies at these
+  /// positions over the ranks by Zoltan's recursive coordinate bisection. `costs`: one per position, > 0.
   static Partition choose(Communicator& communicator, std::span<const Vec3> positions,
                           std::span<const double> costs);
 
   int ranks() const { return static_cast<int>(regions_.size()); }
-  /// Each position is one rank's: cost O(log ranks) where cuts balance.
+  /// Returns the rank that owns the position; every position has exactly one owner. Cost: O(log ranks) if the
+  /// cuts are balanced.
   int owner_of(const Vec3& position) const;
-  /// lower <= position < upper, infinite on the outside. That of a rank with no space is empty: upper <
-  /// lower.
+  /// Region of the rank: lower <= position < upper, infinite at the outside. The region of a rank without
+  /// space is empty: upper < lower.
   const Box& region_of(int rank) const { return regions_[static_cast<std::size_t>(rank)]; }
 
  private:
-  /// Space cut in two, and again.
+  /// Node of the binary tree of cuts.
   struct Cut {
-    int axis = -1;  ///< -1 where it is not cut
+    int axis = -1;  ///< -1 for a leaf
     double at = 0.0;
-    int below = 0;  ///< the place of a cut or, where it is not cut, a rank
+    int below = 0;  ///< index of a cut; the rank, for a leaf
     int above = 0;
   };
 
   int cut(std::span<const int> ranks, const Box& space, std::span<const Box> boxes);
 
-  std::vector<Cut> cuts_;  ///< the first one is of all of space
+  std::vector<Cut> cuts_;  ///< the first one is the root
   std::vector<Box> regions_;
 };
 

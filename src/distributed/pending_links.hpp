@@ -1,5 +1,5 @@
-// Links that lead out of what a rank knows: a known body touches or senses one that is not known here. Once
-// the other one comes, the two find each other in the contact book again.
+// PendingLinks stores links from bodies that a rank holds to bodies that it does not hold: contacts and
+// sensor overlaps. When the other body arrives, the link moves to the contact graph.
 #pragma once
 
 #include <cstdint>
@@ -10,32 +10,33 @@
 
 namespace kinesphere {
 
-/// Of known bodies to unknown ones, both by name.
+/// Links from held bodies to bodies not held, identified by name.
 class PendingLinks {
  public:
-  /// Of one body.
+  /// Pending links of one body.
   struct Links {
-    std::vector<std::uint32_t> partners{};  ///< whom it touches
-    std::vector<OverlapRecord> overlaps{};  ///< whom it senses
+    std::vector<std::uint32_t> partners{};  ///< bodies in contact, by name
+    std::vector<OverlapRecord> overlaps{};  ///< sensor overlaps
 
     bool empty() const { return partners.empty() && overlaps.empty(); }
   };
 
-  /// Null for a body that has none.
+  /// Returns the pending links of the body, or null if it has none. Invalidated by set() and remove() of this
+  /// body.
   const Links* of(std::uint32_t name) const;
-  /// In place of those that the body has.
+  /// Replaces the pending links of the body.
   void set(std::uint32_t name, Links links);
   void add_partner(std::uint32_t name, std::uint32_t partner) { links_[name].partners.push_back(partner); }
   void add_overlap(std::uint32_t name, const OverlapRecord& overlap) {
     links_[name].overlaps.push_back(overlap);
   }
-  /// The partner has become known, so the body's links to it do not dangle any longer.
+  /// Removes the body's links to `partner`, which has arrived.
   void remove(std::uint32_t name, std::uint32_t partner);
-  /// The body is known no longer.
+  /// Removes all links of a body that this rank no longer holds.
   void remove(std::uint32_t name) { links_.erase(name); }
 
  private:
-  std::unordered_map<std::uint32_t, Links> links_;  ///< of bodies that have some
+  std::unordered_map<std::uint32_t, Links> links_;  ///< by name; bodies without pending links have no entry
 };
 
 }  // namespace kinesphere

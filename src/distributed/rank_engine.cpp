@@ -124,7 +124,7 @@ Result<void> DistributedWorld::RankEngine::go(double until, const OrderedEventFn
   return agreement_.agree_on_noted();
 }
 
-/// Bodies that have been added are registered, without time moving on.
+/// Recertifies and registers added bodies without advancing time.
 Result<void> DistributedWorld::RankEngine::settle_arrivals(PoolLease& shift, SpeculativeRunner& islands) {
   const Arrivals arrivals = starts_.count_arrivals();
   if (arrivals.everywhere == 0) return {};
@@ -135,7 +135,8 @@ Result<void> DistributedWorld::RankEngine::settle_arrivals(PoolLease& shift, Spe
   return {};
 }
 
-/// From now to `until`, or to the end of a part of the phase, or to `latest`: returns where the part ends.
+/// Runs one batch from now to `until`, to the batch end chosen by the sizer, or to `latest`, whichever is
+/// first. Returns the end of the batch.
 Result<double> DistributedWorld::RankEngine::run_part(double until, double latest,
                                                       SpeculativeRunner& islands) {
   const double stop = communicator_.least(islands.take_due(until, latest));
@@ -156,7 +157,7 @@ Result<double> DistributedWorld::RankEngine::run_part(double until, double lates
   return stop;
 }
 
-/// What the sink throws ends the run on all ranks.
+/// Passes pending events to the sink. An exception thrown by the sink ends the run on all ranks.
 void DistributedWorld::RankEngine::tell(const OrderedEventFn& sink) {
   try {
     while (!events_.empty() && !agreement_.has_noted()) {

@@ -1,13 +1,13 @@
-// One rank's part of a distributed world: own bodies and copies of others nearby, and what ranks tell each
-// other so that each runs its islands as one world would.
+// RankEngine is one rank's part of a distributed world: own bodies, ghosts of nearby bodies, and the exchange
+// between ranks that makes each execute its clusters as one world would.
 //
-// Whenever time moves on, for each rank:
-//   - known space contains the capsules of all its own bodies;
-//   - the rank has an exact copy of each body whose capsule may come into known space, with all hot pairs and
-//     links that it has with bodies that are known here.
-// So all that can happen to an own body before windows end is known where it is owned. A part of a phase
-// (phase_part.hpp) ends when all ranks that own a body of an island have run the same island, with the same
-// bodies: then each has what one world would have (docs/distributed.md has the proof).
+// Invariants on each rank whenever time advances:
+//   - The halo region contains the swept spheres of all own bodies.
+//   - The rank holds an exact ghost of each body whose swept sphere may enter the halo region, with all
+//     certificates and links between it and bodies that the rank holds.
+// So everything that can affect an own body before its window ends is known to its owner. A batch
+// (batch_exchange.hpp) ends when all ranks that own a body of a cluster have executed the cluster with an
+// equal set of members; each then has the results of one world (docs/distributed.md has the proof).
 #pragma once
 
 #include <cstdint>
@@ -39,14 +39,14 @@ class DistributedWorld::RankEngine {
   Communicator& communicator() { return communicator_; }
   const WorldDefinition& definition() const { return local_.bodies().definition(); }
   double time() const { return local_.time(); }
-  /// Collective: as Agreement::agree().
+  /// Collective. See ErrorConsensus::agree().
   Result<void> agree(const Result<void>& here) { return agreement_.agree(here); }
 
   Result<void> add(std::uint32_t name, const BodyDefinition& body, std::uint32_t number_in_motion);
   Result<void> set_sensor(SensorClass sensor_class, const Sensor& sensor);
   Result<void> run(double until, const ResponseFn* respond, const OrderedEventFn& sink, Workers* workers);
 
-  // domain_checkpoint.cpp
+  // rank_engine_checkpoint.cpp
   Result<std::vector<std::byte>> save();
   static Result<std::unique_ptr<RankEngine>> restore(std::span<const std::vector<std::byte>> parts,
                                                      Motion& motion);
@@ -75,8 +75,8 @@ class DistributedWorld::RankEngine {
   Distribution distribution_;
   WindowStarts starts_;
   UniqueNames names_;
-  std::deque<OrderedEvent> events_;  ///< that are to be told
-  EventHash hash_;                   ///< of all that have come of islands
+  std::deque<OrderedEvent> events_;  ///< events to be reported
+  EventHash hash_;                   ///< hash of all committed events
   std::uint64_t parts_ = 0;
   std::uint64_t rounds_ = 0;
 };

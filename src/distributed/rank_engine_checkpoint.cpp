@@ -1,4 +1,4 @@
-// A distributed world becomes a checkpoint, and goes on from one.
+// RankEngine::save() and RankEngine::restore().
 #include <iterator>
 #include <utility>
 
@@ -52,7 +52,7 @@ Result<std::unique_ptr<DistributedWorld::RankEngine>> DistributedWorld::RankEngi
   return domain;
 }
 
-/// With the parts that were handed in here.
+/// Continues from the parts that were passed on this rank.
 Result<void> DistributedWorld::RankEngine::resume(const Checkpoint& common, std::vector<Checkpoint>& parts) {
   local_.main.advance_clock(common.stamp.time);
   local_.main.begin_epoch(common.epoch_end);

@@ -1,4 +1,4 @@
-// What one rank has of the world: the engine's tables with its own bodies and copies of others nearby.
+// RankState holds the engine state of one rank: its own bodies and ghosts of bodies nearby.
 #pragma once
 
 #include <cstddef>
@@ -23,24 +23,25 @@ struct RankState {
   Bodies& bodies() { return state.bodies; }
   const Bodies& bodies() const { return state.bodies; }
   std::uint32_t name_of(std::uint32_t number) const { return bodies().table().name_of(number); }
-  /// Of a registered body: around its capsule.
+  /// Box around the body's swept sphere. Precondition: the body is registered in the broad phase.
   Box box_of(std::uint32_t number) const { return state.broad_phase.box_of(number, time()); }
-  /// Around the way of a kicked body until its window ends.
+  /// Box around the swept sphere of an updated body until its window ends; if the window never ends, the box
+  /// at the time of the update.
   Box box_of(const SweptSphereUpdate& update) const;
-  /// Where the body is; where space repeats, its image in the primary box.
+  /// Position of the body now; in periodic space, its image in the primary box.
   Vec3 centre_of(const Body& body) const {
     return bodies().space().wrapped(body.bound.centre_at(time())).position;
   }
 
-  /// How many own bodies are in windows, and in windows that end.
+  /// Number of own bodies that have a window, and of those whose window end is finite. Cost: O(ghosts).
   std::size_t own_registered() const;
   std::size_t own_moving() const;
-  /// Own bodies that are registered and may come into one of the boxes before their windows end, in ascending
-  /// order.
+  /// Returns, in ascending order, the registered own bodies that may enter one of the boxes before their
+  /// windows end.
   std::vector<std::uint32_t> own_bodies_in(std::span<const Box> boxes) const;
 
   WorldState state;
-  EventProcessor main;  ///< all bodies that the rank knows, on their way through time
+  EventProcessor main;  ///< processes events of all bodies that the rank holds
   BodyDirectory directory;
 };
 

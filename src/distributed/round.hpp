@@ -1,4 +1,4 @@
-// What ranks tell each other in a round of a part of a phase (phase_part.hpp).
+// Messages that ranks exchange in a round of a batch (batch_exchange.hpp).
 #pragma once
 
 #include <algorithm>
@@ -13,13 +13,13 @@
 
 namespace kinesphere {
 
-/// Bodies that a rank has in one island, so that others join them too.
+/// Bodies that one rank has merged into one cluster; the receivers merge them as well.
 struct JoinList {
   struct Member {
     std::uint32_t name;
     std::int32_t owner;
     bool is_registered;
-    Box box;  ///< around its capsule, if it is registered
+    Box box;  ///< around its swept sphere; valid if it is registered
 
     template <class Self, class Archive>
     static void serialize(Self& self, Archive& archive) {
@@ -28,7 +28,7 @@ struct JoinList {
     }
   };
   std::vector<Member> together{};
-  /// Names of those that the island takes for granted to be in none.
+  /// Names of bodies in the cluster's read set, which the cluster assumes to belong to no cluster.
   std::vector<std::uint32_t> counted_on{};
 
   template <class Self, class Archive>
@@ -38,7 +38,7 @@ struct JoinList {
   }
 };
 
-/// A kick of a body, whose number is each rank's own.
+/// Update of a swept sphere. The body is identified by name, as its number differs between ranks.
 struct NamedUpdate {
   std::uint32_t name;
   SweptSphereUpdate update;
@@ -50,11 +50,11 @@ struct NamedUpdate {
   }
 };
 
-/// From one rank to another.
+/// Message from one rank to another in one round.
 struct RoundMessage {
   std::vector<BodyMessage> bodies{};
   std::vector<JoinList> lists{};
-  /// Names of bodies of the other rank of which copies are asked for.
+  /// Names of bodies of the receiver of which the sender requests ghosts.
   std::vector<std::uint32_t> wanted{};
   std::vector<NamedUpdate> updates{};
 
@@ -66,11 +66,11 @@ struct RoundMessage {
   }
 };
 
-/// What a rank has to say to the others.
+/// All messages that a rank has collected for the next round.
 struct Round {
   struct ToRank {
-    RoundMessage message{};               ///< but for parcels
-    std::vector<std::uint32_t> bodies{};  ///< numbers of those that are sent as parcels
+    RoundMessage message{};               ///< without its BodyMessages
+    std::vector<std::uint32_t> bodies{};  ///< numbers of own bodies to be sent as BodyMessages
   };
 
   explicit Round(int ranks) : to_ranks(static_cast<std::size_t>(ranks)) {}
@@ -81,7 +81,7 @@ struct Round {
            });
   }
 
-  std::vector<Box> asks{};  ///< to all of them: boxes in which all bodies have to be known
+  std::vector<Box> asks{};  ///< sent to all ranks: boxes added to this rank's halo region
   std::vector<ToRank> to_ranks;
 };
 

@@ -1,4 +1,4 @@
-// What a rank has to send to each of the others: values are written as they come up, and go all at once.
+// SendBuffers collects the values to be sent to each rank and sends them in one exchange.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ class SendBuffers {
   void add(int to, const Values&... values) {
     writers_[static_cast<std::size_t>(to)](values...);
   }
-  /// Collective. Sends all; returns what has come, by rank.
+  /// Collective. Sends and clears all buffers; returns the received bytes, indexed by rank.
   std::vector<Communicator::Bytes> exchange(Communicator& communicator) {
     std::vector<Communicator::Bytes> bytes(writers_.size());
     std::transform(writers_.begin(), writers_.end(), bytes.begin(),

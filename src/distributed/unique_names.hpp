@@ -1,4 +1,4 @@
-// No two bodies of a distributed world have the same name, wherever they are added.
+// UniqueNames checks that the names of bodies are unique over all ranks.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +10,18 @@
 
 namespace kinesphere {
 
-/// Each rank compares a share of all names: those that leave the same remainder.
+/// Rank r compares the names whose remainder modulo the number of ranks is r.
 class UniqueNames {
  public:
-  /// A body of this name has been added on this rank, or has been restored there.
+  /// Records the name of a body that was added or restored on this rank.
   void add(std::uint32_t name) { new_.push_back(name); }
-  /// Collective. Compares the names that have been added since the last call with all others. Of two that are
-  /// the same, the rank that compares them returns an error, and the other ranks do not.
+  /// Collective. Compares the names added since the last call with each other and with all earlier ones.
+  /// Errors: out_of_range (index) for a duplicate, returned only on the rank that compares the name.
   Result<void> check(Communicator& communicator);
 
  private:
-  std::vector<std::uint32_t> new_;              ///< of this rank, not compared yet
-  std::unordered_set<std::uint32_t> compared_;  ///< of all ranks, this rank's share
+  std::vector<std::uint32_t> new_;              ///< names of this rank that are not compared yet
+  std::unordered_set<std::uint32_t> compared_;  ///< names of all ranks that this rank has compared
 };
 
 }  // namespace kinesphere

@@ -51,7 +51,8 @@ void WindowStarts::begin_epoch_of_arrivals() {
   local_.main.begin_epoch(communicator_.least(end));
 }
 
-/// Its length depends on how many bodies of all ranks have been kicked since the last one started.
+/// Starts the main window. Its length depends on the number of bodies of all ranks that were recertified one
+/// by one since the last main window started.
 void WindowStarts::start_main_window() {
   const RenewalCounts here = std::exchange(local_.main.work().recertified, {});
   std::uint64_t updates[] = {here.bodies, here.near};
@@ -59,7 +60,7 @@ void WindowStarts::start_main_window() {
   local_.state.window_policy.start_main(local_.time(), {updates[0], updates[1]});
 }
 
-/// What each rank has in its list, once, in ascending order.
+/// Returns the union of the lists of all ranks, in ascending order.
 std::vector<int> WindowStarts::union_of(const std::vector<int>& held) {
   ByteWriter writer;
   writer(held);

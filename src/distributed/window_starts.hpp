@@ -1,5 +1,5 @@
-// Windows end on all ranks at the same time, and new ones start. Each rank chooses those of its own bodies,
-// by a tempo that is made from what all ranks have.
+// WindowStarts ends and starts windows on all ranks at one time. Each rank chooses the windows of its own
+// bodies, with a window policy computed from the motion statistics of all ranks.
 #pragma once
 
 #include <cstdint>
@@ -12,33 +12,35 @@
 
 namespace kinesphere {
 
-/// Bodies that have been added since the last run.
+/// Bodies added since the last run.
 struct Arrivals {
-  std::vector<std::uint32_t> here;  ///< in ascending order
+  std::vector<std::uint32_t> here;  ///< bodies of this rank, in ascending order
   std::uint64_t everywhere = 0;
-  // Those of all ranks that are there already: in windows, and in windows that end.
+  // Bodies of all ranks that have a window, and those whose window end is finite.
   std::uint64_t registered = 0;
   std::uint64_t moving = 0;
 };
 
-/// All functions are collective. Errors: those of probes, the same on all ranks, after which the world cannot
-/// go on; those of Transit::exchange().
+/// All functions are collective. Errors: those of probes, equal on all ranks, after which the world cannot
+/// continue; those of Migration::exchange().
 class WindowStarts {
  public:
   WindowStarts(Communicator& communicator, ErrorConsensus& agreement, RankState& local,
                Distribution& distribution)
       : communicator_(communicator), agreement_(agreement), local_(local), distribution_(distribution) {}
 
-  /// As World::Engine::start_windows(). Copies whose windows end are dropped, and come anew. `all`: all
-  /// windows end now. `joining`: bodies of this rank that have arrived, and get a window with the others.
+  /// Ends windows and starts new ones, as World::Engine::start_windows() does. Drops ghosts whose windows
+  /// end; their owners send them again. `all`: all windows end now. `joining`: added bodies of this rank that
+  /// get a window in this bulk start.
   Result<void> start(PoolLease& shift, bool all, std::span<const std::uint32_t> joining);
 
-  /// What start_with() needs to know of all ranks.
+  /// Counts added and registered bodies over all ranks, for start_with().
   Arrivals count_arrivals();
-  /// As World::Engine::start_with_arrivals(): where many have arrived, all windows start anew with them.
-  /// Those that stand still, and few that have come, are left dirty.
+  /// Does what World::Engine::start_with_arrivals() does: if many bodies were added, all windows restart
+  /// together with them. Bodies that stand still, and added bodies that are too few, remain dirty.
   Result<void> start_with(const Arrivals& arrivals, PoolLease& shift);
-  /// After all arrivals have been settled: the phase ends with the first window of all ranks that ends.
+  /// Begins an epoch that ends with the earliest window end of all ranks. Precondition: all added bodies have
+  /// been recertified.
   void begin_epoch_of_arrivals();
 
  private:
@@ -50,7 +52,7 @@ class WindowStarts {
   ErrorConsensus& agreement_;
   RankState& local_;
   Distribution& distribution_;
-  std::vector<SearchResults> found_;  ///< by worker; kept for its memory only
+  std::vector<SearchResults> found_;  ///< search results by worker; kept to reuse their memory
 };
 
 }  // namespace kinesphere

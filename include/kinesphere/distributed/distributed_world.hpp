@@ -1,15 +1,17 @@
-// A world that is spread over several processes: for more bodies than one machine has memory or time for.
+// DistributedWorld is one world simulated by several MPI processes, for more bodies than one machine can hold
+// or simulate in time.
 //
 //   MpiSession mpi(argc, argv);
-//   Ballistic motion = ...;                                  // the bodies that this process brings
+//   Ballistic motion = ...;                                  // the bodies that this process adds
 //   DistributedWorld world = DistributedWorld::create({}, motion).value();
 //   for (std::uint32_t k = 0; k < motion.size(); ++k)
 //     world.add(first + k, motion.definition(k, 0.0), k).value();
 //   world.run(60.0, respond, sink).value();
 //
-// The processes are the ranks of MPI_COMM_WORLD, started by mpirun. Each has the bodies in a part of space,
-// and copies of those nearby. What comes out, to the last bit, is what one World::run would tell with the
-// same bodies under the same indices: for any number of ranks and threads, and whoever brings which body.
+// The processes are the ranks of MPI_COMM_WORLD, started by mpirun. Each rank owns the bodies in its region
+// of space and holds ghosts of bodies nearby. Events are bitwise equal to those of one World::run with equal
+// bodies and indices, for any number of ranks and threads and any assignment of bodies to the ranks that add
+// them.
 #pragma once
 
 #include <cstddef>
@@ -30,76 +32,75 @@
 
 namespace kinesphere {
 
-/// An event, and its place among those of the same instant: what an event brings about, such as the contact
-/// after a bounce, comes in a later round.
+/// An event with the round in which it occurred within its instant. Consequences of an event, such as the
+/// contact after a bounce, occur in a later round.
 struct OrderedEvent {
   Event event{};
   std::uint32_t round = 0;
 
-  /// The order in which one World tells them: by time, round, kind, bodies, wall and distance.
+  /// Orders events as one World reports them: by time, round, kind, bodies, wall and distance.
   friend bool operator<(const OrderedEvent& a, const OrderedEvent& b);
 };
 
 /// Any callable `void(const OrderedEvent&)`.
 using OrderedEventFn = Callback<void(const OrderedEvent& event)>;
 
-/// Where work and memory of this rank went.
+/// Work, memory and traffic of one rank.
 struct RankFigures {
-  std::uint64_t bodies = 0;       ///< that are this rank's
-  std::uint64_t ghosts = 0;       ///< of bodies of others
+  std::uint64_t bodies = 0;       ///< bodies owned by this rank
+  std::uint64_t ghosts = 0;       ///< ghosts of bodies owned by other ranks
   std::uint64_t bytes = 0;        ///< sent to other ranks so far
-  std::uint64_t messages = 0;     ///< from rank to rank
-  std::uint64_t collectives = 0;  ///< calls in which all ranks took part
-  std::uint64_t batches = 0;      ///< stretches of time after which ranks have agreed
-  std::uint64_t rounds = 0;       ///< times that they have told each other what has to be done again
-  std::uint64_t partitions = 0;   ///< times that space was divided
-  double seconds_in_mpi = 0.0;    ///< processor time, with that spent waiting for others
+  std::uint64_t messages = 0;     ///< point-to-point messages sent
+  std::uint64_t collectives = 0;  ///< collective calls
+  std::uint64_t batches = 0;      ///< batches: time intervals that end in an agreement of all ranks
+  std::uint64_t rounds = 0;       ///< exchange rounds within batches
+  std::uint64_t partitions = 0;   ///< number of times that space was partitioned
+  double seconds_in_mpi = 0.0;    ///< processor time in MPI, including time spent waiting for other ranks
 };
 
-/// Functions that are marked as collective have to be called on all ranks, in the same order, with the same
-/// arguments but for what belongs to a rank. Their errors are the same on all ranks: the message begins with
-/// the rank on which the error is. After an error of run() the world cannot go on: all that follows fails
-/// with rank_failed.
+/// One rank's handle to a distributed world. Collective functions have to be called on all ranks, in an equal
+/// order and with equal arguments, except for arguments that are per rank. A collective function returns an
+/// equal error on all ranks; its message begins with the rank on which the error occurred. After an error of
+/// run() the world cannot continue: every later call fails with rank_failed.
 ///
-/// What a World has and this does not: fixed bodies, rest, changes and removals between events, pair filters,
-/// queries, recordings. `allow_overlap` must be true.
+/// Features of World that DistributedWorld lacks: static bodies, sleep, changes and removals between events,
+/// pair filters, queries, recordings. `allow_overlap` must be true.
 class DistributedWorld {
  public:
-  /// Collective. `motion` moves the bodies of this rank and must outlive the world; the world moves bodies
-  /// from rank to rank with Motion::write_body and read_body, so all ranks need motions of the same
+  /// Collective. Creates an empty world. `motion` moves the bodies of this rank and must outlive the world.
+  /// Bodies migrate between ranks with Motion::write_body and read_body, so all ranks need motions of equal
   /// definition. Errors: those of World::create; unsupported (allow_overlap).
   [[nodiscard]] static Result<DistributedWorld> create(const WorldDefinition& definition, Motion& motion);
   DistributedWorld(DistributedWorld&&) noexcept;
   DistributedWorld& operator=(DistributedWorld&&) noexcept;
   ~DistributedWorld();
 
-  /// Adds a body of this rank's motion, in the state that `body` says, at the world's present time. `index`
-  /// is that of its id in events: as the bodies of all ranks are one world, no two may have the same. Not
-  /// collective. Errors: those of World::add; out_of_range (an index that is that of a body which this rank
-  /// knows); unknown_body (in the motion).
+  /// Adds body `number_in_motion` of this rank's motion, in the state given by `body`, at the current time().
+  /// `index` is the index of the body's id in events and must be unique over all ranks. Not collective.
+  /// Errors: those of World::add; out_of_range (`index` belongs to a body that this rank holds); unknown_body
+  /// (the motion has no such body).
   Result<void> add(std::uint32_t index, const BodyDefinition& body, std::uint32_t number_in_motion);
-  /// As World::set_sensor, before any rank adds bodies. Collective: all ranks have to call it alike. Errors,
-  /// the same on all ranks: those of World::set_sensor; unsupported (sensor_class: there are bodies). The
-  /// world goes on as it was.
+  /// Collective. Sets a sensor class as World::set_sensor does; all ranks pass equal arguments. Precondition:
+  /// no rank has added bodies. Errors, equal on all ranks: those of World::set_sensor; unsupported
+  /// (sensor_class: there are bodies). After an error the world is unchanged and can continue.
   Result<void> set_sensor(SensorClass sensor_class, const Sensor& sensor);
 
-  /// Collective. Goes on to `until` as World::run does. `respond` is asked on each rank that has a body of
-  /// the event, or a copy, and must give the same answer everywhere; without it, events get no answer. `sink`
-  /// is told, in order, the events whose first body is this rank's. `workers` may differ from rank to rank.
-  /// Errors: those of World::run; callback_threw where World::run would have let an exception pass;
-  /// out_of_range (index) where two ranks have added bodies with the same index.
+  /// Collective. Advances to `until` as World::run does. `respond` is called on each rank that owns a body of
+  /// the event or holds a ghost of it, and must return equal responses everywhere; without it, events get no
+  /// response. `sink` receives, in order, the events whose first body is owned by this rank. `workers` may
+  /// differ between ranks. Errors: those of World::run; callback_threw where World::run would propagate an
+  /// exception; out_of_range (index) where two ranks have added bodies of equal index.
   Result<void> run(double until, const ResponseFn& respond, const OrderedEventFn& sink,
                    Workers* workers = nullptr);
   Result<void> run(double until, const OrderedEventFn& sink, Workers* workers = nullptr);
 
-  /// Collective. This rank's part of all that the world is, as bytes for a file; with all parts restore()
-  /// goes on, on any number of ranks, as this world would have: what comes is the same, to the last bit.
-  /// Errors: rank_failed; those of Motion::write_body.
+  /// Collective. Serializes this rank's part of the world to bytes. restore() with all parts continues on any
+  /// number of ranks, with bitwise equal results. Errors: rank_failed; those of Motion::write_body.
   Result<std::vector<std::byte>> save();
-  /// Collective. The world that save() has written. Each of its parts is handed in on one rank, whichever;
-  /// ranks may hand in several, or none. `motion` has no bodies, and the definition of those that moved them
-  /// before. Errors: bad_snapshot for parts that are damaged, missing, there twice or of different worlds;
-  /// those of Motion::read_body.
+  /// Collective. Restores a world from the parts written by save(). Each part is passed on exactly one rank,
+  /// no matter which; a rank may pass several parts or none. `motion` must be empty and have the definition
+  /// of the motions that were saved. Errors: bad_snapshot if a part is damaged, missing, duplicated or of
+  /// another world; those of Motion::read_body.
   [[nodiscard]] static Result<DistributedWorld> restore(std::span<const std::vector<std::byte>> parts,
                                                         Motion& motion);
 
@@ -107,14 +108,14 @@ class DistributedWorld {
   int rank() const;
   int ranks() const;
   const WorldDefinition& definition() const;
-  /// Collective: bodies of all ranks.
+  /// Collective. Returns the number of bodies of all ranks.
   std::uint64_t size() const;
-  /// Collective: of all ranks. What depends on how capsules are kept (searches, candidates, hot_pairs) is not
-  /// what one world counts.
+  /// Collective. Returns the counters summed over all ranks. Counters that depend on how swept spheres are
+  /// stored (searches, candidates, hot_pairs) differ from those of one World.
   Counters counters() const;
-  /// Collective: of all events that have been told.
+  /// Collective. Returns the hash of all events reported so far, over all ranks.
   EventHash hash() const;
-  /// Of this rank.
+  /// Returns work, memory and traffic of this rank. Not collective.
   RankFigures figures() const;
 
  private:
