@@ -1,4 +1,4 @@
-// What can be asked of a monitor.
+// Queries of a monitor: answer(), open_pairs(), crowd() and needed().
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -9,8 +9,8 @@
 
 namespace kinesphere {
 
-/// Until when a pair that has no open record is apart by what was certified before, which reports that say
-/// less do not end; nothing if that is to be decided anew now. Cost: O(pairs that are near).
+/// Returns the time until which a pair without a PairRecord is certified to be apart, or nothing if no
+/// earlier certificate holds now. Reports that say less do not end a certificate. Cost: O(near pairs).
 std::optional<double> Monitor::Engine::certified_until(std::uint32_t a, std::uint32_t b) const {
   double until = broad_phase_.next_end();
   const std::uint32_t first = std::min(a, b), second = std::max(a, b);
@@ -58,7 +58,7 @@ Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::u
   answer.lower = std::max(0.0, between.lower);
   answer.upper = between.upper;
 
-  // As if both went straight on from where they are now.
+  // Extrapolation: both tracks continue straight on from their current centres.
   const auto ahead = [this](const KnownTrack& track) {
     const ReachableSet& set = TrackEstimate::tightest(track.estimate.hypotheses().front(), time_);
     return State{set.centre_at(time_), set.velocity_at(time_)};

@@ -1,4 +1,4 @@
-// Pairs that are due, and asking for reports of them.
+// Rechecks of certificates that fail now, and report requests through a Poll.
 #include <algorithm>
 #include <array>
 #include <span>
@@ -8,14 +8,14 @@
 
 namespace kinesphere {
 
-/// More can be learned from a report of `a` than from one of `b`.
+/// Returns true if a report of `a` promises to tighten the bounds more than a report of `b`.
 bool Monitor::Engine::is_less_certain(std::uint32_t a, std::uint32_t b) const {
   const double of_a = tracks_[a].estimate.worth_asking(time_);
   const double of_b = tracks_[b].estimate.worth_asking(time_);
   return of_a != of_b ? of_a > of_b : tracks_[a].id < tracks_[b].id;
 }
 
-/// At what is due first.
+/// Takes the first certificate from the queue and rechecks it, polling first if a poll is given.
 Result<void> Monitor::Engine::recheck(const Poll* poll) {
   const PairCertificate pair = queue_.first();
   queue_.drop_first();
@@ -27,17 +27,18 @@ Result<void> Monitor::Engine::recheck(const Poll* poll) {
   const PairRecord* record = pair_records_.find(pair.first, pair.second);
   if (poll != nullptr && (record == nullptr || record->is_expiring(time_))) {
     if (Result<void> asked = ask_about(pair, *poll); !asked) return asked;
-    // What was answered may have made it another pair.
+    // The reports may have made the certificate stale.
     if (is_stale(pair)) return {};
   }
   decide(pair.first, pair.second);
   return {};
 }
 
-/// Asks one of two tracks and, where its answer leaves open whether they are apart, the other.
+/// Requests a report of one track and, if that leaves open whether the pair is apart or within, of the other
+/// one.
 Result<void> Monitor::Engine::ask_about(const PairCertificate& pair, const Poll& poll) {
   const auto [a, b] = std::pair(pair.first, pair.second);
-  // The pair stays due if there is no answer.
+  // Puts the certificate back into the queue if the poll fails or throws.
   struct UnansweredGuard {
     CertificateQueue& agenda;
     const PairCertificate& pair;
@@ -57,7 +58,8 @@ Result<void> Monitor::Engine::ask_about(const PairCertificate& pair, const Poll&
   return {};
 }
 
-/// Takes the reports that come back.
+/// Requests reports of these tracks, checks all returned reports, then applies them. Errors: those of
+/// check(); none of the reports is applied then.
 Result<void> Monitor::Engine::ask(std::span<const std::uint32_t> numbers, const Poll& poll, Placing placing) {
   std::vector<TrackId> ids;
   for (const std::uint32_t number : numbers) ids.push_back(tracks_[number].id);

@@ -1,4 +1,4 @@
-// Whether a monitor can be as it is defined.
+// Validation of a MonitorDefinition.
 #pragma once
 
 #include "kinesphere/monitor/monitor.hpp"

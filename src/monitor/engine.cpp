@@ -1,4 +1,4 @@
-// The clock of a monitor: windows that start, and what is due.
+// Clock of a monitor: starts of windows, and the event loop over certificates.
 #include "monitor/engine.hpp"
 
 #include <algorithm>
@@ -53,7 +53,7 @@ bool Monitor::Engine::is_stale(const PairCertificate& pair) const {
 
 Result<std::optional<MonitorEvent>> Monitor::Engine::advance(double until, const Poll* poll) {
   if (!has_started_) {
-    // A caller that takes the events up to time() does not choose a time, so the clock does not start.
+    // A call with until == time() does not choose a start time, so the clock does not start.
     if (until == time_) return std::optional<MonitorEvent>{};
     start_clock(until);
   }
@@ -81,8 +81,9 @@ void Monitor::Engine::queue(MonitorEvent event) {
   events_.insert(at, event);
 }
 
-/// A plan's parabola lies around the line between its ends more closely than along its first tangent: for
-/// d in [0, T],  1/2 g d^2  is within  |g| T^2 / 16  of  1/2 g (T d - T^2 / 8).
+/// Returns the bound of a hypothesis for the broad phase, with the margin of its class. A planned
+/// acceleration is replaced by a straight path: for d in [0, T],  1/2 g d^2  is within  |g| T^2 / 16  of  1/2
+/// g (T d - T^2 / 8). This is tighter than the first tangent.
 InflatedBound Monitor::Engine::inflated_bound(std::uint32_t number, const Hypothesis& hypothesis,
                                               double end) const {
   BoundAt moved(TrackEstimate::bound(hypothesis, time_, end), time_);
@@ -96,9 +97,9 @@ InflatedBound Monitor::Engine::inflated_bound(std::uint32_t number, const Hypoth
   return {moved, separations_.margin(tracks_[number].track_class)};
 }
 
-/// The window that starts now. Its length doubles with every eight windows that start without a report, so
-/// the windows of a gap are few: eight times the binary logarithm of its length in windows. It doubles
-/// more slowly while windows find many pairs.
+/// Returns the window that starts now. Its length doubles with every 8 windows that start without a report,
+/// so a gap takes 8 times the binary logarithm of its length in windows. The length doubles more slowly while
+/// windows find many pairs.
 Window Monitor::Engine::next_window() const {
   constexpr std::uint32_t windows_of_a_length = 8;
   return Window::at(time_, rung_ + static_cast<int>(quiet_windows_ / windows_of_a_length));
@@ -107,13 +108,14 @@ Window Monitor::Engine::next_window() const {
 Result<void> Monitor::Engine::start_windows(const Poll* poll) {
   const Window next = next_window();
   const std::uint64_t pairs_before = counters_.near_pairs;
-  // Every track starts, also one that was added after a poll had failed here, in a window that goes on: what
-  // starts takes a layer for itself. Tracks by number: the places of one follow one another.
+  // All tracks start together, including one that was added to a running window after a poll failed here; the
+  // started tracks take a grid level of their own. Tracks are in ascending order, since the slots of a track
+  // are contiguous.
   std::vector<std::uint32_t> numbers;
   for (const std::uint32_t place : broad_phase_.ended(time_, true))
     if (numbers.empty() || numbers.back() != track_at(place)) numbers.push_back(track_at(place));
   if (poll != nullptr) {
-    // Whose plan ends, and who is in a pair that is undecided.
+    // Poll tracks with a plan that ends in the next window, and tracks of undecided pairs.
     std::vector<std::uint32_t> asked;
     for (const std::uint32_t number : numbers) {
       const KnownTrack& track = tracks_[number];
@@ -155,7 +157,8 @@ Result<void> Monitor::Engine::start_windows(const Poll* poll) {
     for (const auto& [a, b] :
          search_.near_started(broad_phase_, from, std::min(started, from + at_once), time_, bound_of))
       find_pair(track_at(a), track_at(b));
-  // Longer windows find more pairs, which take memory: a window that finds many counts as an eighth of one.
+  // Longer windows find more pairs, which take memory, so a window that finds many counts as an eighth of
+  // one.
   constexpr std::size_t many_pairs_for_each = 16;
   constexpr std::uint64_t slower = 8;
   const bool finds_many = counters_.near_pairs - pairs_before > many_pairs_for_each * numbers.size();

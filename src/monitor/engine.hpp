@@ -1,4 +1,4 @@
-// The engine of a monitor. The facts that it keeps, and why they suffice: docs/monitoring.md.
+// Engine of a monitor. docs/monitoring.md lists the invariants that it keeps and proves that they suffice.
 #pragma once
 
 #include <algorithm>
@@ -24,13 +24,16 @@
 
 namespace kinesphere {
 
-/// For each pair of tracks with separations one of these holds:
-///   - their capsules do not touch before the window ends, so they are apart;
-///   - they certainly are apart until the window ends;
-///   - they certainly are apart until the time of a hot pair;
-///   - they have an open record, whose verdicts hold until the time of its hot pair, or if it has none, until
-///     one of the two reports; or, if it says that they are apart, until the window ends.
-/// All are about the true tracks, which obey all reports: they outlive every report that contradicts none.
+/// Invariant: at least one of these statements holds for each watched pair of tracks.
+///   - Their swept spheres do not touch before the window ends, so the tracks are apart.
+///   - The tracks certainly are apart until the window ends.
+///   - The tracks certainly are apart until the failure time of a PairCertificate.
+///   - The pair has a PairRecord. Its verdicts hold until the failure time of the pair's certificate. Without
+///   a
+///     certificate they hold until one of the two tracks reports or, if all verdicts are apart, until the
+///     window ends.
+/// All statements are about the true tracks, which obey all correct reports. A report that contradicts none
+/// of the earlier ones therefore ends none of them.
 class Monitor::Engine {
  public:
   explicit Engine(const MonitorDefinition& definition);
@@ -40,7 +43,7 @@ class Monitor::Engine {
   double time() const { return time_; }
   bool has_started() const { return has_started_; }
   const TrackTable& tracks() const { return tracks_; }
-  /// In a Poll.
+  /// Returns true while a Poll is being called.
   bool is_asking() const { return asking_; }
 
   Result<void> report(TrackId id, const TrackReport& report);
@@ -57,17 +60,17 @@ class Monitor::Engine {
   static Result<std::unique_ptr<Engine>> restore(std::span<const std::byte> snapshot);
 
  private:
-  /// In place of the second stamp of a hot pair: it is about an open record.
+  /// Value of PairCertificate::second_revision that marks the certificate of a PairRecord.
   static constexpr std::uint32_t of_open_record = std::numeric_limits<std::uint32_t>::max();
 
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive);
-  /// What cannot have come about of a state that was read, if anything.
+  /// Returns the name of the first part of a restored state that violates an invariant, or nullptr.
   const char* first_invalid_part() const;
   bool window_is_valid() const;
 
   Result<void> check(TrackId id, const TrackReport& report, const char* call) const;
-  /// When a track gets another capsule that needs one: as the windows start, perhaps.
+  /// Selects when new hypotheses enter the broad phase: immediately, or at the next start of windows.
   enum class Placing { now, later };
   void take(TrackId id, const TrackReport& report, Placing placing);
   void place(std::uint32_t number);
@@ -85,7 +88,7 @@ class Monitor::Engine {
   Result<void> recheck(const Poll* poll);
   Result<void> ask_about(const PairCertificate& pair, const Poll& poll);
   Result<void> ask(std::span<const std::uint32_t> numbers, const Poll& poll, Placing placing);
-  /// None for pairs that are not watched.
+  /// Returns the separation levels of a pair; empty if the pair is not watched.
   std::span<const Components> levels_of(std::uint32_t a, std::uint32_t b) const {
     if (!definition_.shard.contains(std::min(tracks_[a].id, tracks_[b].id))) return {};
     return separations_.between(tracks_[a].track_class, tracks_[b].track_class);
@@ -106,37 +109,41 @@ class Monitor::Engine {
   void decide_pairs_not_due(std::uint32_t number);
   void add_certificate(std::uint32_t a, std::uint32_t b, double time);
   void queue(MonitorEvent event);
-  /// The number by which the windows know a hypothesis of a track; and the track.
+  /// Broad-phase slot of a hypothesis; track_at() is its inverse with respect to the track.
   static std::uint32_t place_of(std::uint32_t number, const Hypothesis& hypothesis) {
     return number * TrackEstimate::slots + hypothesis.slot;
   }
   static std::uint32_t track_at(std::uint32_t place) { return place / TrackEstimate::slots; }
   InflatedBound inflated_bound(std::uint32_t number, const Hypothesis& hypothesis, double end) const;
-  /// The window in which tracks are registered: the present one or, once it has ended, the one that follows.
+  /// Returns the window in which new hypotheses are registered: the current one or, if it has ended, its
+  /// successor.
   Window window() const { return time_ < window_.end ? window_ : Window::at(time_, rung_); }
-  /// The shortest duration for which an answer counts as certain: MonitorDefinition::time_resolution or,
-  /// where doubles of the size of time() are coarser, 2^-50 of it.
+  /// Returns the shortest duration for which a verdict counts as certain: MonitorDefinition::time_resolution
+  /// or, where doubles of the size of time() are coarser, 2^-50 of time().
   double resolution() const { return std::max(definition_.time_resolution, std::abs(time_) * 0x1p-50); }
 
   MonitorDefinition definition_;
-  std::vector<TrackClass> promises_;  ///< of the classes, flat in two dimensions
+  std::vector<TrackClass> promises_;  ///< Limits of the classes; without z in two dimensions.
   SeparationTable separations_;
-  int rung_;  ///< of windows while reports come
+  int rung_;  ///< Rung of windows while reports arrive.
   double time_;
-  bool has_started_;  ///< false until start_clock(), if the definition gives no start
+  bool has_started_;  ///< False until start_clock() if the definition gives no start time.
   Window window_{.rung = 0, .end = -infinity};
-  /// Windows that have started since a report came or was asked for; those that find many pairs count less.
+  /// Number of windows started since the last report or request; windows that find many pairs count an
+  /// eighth.
   std::uint32_t quiet_windows_ = 0;
   MonitorCounters counters_;
   TrackTable tracks_;
   PairRecords pair_records_;
   BroadPhase broad_phase_;
   CertificateQueue queue_;
-  std::deque<MonitorEvent> events_;  ///< of the present time, that have not been told yet
+  std::deque<MonitorEvent> events_;  ///< Events at time() that advance() has not returned yet, in order.
   bool asking_ = false;
-  std::vector<PairCertificate> read_pairs_;  ///< of a snapshot, on their way into the agenda
+  std::vector<PairCertificate>
+      read_pairs_;  ///< Certificates read from a snapshot, before restore() adds them to queue_.
   NeighbourSearch search_;
-  std::vector<std::optional<InflatedBound>> bounds_;  ///< of those that start, by place
+  std::vector<std::optional<InflatedBound>>
+      bounds_;  ///< Bounds of the hypotheses that start a window, by broad-phase slot.
 };
 
 }  // namespace kinesphere

@@ -1,4 +1,4 @@
-// The fields of a monitor's public structs, for archives.
+// Serialization of the public structs of a monitor.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +41,7 @@ void serialize(Self& self, Archive& archive) {
   archive(reports, late, repeated, contradictions, polls, windows, searches, near_pairs, looks);
 }
 
-/// A record, and the numbers of its tracks.
+/// A PairRecord with the numbers of its tracks, as stored in a snapshot.
 struct SavedRecord {
   std::uint32_t first = 0;
   std::uint32_t second = 0;

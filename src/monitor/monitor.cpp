@@ -1,4 +1,4 @@
-// The public calls of a monitor: checked, and handed on.
+// Public calls of a monitor: argument checks, then calls into the engine.
 #include "kinesphere/monitor/monitor.hpp"
 
 #include <cmath>

@@ -1,5 +1,4 @@
-// Pairs that are not certainly apart, or were not so in this window, and what is certain of each of their
-// separations.
+// Records of pairs that are not certainly apart, or were not so at some time in the current window.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +15,7 @@ namespace kinesphere {
 struct LevelState {
   Verdict verdict = Verdict::apart;
   double since = -infinity;
-  double until = -infinity;  ///< a certain verdict holds until then, whatever is reported
+  double until = -infinity;  ///< A certain verdict holds until this time, whatever is reported.
 
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
@@ -26,7 +25,7 @@ struct LevelState {
 };
 
 struct PairRecord {
-  std::uint32_t version = 0;  ///< what is in the agenda for another one is void
+  std::uint32_t version = 0;  ///< Certificates of the pair with another revision are stale.
   std::vector<LevelState> levels;
 
   bool is_apart() const {
@@ -37,7 +36,7 @@ struct PairRecord {
     return std::any_of(levels.begin(), levels.end(),
                        [](const LevelState& state) { return state.verdict == Verdict::undecided; });
   }
-  /// Something that was certain is not so from now on.
+  /// Returns true if a certain verdict of the pair no longer holds at time `now`.
   bool is_expiring(double now) const {
     return std::any_of(levels.begin(), levels.end(), [now](const LevelState& state) {
       return state.verdict != Verdict::undecided && state.until <= now;
@@ -51,7 +50,7 @@ struct PairRecord {
   }
 };
 
-/// By the numbers of two tracks, the lesser first.
+/// PairRecords by the numbers of their two tracks. The order of the two arguments does not matter.
 class PairRecords {
  public:
   PairRecord* find(std::uint32_t a, std::uint32_t b) {
@@ -72,7 +71,7 @@ class PairRecords {
   std::size_t size() const { return records_.size(); }
   std::uint32_t last_version() const { return last_version_; }
   void start_versions_at(std::uint32_t version) { last_version_ = version; }
-  /// Calls visit(a, b, record), in no particular order.
+  /// Calls visit(a, b, record) with a < b for all records, in unspecified order.
   template <class Visit>
   void for_each(Visit visit) const {
     for (const auto& [pair, record] : records_)

@@ -1,12 +1,12 @@
-// What is certain of pairs, and when it is to be looked at again.
+// Verdicts about pairs, and the certificates that trigger their rechecks.
 #include <algorithm>
 
 #include "monitor/engine.hpp"
 
 namespace kinesphere {
 
-/// Puts a pair that has no record on the agenda, for when it may not be apart any more: `a` and `b` may come
-/// near each other before the window ends.
+/// Handles a pair that the search found: if the pair has no record and may cease to be apart before the
+/// window ends, adds a certificate that fails at that time.
 void Monitor::Engine::find_pair(std::uint32_t a, std::uint32_t b) {
   if (a == b || levels_of(a, b).empty() || pair_records_.find(a, b) != nullptr) return;
   ++counters_.near_pairs;
@@ -23,7 +23,7 @@ bool Monitor::Engine::is_decided(std::uint32_t a, std::uint32_t b) {
   });
 }
 
-/// If they are apart at all levels.
+/// Returns the time until which the pair certainly is apart at all levels, or nothing if it is not apart now.
 std::optional<double> Monitor::Engine::apart_until(std::uint32_t a, std::uint32_t b, double horizon) {
   double until = infinity;
   for (const Components& level : levels_of(a, b)) {
@@ -45,8 +45,8 @@ void Monitor::Engine::decide_open_pairs(std::uint32_t number) {
   for (const std::uint32_t other : partners) decide(number, other);
 }
 
-/// After reports that were asked for. A pair that is due now waits for its turn: with the report of one track
-/// alone it may seem undecided.
+/// Decides the open pairs of a track after requested reports. Skips a pair with a verdict that expires now:
+/// with the report of only one track it may seem undecided, and its own certificate will decide it.
 void Monitor::Engine::decide_pairs_not_due(std::uint32_t number) {
   const std::vector<std::uint32_t> partners = tracks_[number].open;
   for (const std::uint32_t other : partners) {
@@ -58,7 +58,8 @@ void Monitor::Engine::decide_pairs_not_due(std::uint32_t number) {
   }
 }
 
-/// Says what is certain of two tracks now, tells what has changed, and keeps a record if they are not apart.
+/// Updates the verdicts about a pair, queues events for those that changed, and adds a certificate for the
+/// next recheck. Creates a record if the pair is not apart.
 void Monitor::Engine::decide(std::uint32_t a, std::uint32_t b) {
   PairRecord* record = pair_records_.find(a, b);
   if (record == nullptr) {
@@ -79,7 +80,7 @@ void Monitor::Engine::decide(std::uint32_t a, std::uint32_t b) {
     until = std::min(until, state.until);
     apart = apart && state.verdict == Verdict::apart;
   }
-  // That they are apart at one level of several has a begin; that they are apart has none.
+  // Apart at one of several levels has a start time; apart at all levels has none.
   if (apart)
     for (LevelState& state : record->levels) state.since = -infinity;
   record->version = pair_records_.fresh_version();
@@ -88,8 +89,9 @@ void Monitor::Engine::decide(std::uint32_t a, std::uint32_t b) {
     queue_.add({until, one, other, record->version, of_open_record});
 }
 
-/// Records of pairs that are apart again go when the windows end, and not before: until then hot pairs
-/// without a record, from before it came, may stand in the agenda, and are void as long as there is one.
+/// Removes the records of pairs that are apart again. Call it only when the windows end: until then the queue
+/// may hold certificates without a record from before the record was made, which are stale as long as it
+/// exists.
 void Monitor::Engine::close_records() {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> closed;
   pair_records_.for_each([&](std::uint32_t a, std::uint32_t b, const PairRecord& record) {
@@ -105,7 +107,7 @@ void Monitor::Engine::close_records() {
 void Monitor::Engine::decide_level(std::uint32_t a, std::uint32_t b, std::uint32_t level, LevelState& state) {
   ++counters_.rechecks;
   const SeparationForecast now = forecast(a, b, levels_of(a, b)[level], infinity);
-  // What was certain stays so, also if later reports alone would leave it open.
+  // A certain verdict holds until its time even if later reports alone would leave it open.
   const bool still = state.verdict != Verdict::undecided && state.until > time_;
   if (now.verdict == state.verdict || still) {
     const bool known_longer = still && now.verdict != state.verdict;

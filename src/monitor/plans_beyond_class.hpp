@@ -1,4 +1,4 @@
-// What bounds the accelerations of a track: the promise of its class and, in its place, plans.
+// Acceleration limits of a track: those of its class and, while they are in force, those of plans.
 #pragma once
 
 #include <algorithm>
@@ -10,19 +10,20 @@
 
 namespace kinesphere {
 
-/// The lengths of a vector: in the plane, along z, and altogether.
+/// Returns the lengths of a vector: in the plane, along z, and in total.
 inline ErrorBound lengths_of(const Vec3& v) {
   return ErrorBound::cylinder(std::hypot(v.x, v.y), std::abs(v.z));
 }
 
-/// The plans of a track that go beyond the promise of its class, summed up: until `end`, accelerations differ
-/// from the class's planned acceleration by at most `limit`, whichever plan is in force or none. From then on
+/// Summary of the plans of a track that exceed the limits of its class. Until `end`, accelerations differ
+/// from the class's planned acceleration by at most `limit`, whether a plan is in force or not. From `end` on
 /// they differ by at most the class's limit.
 struct PlansBeyondClass {
   ErrorBound limit{};
-  double end = -infinity;  ///< -infinity if there is no such plan
+  double end = -infinity;  ///< -infinity if there is no such plan.
 
-  /// Of the plan of a report, if it has one.
+  /// Returns the summary of a report's plan; empty if it has none or the plan is within the limits of the
+  /// class.
   static PlansBeyondClass of(const TrackReport& report, const TrackClass& promise) {
     if (!report.plan) return {};
     const Vec3 turn = report.plan->acceleration - promise.planned_acceleration;
@@ -32,11 +33,11 @@ struct PlansBeyondClass {
     return {largest(limit, promise.acceleration_limit), report.plan->valid_until};
   }
 
-  /// The largest difference from the class's planned acceleration at any time from `time` on.
+  /// Returns the largest difference from the class's planned acceleration at any time from `time` on.
   const ErrorBound& limit_from(double time, const TrackClass& promise) const {
     return time < end ? limit : promise.acceleration_limit;
   }
-  /// True if these allow every acceleration, at every time, that `other` allows.
+  /// Returns true if these plans allow every acceleration that `other` allows, at every time.
   bool include(const PlansBeyondClass& other) const {
     return other.end == -infinity || (other.end <= end && is_within(other.limit, limit));
   }

@@ -1,4 +1,4 @@
-// What one report says of where a track is from then on.
+// Sets of positions that a track can reach after a report, and the distances that a separation compares.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace kinesphere {
 
-/// From `time` until `end`, with s = t - time, the track is within `radius + speed s + 1/2 growth s^2` of
-/// position + velocity s + 1/2 acceleration s^2.
+/// A ball that contains the track from `time` until `end`. With s = t - time, its centre is position +
+/// velocity s + 1/2 acceleration s^2, and its radius is radius + speed s + 1/2 growth s^2.
 struct ReachableSet {
   double time = 0.0;
   double end = infinity;
@@ -30,8 +30,9 @@ struct ReachableSet {
   }
   Vec3 velocity_at(double t) const { return velocity + acceleration * (t - time); }
   ErrorBound radius_at(double t) const { return radius_after(t - time); }
-  /// The same motion, told as of another time, before or after its own; it holds for as long. The errors have
-  /// room for the roundings of this: margins of all that is added up, which may cancel.
+  /// Returns this set re-expressed with reference time t, before or after `time`; `end` is unchanged. Its
+  /// errors include the rounding of this computation, relative to the magnitudes of all summands, since sums
+  /// may cancel.
   ReachableSet moved_to(double t) const {
     const double s = std::abs(t - time);
     const double speeds = norm_one(velocity) + norm_one(acceleration) * s;
@@ -45,7 +46,7 @@ struct ReachableSet {
     moved.speed = (speed + growth * s) * more + ErrorBound(speeds * rounding::margin);
     return moved;
   }
-  /// As a ball.
+  /// Returns the set as a time-varying ball, with the total of each limit.
   Bound bound() const {
     return {time, position, velocity, acceleration, radius.total(), speed.total(), growth.total()};
   }
@@ -60,15 +61,15 @@ struct ReachableSet {
   ErrorBound radius_after(double s) const { return radius + (speed + growth * (0.5 * s)) * s; }
 };
 
-/// One of the distances that a separation is about: in space, where lengths along z count `stretch` times, in
-/// the plane, or upright.
+/// A distance that a separation limits: in space with lengths along z multiplied by `stretch`, in the plane,
+/// or along the vertical.
 struct Component {
   enum class Axes { space, plane, upright };
   Axes axes = Axes::space;
   double stretch = 1.0;
   double limit = 0.0;
-  /// A point of which this length, measured along these axes, is the excess over `limit` is no farther
-  /// outside of the separation than the tolerance (docs/monitoring.md, Lemma 4).
+  /// A point whose measured distance exceeds `limit` by at most this length is outside of the separation by
+  /// at most the tolerance of the monitor (docs/monitoring.md, Lemma 4).
   double tolerance = 0.0;
 
   double length(const ErrorBound& error) const {
@@ -81,7 +82,8 @@ struct Component {
   }
 };
 
-/// A pair is apart if it is beyond the limit of one of these, and within if it is so of all.
+/// The components of a separation. A pair is apart if its distance exceeds the limit of any component, and
+/// within if it exceeds none.
 struct Components {
   Component parts[2];
   int count = 1;

@@ -1,4 +1,4 @@
-// Reports that come in, and tracks that come and go.
+// Handling of reports, and addition and removal of tracks.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -63,7 +63,8 @@ Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const
   return check.result();
 }
 
-/// Whoever calls it judges the open pairs of the track afterwards: of several reports, once all are taken.
+/// Applies a checked report to its track. The caller decides the track's open pairs afterwards, once all
+/// reports that arrive together are applied.
 void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placing) {
   const TrackClass& promise = promises_[report.track_class];
   const auto known = tracks_.find(id);
@@ -117,8 +118,9 @@ void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placin
   if (placing == Placing::now) place(number);
 }
 
-/// A track is new, or may be elsewhere than was thought: its hypotheses get capsules from now on, and the
-/// pairs that they find are looked at.
+/// Enters the track's hypotheses that have no swept sphere yet into the broad phase, adds the pairs that the
+/// search finds, and decides the track's open pairs. Call it when a track is new or may be outside of its
+/// earlier bounds.
 void Monitor::Engine::place(std::uint32_t number) {
   KnownTrack& track = tracks_[number];
   window_ = window();
@@ -130,7 +132,7 @@ void Monitor::Engine::place(std::uint32_t number) {
     const InflatedBound bound = inflated_bound(number, hypothesis, now.end);
     broad_phase_.enter(at, bound, time_, now);
     ++counters_.searches;
-    // Finding a pair does not search.
+    // find_pair() does not search, so the results of search_ remain valid in this loop.
     for (const std::uint32_t near : search_.near(broad_phase_, at, bound, time_, now.end))
       find_pair(number, track_at(near));
   }
@@ -158,7 +160,8 @@ void Monitor::Engine::drop(std::uint32_t number) {
   tracks_.remove(number);
 }
 
-/// Puts on the agenda when too long nothing will have been heard of a track.
+/// Schedules the time at which the track becomes stale or, if it is stale, is dropped. Invalidates the
+/// previously scheduled time.
 void Monitor::Engine::expect_to_hear(std::uint32_t number) {
   KnownTrack& track = tracks_[number];
   const double after =

@@ -7,7 +7,8 @@
 namespace kinesphere {
 namespace {
 
-/// A claim as one component sees it: a path without a radius, which grows, and an error that does not.
+/// A ReachableSet projected onto the axes of one component: a path whose radius starts at zero and grows, and
+/// the constant part of the radius.
 struct View {
   Bound path;
   double error;
@@ -24,9 +25,9 @@ struct View {
         error(component.length(set.radius)),
         end(set.end) {}
 
-  /// What has been added to the radius.
+  /// Returns the growth of the radius since the set's time.
   double growth_at(double t) const { return path.radius_at(t); }
-  /// The path alone.
+  /// Returns the path with radius zero.
   Bound centre() const {
     Bound alone = path;
     alone.growth_speed = 0.0;
@@ -35,7 +36,7 @@ struct View {
   }
 };
 
-/// Two claims and a component.
+/// The distance between two reachable sets along one component, at time `now`.
 class ReachableSetsMeeting {
  public:
   ReachableSetsMeeting(const ReachableSet& a, const ReachableSet& b, const Component& component, double now)
@@ -63,8 +64,8 @@ class ReachableSetsMeeting {
     const double margin = rounding::sum_down(outer_limit_, -errors_);
     return std::min(end_, earliest_separation(a_.path, b_.path, now_, horizon, margin));
   }
-  /// They cannot be told to be apart, or within, before: with radii that did not grow from now on that would
-  /// take as long.
+  /// Returns the time before which time alone cannot make the pair certainly apart (or within): the time that
+  /// it would take if the radii did not grow from now on.
   double may_be_apart(double horizon) const {
     return earliest_separation(a_.centre(), b_.centre(), now_, horizon, limit_ + errors_ + growth());
   }
@@ -82,7 +83,7 @@ class ReachableSetsMeeting {
   GapLimits gap_;
 };
 
-/// Calls visit(meeting) for each pair of claims that hold, until it returns false.
+/// Calls visit(meeting) for each pair of reachable sets that hold now, until it returns false.
 template <class Visit>
 void for_each_meeting(const Hypothesis& a, const Hypothesis& b, const Component& component, double now,
                       Visit visit) {
@@ -92,7 +93,7 @@ void for_each_meeting(const Hypothesis& a, const Hypothesis& b, const Component&
         if (!visit(meeting)) return;
 }
 
-/// Until when two hypotheses leave no doubt that the two are apart, or within; -infinity if they leave one.
+/// Times until which two hypotheses prove the pair apart or within; -infinity if they do not prove it now.
 struct Certain {
   double apart = -infinity;
   double within = infinity;
@@ -106,7 +107,7 @@ Certain certain_of(const Hypothesis& a, const Hypothesis& b, const Components& c
     for_each_meeting(a, b, component, now, [&](const ReachableSetsMeeting& meeting) {
       if (meeting.is_apart()) certain.apart = std::max(certain.apart, meeting.apart_until(horizon));
       if (meeting.is_within()) within = std::max(within, meeting.within_until(horizon));
-      // No other pair can say more.
+      // No other pair of sets can give a later time.
       return certain.apart < infinity && within < infinity;
     });
     certain.within = std::min(certain.within, within);
@@ -114,7 +115,7 @@ Certain certain_of(const Hypothesis& a, const Hypothesis& b, const Components& c
   return certain;
 }
 
-/// The first time after `now` from which a claim holds that does not hold yet.
+/// Returns the earliest start after `now` of a reachable set that does not hold yet.
 double next_begin(const Hypothesis& hypothesis, double now) {
   double next = infinity;
   for (const ReachableSet& set : hypothesis.sets)
@@ -122,7 +123,7 @@ double next_begin(const Hypothesis& hypothesis, double now) {
   return next;
 }
 
-/// When passing time may decide what two hypotheses leave open, at the earliest.
+/// Returns the earliest time at which time alone may decide a pair that two hypotheses leave open.
 double decided_from(const Hypothesis& a, const Hypothesis& b, const Components& components, double now,
                     double horizon) {
   double apart = infinity;
@@ -154,7 +155,7 @@ SeparationForecast forecast_of(const TrackEstimate& a, const TrackEstimate& b, c
   if (all.apart >= enough && all.apart >= all.within) return {Verdict::apart, all.apart};
   if (all.within >= enough) return {Verdict::within, all.within};
   double until = enough;
-  // A pair of which a track has several hypotheses is decided again when a report comes, not by time alone.
+  // If a track has several hypotheses, the next report decides the pair again, and time alone does not.
   if (a.hypotheses().size() == 1 && b.hypotheses().size() == 1)
     until = std::max(until,
                      decided_from(a.hypotheses().front(), b.hypotheses().front(), separation, now, infinity));

@@ -1,4 +1,4 @@
-// What is certain of two tracks and a separation, and until when.
+// The verdict about two tracks and a separation, and the time until which it holds.
 #pragma once
 
 #include <utility>
@@ -10,17 +10,18 @@ namespace kinesphere {
 
 struct SeparationForecast {
   Verdict verdict = Verdict::undecided;
-  /// A certain verdict holds until then, +infinity if it does so beyond the horizon. An undecided one may be
-  /// decided by the passing of time no earlier.
+  /// A certain verdict holds until this time; +infinity if it holds beyond the horizon. Time alone decides an
+  /// undecided pair no earlier than this.
   double until = 0.0;
 };
 
-/// `least`: answers that would be certain for less than this (time, > 0) are not. Cost: some 100 ns for each
-/// pair of claims.
+/// Returns the verdict about a pair at time `now`, with a forecast up to `horizon`. A verdict that would be
+/// certain for less than `least` (time, > 0) is undecided. Cost: about 100 ns for each pair of reachable
+/// sets.
 SeparationForecast forecast_of(const TrackEstimate& a, const TrackEstimate& b, const Components& separation,
                                double now, double horizon, double least);
 
-/// Limits of the distance along one component.
+/// Limits of the distance between two tracks along one component (length).
 struct DistanceBetween {
   double lower = 0.0;
   double upper = infinity;

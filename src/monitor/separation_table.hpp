@@ -1,4 +1,4 @@
-// Which separations count between tracks of two classes.
+// Lookup of the separations between two track classes.
 #pragma once
 
 #include <algorithm>
@@ -30,8 +30,8 @@ class SeparationTable {
   std::span<const Components> between(std::size_t a, std::size_t b) const {
     return of_pairs_[std::min(a, b) * classes_ + std::max(a, b)];
   }
-  /// Two tracks that are within any separation, or about the tolerance outside, are no farther apart than
-  /// their rooms together.
+  /// Returns the search margin of a class. Two tracks within any separation, or outside of it by at most
+  /// about the tolerance, are no farther apart than the sum of their margins.
   double margin(std::size_t track_class) const { return margins_[track_class]; }
 
  private:

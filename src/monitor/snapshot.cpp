@@ -1,4 +1,4 @@
-// Snapshots of a monitor: all of its state as it stands, as bytes, and back.
+// Snapshots of a monitor: its complete state as bytes, and back.
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -13,8 +13,7 @@
 namespace kinesphere {
 namespace {
 
-/// Raise the version when the fields change, or when the engine would go on from the same fields in another
-/// way.
+/// Raise the version when the fields change, or when the engine would continue differently from equal fields.
 constexpr Envelope monitor_envelope{{'K', 'i', 'n', 'M', 'o', 'n', '\r', '\n'},
                                     5,
                                     "monitor",
@@ -22,7 +21,7 @@ constexpr Envelope monitor_envelope{{'K', 'i', 'n', 'M', 'o', 'n', '\r', '\n'},
                                     "snapshot",
                                     ErrorCode::bad_snapshot};
 
-/// True for a number of no track: it is as TrackTable::remove() leaves it.
+/// Returns true for an unused track number: its entry is as TrackTable::remove() leaves it.
 bool is_blank(const KnownTrack& track) {
   const auto& [id, track_class, present, silent, life, placed, expected, knowledge, open] = track;
   return id == 0 && track_class == 0 && !present && !silent && life == 0 && placed == 0 && expected == 0 &&
@@ -88,7 +87,7 @@ Result<std::unique_ptr<Monitor::Engine>> Monitor::Engine::restore(std::span<cons
   return engine;
 }
 
-/// A window that has not ended is one that Window::at() gives for a time since it began.
+/// Returns true if the window has ended, or if Window::at() gives it for a time since its start.
 bool Monitor::Engine::window_is_valid() const {
   if (!(window_.end > time_)) return !std::isnan(window_.end);
   return window_.rung != Window::endless().rung && window_.is_valid() &&
@@ -113,13 +112,13 @@ const char* Monitor::Engine::first_invalid_part() const {
       const bool contains = broad_phase_.contains(place);
       placed = placed || contains;
       if ((track.placed & 1u << slot) != 0 && !contains) return "windows";
-      // All start together when the first of their windows ends.
+      // All tracks start together when the first of their windows ends.
       if (contains && broad_phase_.end_of(place) > time_ && broad_phase_.window_of(place) != window_)
         return "windows";
     }
     if (placed != track.present || track.placed >> TrackEstimate::slots != 0) return "windows";
     if (!track.present) {
-      // The next track that gets the number goes on from what is here.
+      // The next track with this number reuses the entry, so it has to be blank.
       if (!is_blank(track)) return "tracks";
       continue;
     }

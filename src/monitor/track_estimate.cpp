@@ -10,11 +10,12 @@
 namespace kinesphere {
 namespace {
 
-/// More contradictions at a time are not kept: the oldest hypothesis goes.
+/// Largest number of hypotheses; a further contradiction replaces the oldest one.
 constexpr std::size_t most_hypotheses = TrackEstimate::slots - 1;
 
-/// The error of a stamp, told as errors of the state at the stamp. While a stamp may be wrong, so may be
-/// which plan is in force: accelerations differ from the class's planned one by at most what `plans` say.
+/// Returns the report with its timestamp error converted into errors of the state at the timestamp. If the
+/// timestamp may be wrong, the plan in force may be so too: accelerations differ from the class's planned
+/// acceleration by at most what `plans` allow.
 TrackReport with_exact_timestamp(TrackReport report, const TrackClass& promise,
                                  const PlansBeyondClass& plans) {
   const double error = report.timestamp_error;
@@ -23,7 +24,7 @@ TrackReport with_exact_timestamp(TrackReport report, const TrackClass& promise,
       least(lengths_of(report.state.velocity) + report.velocity_error, promise.largest_speed);
   const ErrorBound turn =
       plans.limit_from(report.timestamp - error, promise) + lengths_of(promise.planned_acceleration);
-  // A path that turns goes no farther than this, and no farther than the largest speed takes it.
+  // Largest distance travelled within the timestamp error, limited by acceleration and by the largest speed.
   const ErrorBound way = least((speed + turn * (0.5 * error)) * error, promise.largest_speed * error);
   report.position_error = report.position_error + way * (1.0 + rounding::margin);
   report.velocity_error = report.velocity_error + turn * (error * (1.0 + rounding::margin));
@@ -33,7 +34,7 @@ TrackReport with_exact_timestamp(TrackReport report, const TrackClass& promise,
 
 bool is_finite(const ErrorBound& error) { return std::isfinite(error.total()); }
 
-/// By an acceleration that differs from `planned` by at most `limit`.
+/// Returns the reachable set for accelerations that differ from `planned` by at most `limit`.
 ReachableSet motion_of(const TrackReport& report, const Vec3& planned, const ErrorBound& limit) {
   return {.time = report.timestamp,
           .position = report.state.position,
@@ -44,7 +45,7 @@ ReachableSet motion_of(const TrackReport& report, const Vec3& planned, const Err
           .growth = limit};
 }
 
-/// By the class's largest speed alone.
+/// Returns the reachable set that follows from the class's largest speed alone.
 ReachableSet range_of(const TrackReport& report, const TrackClass& promise) {
   return {.time = report.timestamp,
           .position = report.state.position,
@@ -52,15 +53,16 @@ ReachableSet range_of(const TrackReport& report, const TrackClass& promise) {
           .speed = promise.largest_speed};
 }
 
-/// With room for the roundings of what is computed from it.
+/// Adds a margin for the rounding of later computations with the set.
 void widen(ReachableSet& set) {
   const double size = norm_one(set.position) * rounding::margin;
   set.radius = set.radius + ErrorBound(size);
 }
 
-/// From when on the largest speed counts, as it would be exceeded after a time `after` of speeding up: the
-/// track is within the motion's radius then, and goes on from there by its largest speed. Nothing if that is
-/// later than a monitor can come to be.
+/// Returns the reachable set for a track that accelerates for the duration `after` and then moves at its
+/// largest speed. At that time the track is within the radius of `motion`, and from then on the radius grows
+/// at the largest speed. Returns nothing if that time is after the end of `motion` or after
+/// limits::largest_time.
 std::optional<ReachableSet> range_after(const ReachableSet& motion, double after, const TrackClass& promise) {
   const double begin = motion.time + after;
   if (!(after > 0.0 && begin < motion.end && begin <= limits::largest_time)) return std::nullopt;
@@ -69,15 +71,15 @@ std::optional<ReachableSet> range_after(const ReachableSet& motion, double after
       .time = begin, .position = then.position, .radius = then.radius, .speed = promise.largest_speed};
 }
 
-/// What a report says of its track's motion from `now` on, by the accelerations that the class and plans
-/// leave possible. The first is the tightest.
+/// Returns the reachable sets of a report from `now` on that follow from the accelerations allowed by the
+/// class and by plans. The first one is the tightest.
 std::vector<ReachableSet> motions_of(const TrackReport& report, const TrackClass& promise,
                                      const PlansBeyondClass& plans, double now) {
   std::vector<ReachableSet> motions;
   if (!is_finite(report.velocity_error)) return motions;
   const bool has_limit = is_finite(promise.acceleration_limit);
-  // Accelerations change from one limit to another at `time`. Monitors end before later times than the
-  // largest, at which lengths would overflow.
+  // Appends the continuation of a set from `time` on, where the acceleration limit changes. No monitor
+  // reaches times after limits::largest_time, where lengths would overflow.
   const auto go_on = [&](const ReachableSet& motion, double time) {
     if (!(time <= limits::largest_time)) return;
     ReachableSet rest = motion.moved_to(time);
@@ -110,7 +112,8 @@ std::vector<ReachableSet> reachable_sets_of(const TrackReport& report, const Tra
   std::vector<ReachableSet> sets = motions_of(report, promise, plans, now);
   if (is_finite(promise.largest_speed)) {
     if (!sets.empty()) {
-      // Ahead the largest speed is reached sooner than on the way back.
+      // The largest speed is reached sooner when the track accelerates along its velocity than when it turns
+      // back.
       const ReachableSet motion = sets.front();
       const double fastest = promise.largest_speed.total();
       const double limit = motion.growth.total();
@@ -133,15 +136,15 @@ double beyond(const Vec3& way, const ErrorBound& limit, double size) {
   return std::max({0.0, flat - margin, upright - margin, all - margin});
 }
 
-/// What `report` has beyond what an earlier or later state leaves possible. `own`: its plan, beyond its
-/// class.
+/// Returns the excess of `report` over what the state of an earlier or later report leaves possible. `own`:
+/// the report's plan, if it exceeds the limits of the class.
 Excess excess_of(const TrackReport& report, const PlansBeyondClass& own, const Hypothesis& believed,
                  const TrackClass& promise) {
   const double way = report.timestamp - believed.timestamp;
   const double s = std::abs(way);
   const ReachableSet& from = believed.motion;
-  // A report's plan is in force from its stamp on, so it counts between the two if the report is the older
-  // one.
+  // A report's plan is in force from its timestamp on, so it applies between the two if the report is the
+  // older one.
   const PlansBeyondClass plans = way < 0.0 ? joined(believed.plans, own) : believed.plans;
   const ErrorBound& limit = plans.limit_from(std::min(report.timestamp, believed.timestamp), promise);
   Excess excess;
@@ -177,7 +180,7 @@ Hypothesis hypothesis_of(const TrackReport& report, const TrackClass& promise, c
   return hypothesis;
 }
 
-/// The latest report of a hypothesis, without its plan.
+/// Returns the latest report of a hypothesis, without its plan.
 TrackReport report_of(const Hypothesis& hypothesis) {
   return {.timestamp = hypothesis.timestamp,
           .state = hypothesis.state,
@@ -185,8 +188,8 @@ TrackReport report_of(const Hypothesis& hypothesis) {
           .velocity_error = hypothesis.motion.speed};
 }
 
-/// Both hold. What the latest report says stays, and of all else the claim that is tightest at a time soon,
-/// if it tells more then.
+/// Merges two hypotheses that both hold. The result has the sets of `latest`'s latest report and, of all
+/// other sets, the one that is tightest at time `soon`, if it is tighter there.
 Hypothesis joined(Hypothesis latest, Hypothesis other, double now, double soon) {
   other.sets.insert(other.sets.end(), latest.sets.begin() + static_cast<std::ptrdiff_t>(latest.latest_sets),
                     latest.sets.end());
@@ -197,9 +200,9 @@ Hypothesis joined(Hypothesis latest, Hypothesis other, double now, double soon) 
   return latest;
 }
 
-// What a snapshot may hold. Claims of reports and classes within limits come to no larger numbers than these:
-// an acceleration by 2e30 of time makes 1e131 of speed and 1e161 of length. In the longest window, of 2^300,
-// nothing that is computed from them overflows.
+// Limits of the numbers in a snapshot. Reachable sets of reports and classes within kinesphere/limits.hpp do
+// not exceed them: an acceleration for a time of 2e30 gives a speed of 1e131 and a length of 1e161. In the
+// longest window, of 2^300, no computation with them overflows.
 constexpr double most_length = 1e170;
 constexpr double most_speed = 1e140;
 constexpr double most_acceleration = 1e110;
@@ -210,7 +213,7 @@ bool is_within(const Vec3& v, double most) {
   return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most;
 }
 
-/// False for what is not a number.
+/// Returns false for NaN.
 bool is_within(const ErrorBound& error, double most) {
   const auto is_length = [most](double value) { return value >= 0.0 && value <= most; };
   return is_length(error.horizontal()) && is_length(error.vertical()) && is_length(error.total());
@@ -223,11 +226,11 @@ bool is_valid(const ReachableSet& set) {
          is_within(set.growth, most_acceleration);
 }
 
-/// What the latest report says by itself holds now and for ever: tightest() finds something even when a later
-/// report replaces all other claims.
+/// Checks a restored hypothesis. A set of the latest report has to hold from `now` on without end, so that
+/// tightest() finds a set even after a later report has replaced all others.
 bool is_valid(const Hypothesis& hypothesis, double now) {
   const auto& [stamp, slot, motion, state, plans, claims, latest_claims] = hypothesis;
-  // Neither the velocity nor the acceleration of a report need have a limit.
+  // Velocity errors and acceleration limits of a report may be infinite.
   ReachableSet limited = motion;
   for (ErrorBound* error : {&limited.speed, &limited.growth})
     if (is_within(*error, infinity)) *error = 0.0;
@@ -283,8 +286,8 @@ TrackEstimate::Learned TrackEstimate::update(const TrackReport& report, const Tr
   learned.ends_certainty = std::any_of(agreeing.begin(), agreeing.end(),
                                        [&](std::size_t k) { return !hypotheses_[k].plans.include(own); });
   if (agreeing.size() > 1 || learned.ends_certainty) {
-    // Where several agree, they contradict each other: one of them rests upon a wrong report, and this one is
-    // right. Where a plan goes beyond what was believed possible, nothing is kept but the latest state.
+    // Several agreeing hypotheses contradict each other, so one of them relies on a wrong report, and this
+    // report is right. If a plan exceeds what was possible before, only the latest state is kept.
     const Hypothesis& believed = hypotheses_[agreeing.front()];
     Hypothesis only = next(all);
     if (agreeing.size() == 1 && exact.timestamp < believed.timestamp)
@@ -346,7 +349,7 @@ double TrackEstimate::timestamp() const {
 bool TrackEstimate::is_valid(double now) const {
   std::uint32_t taken = 0;
   for (const Hypothesis& hypothesis : hypotheses_) {
-    // Two hypotheses with one slot would have one capsule.
+    // Two hypotheses with one slot would share a swept sphere.
     if (hypothesis.slot >= slots || (taken & 1u << hypothesis.slot) != 0) return false;
     taken |= 1u << hypothesis.slot;
     if (!kinesphere::is_valid(hypothesis, now)) return false;

@@ -1,4 +1,4 @@
-// What the reports of one track add up to.
+// Estimate of one track from its reports.
 #pragma once
 
 #include <cstddef>
@@ -14,15 +14,16 @@
 
 namespace kinesphere {
 
-/// A way in which the reports can be explained: all of its claims hold.
+/// One explanation of the reports of a track. If it is true, all of its reachable sets contain the track.
 struct Hypothesis {
-  double timestamp = 0.0;  ///< of its latest report
-  std::uint32_t slot = 0;  ///< no other one of the track has the same, nor had one just before it came
-  /// What the latest report says by itself, for comparing with others; both before and after it.
+  double timestamp = 0.0;  ///< Timestamp of its latest report.
+  std::uint32_t slot = 0;  ///< Unique among the track's hypotheses, and differs from the slots in use just
+                           ///< before this one was added.
+  /// Reachable set of the latest report alone, for comparison with other reports, both before and after it.
   ReachableSet motion{};
   State state{};
-  PlansBeyondClass plans{};  ///< of all its reports
-  /// Those of the latest report, and behind them perhaps one of another.
+  PlansBeyondClass plans{};  ///< Plans of all its reports.
+  /// The sets of the latest report first, then at most one set of an earlier report.
   std::vector<ReachableSet> sets;
   std::size_t latest_sets = 0;
 
@@ -33,56 +34,60 @@ struct Hypothesis {
   }
 };
 
-/// How far one report lies outside of what another leaves possible.
+/// Distance of one report outside of what another one leaves possible: position (length) and velocity (length
+/// / time).
 struct Excess {
   double position = 0.0;
   double velocity = 0.0;
   bool any() const { return position > 0.0 || velocity > 0.0; }
 };
 
-/// One of the hypotheses is true, as long as of any three successive reports at most one is wrong and that
-/// one contradicts those before. There are several only while reports contradict each other.
+/// Hypotheses about a track. One of them is true, as long as among any three successive reports at most one
+/// is wrong and that one contradicts those before it. There are several only while reports contradict each
+/// other.
 class TrackEstimate {
  public:
-  /// Slots of hypotheses are less than this: there always is a free one.
+  /// Number of hypothesis slots; one of them always is free.
   static constexpr std::uint32_t slots = 4;
 
   enum class Outcome {
-    repeated,     ///< it is the same report as before
-    agrees,       ///< with all that was believed
-    contradicts,  ///< all that was believed: now there is one hypothesis more
-    resolves,     ///< it agrees with some, and the others are dropped
+    repeated,     ///< The report repeats an earlier one.
+    agrees,       ///< The report agrees with the only hypothesis.
+    contradicts,  ///< The report contradicts all hypotheses and adds a new one.
+    resolves,     ///< The report agrees with some of several hypotheses; the others are dropped.
   };
   struct Learned {
     Outcome outcome = Outcome::agrees;
     Excess excess{};
     bool late = false;
-    /// What was certain of the track may not be so any more: it may be elsewhere than was thought possible.
+    /// True if earlier certificates of the track may fail: it may be outside of its earlier bounds.
     bool ends_certainty = false;
   };
 
-  /// A report that has come in at `now`, of a track of this class. `ahead`: for how long claims are to be
-  /// good.
+  /// Applies a report that arrives at time `now`, of a track with the limits `promise`. `ahead` is the
+  /// duration for which the reachable sets should be tight (time).
   Learned update(const TrackReport& report, const TrackClass& promise, double now, double ahead);
 
   std::span<const Hypothesis> hypotheses() const { return hypotheses_; }
-  /// Of the latest report.
+  /// Returns the timestamp of the latest report.
   double timestamp() const;
-  /// Of the hypothesis, of the claims that hold all the time, the one that is tightest in the end.
+  /// Returns the set with the smallest radius at `until` among the sets of the hypothesis that hold from
+  /// `from` until `until`. Precondition: there is one.
   static const ReachableSet& tightest(const Hypothesis& hypothesis, double from, double until);
   static const ReachableSet& tightest(const Hypothesis& hypothesis, double time) {
     return tightest(hypothesis, time, time);
   }
-  /// Contains the track from `now` until `end`, if the hypothesis is true.
+  /// Returns a bound that contains the track from `now` until `end` if the hypothesis is true.
   static Bound bound(const Hypothesis& hypothesis, double now, double end);
-  /// A track is asked rather than another if this is larger. If two tracks with the acceleration limits A and
-  /// B are to be certain to the same sum of radii, the fewest reports are needed where their ages are as
-  /// A^(-1/3) : B^(-1/3). Then this, radius by age, is the same for both.
+  /// Returns the priority of the track for polling: its radius times the age of its latest report. Of two
+  /// tracks, the one with the larger value is polled. If two tracks with the acceleration limits A and B have
+  /// to keep a given sum of radii, the fewest reports are needed where their ages are as A^(-1/3) : B^(-1/3).
+  /// The priorities are equal then.
   double worth_asking(double time) const;
-  /// For what was read: each hypothesis has a slot of its own, and at every time from `now` on a claim that
-  /// holds.
+  /// Checks a restored estimate: each hypothesis has its own slot, and at every time from `now` on a
+  /// reachable set that holds.
   bool is_valid(double now) const;
-  /// When the first claim that `bound` may rest upon ends.
+  /// Returns the earliest end of all reachable sets.
   double first_end() const;
 
   template <class Self, class Archive>

@@ -1,4 +1,4 @@
-// The tracks of a monitor, by number and by id.
+// Tracks of a monitor, by number and by id.
 #pragma once
 
 #include <algorithm>
@@ -17,14 +17,14 @@ struct KnownTrack {
   std::size_t track_class = 0;
   bool present = false;
   bool stale = false;
-  std::uint32_t life = 0;  ///< no two tracks ever have the same
-  /// Of the hypotheses that have a capsule of their own, a bit for each slot. The others need none, as long
-  /// as those that were there before them have theirs.
+  std::uint32_t life = 0;  ///< Unique among all tracks that ever existed.
+  /// Bit mask of the slots of hypotheses that have their own swept sphere. A hypothesis without one lies
+  /// within the swept spheres of the hypotheses that it replaced.
   std::uint32_t placed = 0;
-  /// How often it was put on the agenda to be heard of: what is from before is void.
+  /// Revision of the scheduled stale or drop time; queue entries with another value are stale.
   std::uint32_t expected = 0;
   TrackEstimate estimate{};
-  std::vector<std::uint32_t> open;  ///< partners in pairs that have an open record
+  std::vector<std::uint32_t> open;  ///< Numbers of the tracks with which this one has a PairRecord.
 
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
@@ -36,7 +36,7 @@ struct KnownTrack {
 class TrackTable {
  public:
   std::size_t size() const { return numbers_.size(); }
-  /// Numbers are less than this.
+  /// Returns an upper limit: all track numbers are less than this.
   std::uint32_t numbers() const { return static_cast<std::uint32_t>(tracks_.size()); }
   KnownTrack& operator[](std::uint32_t number) { return tracks_[number]; }
   const KnownTrack& operator[](std::uint32_t number) const { return tracks_[number]; }
@@ -79,7 +79,7 @@ class TrackTable {
     auto& [tracks, free, last_life, numbers] = self;
     archive(tracks, free, last_life);
   }
-  /// For one that was read: finds tracks by their ids again, and says whether the table can be.
+  /// Rebuilds the lookup by id of a restored table. Returns false if the table is invalid.
   bool index() {
     numbers_.clear();
     for (std::uint32_t number = 0; number < tracks_.size(); ++number) {

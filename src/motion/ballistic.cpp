@@ -1,4 +1,4 @@
-// Bodies that fly freely under a common gravity.
+// Ballistic: bodies in free flight under a common gravity.
 #include "kinesphere/motion/ballistic.hpp"
 
 #include "input/input_check.hpp"

@@ -1,6 +1,6 @@
-// How the library's motions write a body to bytes and read it back (Motion::write_body, read_body): the mark
-// of the kind of motion, then what it keeps of the body, in the byte order of archive/archive.hpp. Each
-// motion lists its fields in both functions, in the same order.
+// Serialization of a single body by the library's motions (Motion::write_body, read_body): the mark of the
+// motion kind, then the fields of the body, in the byte order of archive/archive.hpp. Each motion lists its
+// fields in both functions, in the same order.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace kinesphere {
 
-/// What stands in front of a body. A kind of motion that writes other fields than it did gets a new mark.
+/// Prefix of a serialized body. A motion kind gets a new mark when the fields that it writes change.
 struct BodyMark {
   std::uint32_t number;
   std::string_view motion;
@@ -36,18 +36,18 @@ void append_body(std::vector<std::byte>& bytes, const BodyMark& mark, const Fiel
   bytes.insert(bytes.end(), writer.bytes().begin(), writer.bytes().end());
 }
 
-/// The error of read_body(): "read_body: bytes <what>".
+/// Returns the error of read_body(): "read_body: bytes <what>".
 inline Error bad_bytes(const std::string& what) {
   return {ErrorCode::bad_bytes, "bytes", no_body, "read_body: bytes " + what};
 }
 
-/// The same for bytes that hold numbers which no body of the motion can have.
+/// Returns the error of read_body() for bytes with values that no body of the motion can have.
 inline Error bad_bytes(const Error& reason) {
   return bad_bytes("hold no body of this motion: " + reason.message);
 }
 
-/// Sets the fields as append_body() had them, and returns what follows. Whether the numbers make sense is the
-/// caller's question.
+/// Reads the fields that append_body() wrote, and returns the remaining bytes. The caller checks the values.
+/// Errors: bad_bytes for another mark, or for bytes that end too early.
 template <class... Fields>
 Result<std::span<const std::byte>> take_body(std::span<const std::byte> bytes, const BodyMark& mark,
                                              Fields&... fields) {

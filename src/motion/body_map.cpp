@@ -1,4 +1,4 @@
-// Which body of the world is which body of which motion.
+// BodyMap: assigns each body of a world its motion and its number there.
 #include "kinesphere/body_map.hpp"
 
 #include <string>
@@ -15,7 +15,7 @@ Error unknown(std::string_view call, BodyId body) {
               " of the world was not added through this map, or has been removed from it"};
 }
 
-/// What the motion says of its body, all else as in `like`.
+/// Returns `like` with the state and the motion limits of a body of the motion at `time`.
 Result<BodyDefinition> definition_of(const Motion& motion, std::uint32_t number, double time,
                                      BodyDefinition like) {
   if (const auto error = wrong_body("BodyMap::add", motion, number)) return *error;

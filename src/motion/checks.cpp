@@ -9,7 +9,7 @@ namespace kinesphere {
 std::optional<Error> wrong_body(std::string_view call, const Motion& motion, std::uint32_t body) {
   if (motion.contains(body)) return std::nullopt;
   const BodyId id{body, 0};
-  // Not as an id is worded: the largest number is that of no_body.
+  // Formatted as a plain number: as an id, the largest number would read as no_body.
   const std::string start = std::string(call) + ": body: body " + text_of(std::size_t{body});
   if (body < motion.size()) return Error{ErrorCode::stale_body, "body", id, start + " has been removed"};
   return Error{ErrorCode::unknown_body, "body", id,

@@ -1,4 +1,4 @@
-// What motions say to wrong questions and wrong changes.
+// Argument checks of motions, and their errors.
 #pragma once
 
 #include <cstdint>
@@ -9,28 +9,31 @@
 
 namespace kinesphere {
 
-/// For how long the state of a body is known.
+/// Time range in which the state of a body is known.
 struct KnownTimes {
   double from;
   double to;
 };
 
-// `call` is the function that the caller used, for the message.
+// In all functions below, `call` is the name of the public function, for the message.
 
-/// unknown_body or stale_body, by Motion::size() and contains().
+/// Returns unknown_body or stale_body if the motion does not contain the body, by Motion::size() and
+/// contains().
 std::optional<Error> wrong_body(std::string_view call, const Motion& motion, std::uint32_t body);
-/// As the description of Motion says, for a body that the motion has (or no_body: one that is to be added).
+/// Returns the error that Motion documents for a time outside of `known`, if any. The body has to exist, or
+/// is no_body for one that is to be added.
 std::optional<Error> wrong_time(std::string_view call, BodyId body, std::string_view argument, double time,
                                 const KnownTimes& known);
 std::optional<Error> wrong_state(std::string_view call, BodyId body, const State& state);
-/// Finite in all parts.
+/// Returns not_finite for an origin with a component that is not finite.
 std::optional<Error> wrong_departure(std::string_view call, BodyId body, const MotionOrigin& origin);
-/// The error of a change that this kind of motion does not have.
+/// Returns the error of a change that this kind of motion does not support.
 Error cannot_change(std::string_view call, const Motion& motion, std::uint32_t body, std::string_view what);
-/// The error of a question about a body at some time, of which something is known to be wrong.
+/// Throws the error of an invalid query of a body at a time. Precondition: the body or the time is invalid.
 [[noreturn, gnu::cold]] void refuse_question(std::string_view call, const Motion& motion, std::uint32_t body,
                                              std::string_view argument, double time, const KnownTimes& known);
-/// Of a trajectory. Needs wrong_time() to be asked about both.
+/// Throws the error of a trajectory whose end is before its begin. Precondition: wrong_time() has accepted
+/// both.
 [[noreturn, gnu::cold]] void refuse_order(std::string_view call, std::uint32_t body, double begin,
                                           double end);
 

@@ -1,4 +1,4 @@
-// Interpolation between the last two frames of a game.
+// FrameMotion: interpolation between the last two frames of a game.
 #include "kinesphere/motion/frame_motion.hpp"
 
 #include <cmath>
@@ -61,15 +61,16 @@ double FrameMotion::previous_time() const { return time_of(latest_frame_ == 0 ? 
 
 double FrameMotion::latest_time() const { return time_of(latest_frame_); }
 
-/// Whether the next frame may have the body there. Its chord then turns by at most A dt, and its end moves by
-/// that times dt; the four errors are those of p_(k+1), twice p_k, and p_(k-1).
+/// Returns the violation if the next frame puts the body at `position`, or nothing if that is allowed.
+/// Between frames the chord velocity changes by at most A dt, so the end moves by at most A dt^2. The four
+/// position errors are one of p_(k+1), two of p_k and one of p_(k-1).
 std::optional<FrameViolation> FrameMotion::violation(std::uint32_t body, const Vec3& position) const {
   const Vec3& before = latest_[body];
   const Vec3 way = chords_[body].velocity * interval_;
   const Vec3 deviation = position - before - way;
   const double allowed = limits_[body] * interval_ * interval_ + 4.0 * position_error_;
   if (norm_squared(deviation) <= allowed * allowed) return std::nullopt;
-  // What a game's own rounding may add: a few units in the last place of what it adds up.
+  // Margin for rounding in the game: a few units in the last place of the summands.
   const double rounding = 1e-9 * allowed + 0x1p-48 * (norm_one(position) + norm_one(before) + norm_one(way));
   const double length = norm(deviation);
   if (length <= allowed + rounding) return std::nullopt;
@@ -154,7 +155,8 @@ Result<void> FrameMotion::check_change(std::string_view call, std::uint32_t body
   return {};
 }
 
-/// Where it goes on as the frame was pushed it ends where that has it, not where a rounding would take it.
+/// Restarts the body's chord at time t. A body that continues as pushed ends exactly at the pushed position,
+/// not at a rounded one.
 void FrameMotion::turn(std::uint32_t body, double t, const State& state) {
   chords_[body] = {t, state.position, state.velocity};
   const bool as_pushed = latest_frame_ > 0 && t == previous_time() &&

@@ -1,13 +1,14 @@
-// Factors that keep |acceleration| <= limit true although the two sides are rounded.
+// Factors that keep |acceleration| <= limit true despite rounding on both sides.
 #pragma once
 
 namespace kinesphere {
 
-/// Makes an acceleration whose length is a limit obey it: the product of a vector and a quotient, and two
-/// norms, are off by at most 9 roundings of 2^-53 together.
+/// Scales a limit down so that an acceleration of that length obeys it. The product of a vector and a
+/// quotient, and two norms, have a relative error of at most 9 roundings of 2^-53 together.
 inline constexpr double slightly_less = 1.0 - 1e-15;
 
-/// Makes a limit that was computed from accelerations contain them, after rounding in the states too.
+/// Scales a limit that was computed from accelerations up so that it contains them, including rounding in the
+/// states.
 inline constexpr double slightly_more = 1.0 + 1e-12;
 
 }  // namespace kinesphere

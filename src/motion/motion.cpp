@@ -1,4 +1,4 @@
-// What all motions share: refusing what only some can do, and probes that notice a world of other bodies.
+// Motion: defaults that refuse unsupported changes, and a probe that rejects bodies of another motion.
 #include "kinesphere/motion/motion.hpp"
 
 #include <string>

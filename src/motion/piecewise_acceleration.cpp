@@ -1,4 +1,4 @@
-// Walking along pieces of constant acceleration.
+// PiecewiseAcceleration: evaluation along pieces of constant acceleration.
 #include "kinesphere/motion/piecewise_acceleration.hpp"
 
 #include <cassert>
@@ -12,11 +12,11 @@ namespace kinesphere {
 
 namespace {
 
-/// Begins later than any time that may be asked for, so it is never the right piece.
+/// Placeholder segment. It begins later than any valid time, so it never contains one.
 const Segment no_piece{
     .begin = infinity, .end = infinity, .position = {}, .velocity = {}, .acceleration = {}, .jerk = {}};
 
-/// So many intervals away from 0 their ends are still distinct.
+/// Largest distance of a time from 0, in intervals; up to it, the ends of intervals are distinct doubles.
 constexpr double farthest = 0x1p50;
 
 }  // namespace
@@ -161,8 +161,8 @@ Segment PiecewiseAcceleration::piece_after(std::uint32_t body, const Segment& pi
   return piece_from(body, piece.end, piece.state_at(piece.end));
 }
 
-/// The k with k * interval <= t < (k + 1) * interval, the products as rounded. The rounded quotient is wrong
-/// by at most one; for an infinite interval it is 0, and no comparison below holds.
+/// Returns the k with k * interval <= t < (k + 1) * interval, with rounded products. The rounded quotient is
+/// wrong by at most one. An infinite interval gives 0, and no comparison below holds.
 std::int64_t PiecewiseAcceleration::interval_number(double t) const {
   const auto k = static_cast<std::int64_t>(std::floor(t / interval_));
   if (static_cast<double>(k) * interval_ > t) return k - 1;

@@ -1,4 +1,4 @@
-// Motion along ready-made trajectories.
+// PiecewiseMotion: motion along given trajectories.
 #include "kinesphere/motion/piecewise_motion.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace kinesphere {
 
 namespace {
 
-/// The segment that holds t; the first one if t lies before it.
+/// Returns the segment that contains t, or the first segment if t is before it.
 Trajectory::const_iterator piece_at(const Trajectory& trajectory, double t) {
   const auto begins_after = [](double time, const Segment& segment) { return time < segment.begin; };
   return std::upper_bound(trajectory.begin() + 1, trajectory.end(), t, begins_after) - 1;
@@ -29,7 +29,7 @@ double largest_acceleration(const Trajectory& trajectory) {
   return largest;
 }
 
-/// Equal up to the rounding of values of the given size.
+/// Returns true if a and b are equal up to rounding of values of magnitude `size`.
 bool nearly_equal(const Vec3& a, const Vec3& b, double size) { return norm_one(a - b) <= 1e-12 * size; }
 
 bool goes_on(const Segment& before, const Segment& after) {
@@ -62,7 +62,8 @@ void check_state(InputCheck& check, const Subject& subject, const Segment& befor
                 before.state_at(before.end), State{after.position, after.velocity});
 }
 
-/// Whether one segment follows another at its time, and `smoothly`: in its state too.
+/// Checks that each segment begins when the previous one ends and, if `smoothly`, with the position and
+/// velocity of that end.
 void check_trajectory(InputCheck& check, Subject subject, const Trajectory& trajectory, bool smoothly) {
   check.require(!trajectory.empty(), ErrorCode::out_of_range, subject, "must have at least 1 segment",
                 trajectory.size());
@@ -154,7 +155,7 @@ Result<void> PiecewiseMotion::set_velocity(std::uint32_t body, double, const Vec
 
 Result<void> PiecewiseMotion::remove(std::uint32_t body) {
   if (const auto error = wrong_body("remove", *this, body)) return *error;
-  trajectories_[body] = Trajectory();  // and not {}, which would keep the memory
+  trajectories_[body] = Trajectory();  // Frees the memory, which assigning {} would keep.
   free_.push_back(body);
   return {};
 }
@@ -170,8 +171,8 @@ Result<std::uint32_t> PiecewiseMotion::read_body(std::span<const std::byte>& byt
   Trajectory trajectory;
   const auto rest = take_body(bytes, piecewise_motion_mark, trajectory);
   if (!rest) return rest.error();
-  // Not smoothly: where steps of a recorded track are 10^12 times as long as others, its velocities there
-  // differ by more than create() allows.
+  // Not `smoothly`: if the steps of a recorded track differ in length by a factor of 10^12, its velocities at
+  // the joints differ by more than create() allows.
   InputCheck check("PiecewiseMotion");
   check_trajectory(check, {"trajectory"}, trajectory, false);
   if (check.error()) return bad_bytes(*check.error());
@@ -192,7 +193,7 @@ Result<std::uint32_t> PiecewiseMotion::read_body(std::span<const std::byte>& byt
 
 std::unique_ptr<Motion> PiecewiseMotion::clone() const { return std::make_unique<PiecewiseMotion>(*this); }
 
-/// The straight way from time t to the first segment.
+/// Returns the straight segment from time t to the first segment.
 Segment PiecewiseMotion::lead_in(std::uint32_t body, double t) const {
   const Segment& first = trajectories_[body].front();
   return {.begin = t,

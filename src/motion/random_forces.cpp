@@ -1,4 +1,4 @@
-// Bodies pushed around by random forces.
+// RandomForces: bodies with random accelerations, constant in each interval.
 #include "kinesphere/motion/random_forces.hpp"
 
 #include <numeric>

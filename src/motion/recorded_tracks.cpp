@@ -1,4 +1,4 @@
-// Natural cubic splines through recorded samples.
+// RecordedTracks: natural cubic splines through recorded samples.
 #include "kinesphere/motion/recorded_tracks.hpp"
 
 #include <cmath>
@@ -24,10 +24,10 @@ void check_track(InputCheck& check, BodyId body, const Track& track) {
   }
 }
 
-/// The step from sample k to the next one.
+/// The straight step from one sample to the next.
 struct Chord {
   double duration;
-  Vec3 velocity;  ///< of the chord
+  Vec3 velocity;  ///< Mean velocity of the step.
 };
 
 Chord chord_from(const Track& track, std::size_t k) {
@@ -35,9 +35,10 @@ Chord chord_from(const Track& track, std::size_t k) {
   return {duration, (track[k + 1].position - track[k].position) / duration};
 }
 
-/// The accelerations M of the spline at its samples. With step k of duration h_k and chord velocity c_k,
-///   h_(k-1) M_(k-1) + 2 (h_(k-1) + h_k) M_k + h_k M_(k+1) = 6 (c_k - c_(k-1)),   M_first = M_last = 0,
-/// which the elimination without pivoting solves accurately, as the diagonal dominates.
+/// Returns the accelerations M of the spline at its samples. With step k of duration h_k and chord velocity
+/// c_k,
+///   h_(k-1) M_(k-1) + 2 (h_(k-1) + h_k) M_k + h_k M_(k+1) = 6 (c_k - c_(k-1)),   M_first = M_last = 0.
+/// Elimination without pivoting solves this accurately, since the matrix is diagonally dominant.
 std::vector<Vec3> spline_accelerations(const Track& track) {
   const std::size_t last = track.size() - 1;
   std::vector<Vec3> result(track.size());

@@ -1,4 +1,4 @@
-// Bodies steered by hand.
+// SteeredMotion: bodies with accelerations set by the caller.
 #include "kinesphere/motion/steered_motion.hpp"
 
 #include <utility>
@@ -74,7 +74,7 @@ Result<std::uint32_t> SteeredMotion::read_body(std::span<const std::byte>& bytes
   if (check.error()) return bad_bytes(*check.error());
   auto body = add(last.time, last.state, limit);
   if (!body) return bad_bytes(body.error());
-  limits_[*body] = limit;  // rounded up when the body was added there
+  limits_[*body] = limit;  // Already scaled by slightly_more when the body was first added.
   accelerations_[*body] = acceleration;
   bytes = *rest;
   return body;

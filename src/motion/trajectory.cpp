@@ -1,4 +1,4 @@
-// Evaluation of cubic pieces of motion.
+// Segment: evaluation of cubic pieces of motion.
 #include "kinesphere/motion/trajectory.hpp"
 
 namespace kinesphere {

@@ -1,4 +1,4 @@
-// Bodies that follow a velocity field.
+// VelocityField: bodies that follow a velocity field.
 #include "kinesphere/motion/velocity_field.hpp"
 
 #include <algorithm>

@@ -1,11 +1,12 @@
-// The envelope of a recording.
+// Envelope of a recording: magic bytes, version and error.
 #pragma once
 
 #include "archive/envelope.hpp"
 
 namespace kinesphere {
 
-/// Raise the version when the steps change. What they do to a world is the snapshot's version to tell.
+/// Raise the version when the serialized steps change. The snapshot's version covers changes of their effect
+/// on a world.
 inline constexpr Envelope recording_envelope{{'K', 'i', 'n', 'e', 'r', 'c', '\r', '\n'},
                                              6,
                                              "recording",

@@ -1,4 +1,4 @@
-// Reading a recording: bytes that are none are refused, and a viewer gets its events and states.
+// Reading of recordings: validation of the bytes, and the events and states for a viewer.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -14,7 +14,7 @@ bool is_valid(const Event& event) {
          event.senses <= Senses::both;
 }
 
-/// What was asked for has an end, and an outcome that there can be.
+/// Returns true if the last answer completes a probe call, and the outcome is possible.
 bool is_valid(const step::Asking& asking) {
   if (!asking.answers.empty() && !asking.answers.back().last) return false;
   if (asking.event && (asking.failed || !asking.until || !is_valid(*asking.event))) return false;
@@ -31,7 +31,8 @@ bool is_valid(const std::vector<Step>& steps) {
   return true;
 }
 
-/// The answers of the last call of the probe, if that was not accepted, stand at the end.
+/// Returns the number of accepted answers. If the step failed, the answers of the last probe call, at the end
+/// of the list, do not count.
 std::size_t accepted(const step::Asking& asking) {
   const auto& answers = asking.answers;
   if (!asking.failed || answers.empty()) return answers.size();

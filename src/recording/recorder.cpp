@@ -30,12 +30,12 @@ Recorder::Listener::~Listener() {
   if (!recorder_.asking_.until && recorder_.asking_.answers.empty()) return;
   recorder_.hash_.add(world_, recorder_.asking_);
   recorder_.asking_.hash = recorder_.hash_.value();
-  // As a Step, without a copy.
+  // Written in the format of a Step, without copying the answers into one.
   recorder_.content_(static_cast<std::uint8_t>(Step(step::Asking()).index()), recorder_.asking_);
 }
 
 void Recorder::Listener::operator()(std::span<const BodyId> ids, double time, std::span<State> states) {
-  // Without an answer, until there is one: the probe may throw.
+  // The states before the call stand in until the probe has returned, since it may throw.
   auto& answers = recorder_.asking_.answers;
   const std::size_t first = answers.size();
   for (std::size_t k = 0; k < ids.size(); ++k)

@@ -1,4 +1,4 @@
-// The recorder: writes down the steps of a world while they are made.
+// Recorder: records the steps of a world as they happen.
 #pragma once
 
 #include <utility>
@@ -9,16 +9,16 @@ namespace kinesphere {
 
 class Recorder {
  public:
-  /// The world must not be in a probe.
+  /// Starts a recording with a snapshot of the world. Precondition: no probe of the world is running.
   Recorder(const World& world, bool has_pair_filter);
 
-  /// A change that is made.
+  /// Records a change of the world.
   void note(const Step& change) { content_(change); }
 
-  /// The whole recording. The recorder is empty then.
+  /// Returns the complete recording and leaves the recorder empty.
   std::vector<std::byte> finish(const World& world);
 
-  /// Bytes that it holds.
+  /// Returns the memory in use, in bytes.
   std::size_t memory() const;
 
   class Listener;
@@ -26,11 +26,11 @@ class Recorder {
  private:
   ByteWriter content_;
   StepHash hash_;
-  step::Asking asking_;  ///< kept for its memory
+  step::Asking asking_;  ///< Member, so that its memory is reused.
 };
 
-/// A probe that passes questions on to another and writes down what that answers. When it goes, also while an
-/// exception passes, the step is complete.
+/// A probe that forwards each call to another probe and records its answers. The destructor completes the
+/// step, also during stack unwinding.
 class Recorder::Listener {
  public:
   Listener(Recorder& recorder, const World& world, const Probe& probe, std::optional<double> until = {});
@@ -39,7 +39,8 @@ class Recorder::Listener {
   ~Listener();
 
   void operator()(std::span<const BodyId> ids, double time, std::span<State> states);
-  /// The call has come to its end. An error in it is a refused answer.
+  /// Marks the step as successful. Without this call, the step counts as failed: a refused answer or an
+  /// exception.
   void succeeded(const std::optional<Event>& event = {});
 
  private:

@@ -1,8 +1,8 @@
-// The steps of a recording: one class for each call that changes a world, with its arguments, and one for all
-// calls that ask probes.
+// Steps of a recording: one class for each call that changes a world, with its arguments, and one for all
+// calls that probe.
 //
-// A class of a change lists its fields for archives, and says how the change is made again: through the
-// public call, which checks what it is handed.
+// A change lists its fields for archives and repeats itself through the public call, which checks its
+// arguments.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ void serialize(Self& self, Archive& archive) {
 
 namespace step {
 
-/// A new body, by its call.
+/// Addition of a body through the World member `call`.
 template <class Definition, Result<BodyId> (World::*call)(const Definition&)>
 struct New {
   Definition body{};
@@ -43,7 +43,7 @@ struct New {
 using Add = New<BodyDefinition, &World::add>;
 using AddStatic = New<StaticDefinition, &World::add_static>;
 
-/// A change of one body that takes no argument, by its call.
+/// Change of one body without an argument, through the World member `call`.
 template <Result<void> (World::*call)(BodyId)>
 struct Plain {
   BodyId body{};
@@ -61,8 +61,8 @@ using RefreshFilter = Plain<&World::refresh_filter>;
 using SleepBody = Plain<&World::sleep>;
 using Wake = Plain<&World::wake>;
 
-/// A change of one body, or of a sensor class, that takes one argument. `Parameter` is as the call declares
-/// it.
+/// Change of one body, or of a sensor class, with one argument, through the World member `call`. `Parameter`
+/// is the parameter type of that member.
 template <class Subject, class Argument, class Parameter, Result<void> (World::*call)(Subject, Parameter)>
 struct With {
   Subject subject{};
@@ -86,7 +86,8 @@ using SetSensor = With<SensorClass, Sensor, const Sensor&, &World::set_sensor>;
 using SetSensorClass = With<BodyId, SensorClass, SensorClass, &World::set_sensor_class>;
 using SetUserData = With<BodyId, std::uint64_t, std::uint64_t, &World::set_user_data>;
 
-/// The predicate is code, and not recorded: only that there is one from now on, or none.
+/// Change of the pair filter. A predicate is code and cannot be recorded, so this holds only whether there is
+/// one.
 struct SetPairFilter {
   bool given = false;
 
@@ -97,10 +98,10 @@ struct SetPairFilter {
   }
 };
 
-/// A report as one of several that a single call of a probe gave.
+/// A probed state, as one of several that a single probe call returned.
 struct Answer {
   ProbedState report{};
-  bool last = false;
+  bool last = false;  ///< Last answer of its probe call.
 
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
@@ -109,13 +110,13 @@ struct Answer {
   }
 };
 
-/// A call that asked probes: advance(), or any other outside it.
+/// A call that probed: advance(), or any other call with a probe.
 struct Asking {
-  std::optional<double> until{};  ///< of an advance()
+  std::optional<double> until{};  ///< The argument of advance(); empty for other calls.
   std::vector<Answer> answers{};
-  bool failed = true;  ///< the last answer was refused, or the probe threw instead
+  bool failed = true;  ///< The last answer was refused, or the probe threw.
   std::optional<Event> event{};
-  std::uint64_t hash = 0;  ///< of all outcomes so far
+  std::uint64_t hash = 0;  ///< StepHash of all outcomes so far.
 
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
@@ -124,10 +125,10 @@ struct Asking {
   }
 };
 
-/// The last one.
+/// The last step of a recording.
 struct End {
   double time = 0.0;
-  std::uint64_t checksum = 0;  ///< of the world's snapshot
+  std::uint64_t checksum = 0;  ///< Checksum of the world's snapshot.
 
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
@@ -138,14 +139,14 @@ struct End {
 
 }  // namespace step
 
-/// Their order is part of the format.
+/// Any step of a recording. The order of the alternatives is part of the format.
 using Step =
     std::variant<step::Asking, step::Add, step::AddStatic, step::Remove, step::SetVelocity, step::Teleport,
                  step::SetRadius, step::SetMotionLimits, step::Disable, step::Enable, step::SetFilter,
                  step::SetPairFilter, step::RefreshFilter, step::SetSolid, step::SetSensor,
                  step::SetSensorClass, step::SetUserData, step::End, step::SleepBody, step::Wake>;
 
-/// A hash over the outcomes of all steps so far: events to the last bit, and all work that was done.
+/// Running hash over the outcomes of all steps so far: events to the last bit, and all work counters.
 class StepHash {
  public:
   void add(const World& world, const step::Asking& asking);
@@ -156,7 +157,7 @@ class StepHash {
   ByteWriter outcome_;  ///< kept for its memory
 };
 
-/// What a recording holds, read and found to have the form of one.
+/// Content of a recording whose form has been validated.
 struct RecordingContent {
   std::vector<std::byte> snapshot{};
   bool has_pair_filter = false;

@@ -1,22 +1,23 @@
-// A monitor: what is certain about the separation of things that report when they like.
+// Monitor: certain statements about the separation of tracks that report irregularly.
 //
 //   Monitor monitor = Monitor::create({.classes = {{.acceleration_limit = 3.0}},
 //                                      .separations = {{0, 0, {Separation::sphere(50.0)}}}}).value();
-//   monitor.report(7, {.stamp = 12.0, .state = {{0, 0, 100}, {20, 0, 0}}, .position_error = 3.0}).value();
-//   // ... others, as they come in
+//   monitor.report(7, {.timestamp = 12.0, .state = {{0, 0, 100}, {20, 0, 0}}, .position_error
+//   = 3.0}).value();
+//   // ... reports of other tracks, in the order in which they arrive
 //   for (const MonitorEvent& event : monitor.events(12.5))
-//     if (event.verdict == Verdict::undecided) ...  // may be within 50 m from event.time on
+//     if (event.verdict == Verdict::undecided) ...  // the pair may be within 50 m from event.time on
 //
-// A world asks; a monitor is told. Reports come with their own times and errors, late, out of order or not at
-// all. Between them a track is somewhere in a time-varying bound, as its class promises, and at each time
-// three answers are possible for two tracks and a separation: they certainly are apart, they certainly are
-// within it, or the reports leave it open. The monitor tells of each change of the answer, at the time when
-// it changes, and says who would have to report, by when, to keep it decided. Where reports can be asked for,
-// it asks: for as few as it can (the calls with a Poll).
+// A World probes its bodies; a Monitor receives reports. Reports carry their own timestamps and errors, and
+// may be late, out of order or missing. Between reports a track lies in a time-varying bound given by the
+// limits of its class. At each time a pair of tracks and a separation have one of three verdicts: certainly
+// apart, certainly within the separation, or undecided by the reports. The monitor emits an event at the time
+// of each change of a verdict. It also names the track that has to report, and by when, for a verdict to stay
+// certain. Where reports can be requested, the overloads with a Poll request as few as they can.
 //
-// The guarantee: as long as tracks keep the promises of their classes, and of any three successive reports of
-// a track at most one is farther off than it says and that one contradicts those before, no answer called
-// certain is ever wrong. docs/monitoring.md says what that means, and proves it.
+// Guarantee: no certain verdict is ever wrong, as long as (1) tracks keep the limits of their classes, and
+// (2) among any three successive reports of a track at most one has larger errors than stated, and that one
+// contradicts those before it. docs/monitoring.md states this precisely and proves it.
 #pragma once
 
 #include <cstddef>
@@ -35,13 +36,13 @@
 
 namespace kinesphere {
 
-/// Several monitors that are told the same may divide the pairs among themselves: a pair belongs to the share
-/// that is the lower of its two ids modulo `of`. What each tells of its pairs is what one monitor would tell
-/// that watches all.
+/// The part of all pairs that one monitor watches. Several monitors that receive the same reports can divide
+/// the pairs among themselves. A pair belongs to the shard whose number is the lower of its two ids modulo
+/// `of`. Each monitor emits for its pairs exactly the events that a single monitor of all pairs would emit.
 struct Shard {
-  std::uint64_t of = 1;     ///< > 0
-  std::uint64_t first = 0;  ///< watched are the shares first, ..., first + count - 1
-  std::uint64_t count = 1;  ///< > 0; first + count <= of
+  std::uint64_t of = 1;     ///< Number of shards, > 0.
+  std::uint64_t first = 0;  ///< The monitor watches shards first, ..., first + count - 1.
+  std::uint64_t count = 1;  ///< Number of watched shards, > 0; first + count <= of.
 
   bool contains(TrackId id) const { return id % of - first < count; }
 
@@ -49,75 +50,77 @@ struct Shard {
 };
 
 struct MonitorDefinition {
-  int dimensions = 3;  ///< 2 or 3; in two dimensions z is ignored
-  /// The time at which the monitor starts. Without one it starts at the stamp of the first report or at the
-  /// first time that it is advanced to, whichever comes first; until then time() is 0. Give one where stamps
-  /// may be ahead of the times that you advance to.
+  int dimensions = 3;  ///< 2 or 3. In two dimensions, z is ignored.
+  /// Start time of the monitor, optional. Without it, the clock starts at the timestamp of the first report
+  /// or at the first time passed to advance(), whichever comes first; until then time() is 0. Set it if
+  /// timestamps may be later than the times passed to advance().
   std::optional<double> start_time{};
-  /// What promises there are: TrackReport::track_class is a place in this list.
+  /// Motion limits of the track classes; TrackReport::track_class is an index into this list.
   std::vector<TrackClass> classes{};
-  /// Pairs of classes that are not named here are not watched.
+  /// Separations between classes. Pairs of classes that no rule names are not watched.
   std::vector<SeparationRule> separations{};
-  /// Within a separation means: no farther outside of it than this (length, > 0); of a cylinder, in the plane
-  /// and in height each. No coordinate may be larger than 2^41 times the tolerance. Who polls (below) should
-  /// let it be at least twice the position errors of both tracks: only then can a report always decide. (For
-  /// an ellipsoid that is taller than wide: so many times that, as it is taller.)
+  /// Tolerance of Verdict::within (length, > 0): a pair is `within` if it is at most this far outside the
+  /// separation. For a cylinder it applies in the plane and in height separately. No coordinate may exceed
+  /// 2^41 times the tolerance. When polling, set it to at least twice the position errors of both tracks;
+  /// only then does a report always decide the pair. For an ellipsoid that is taller than wide, multiply that
+  /// by its ratio of height to width.
   double tolerance = 1e-3;
-  /// An answer that can become certain by the passing of time alone does so at most this late (time, > 0),
-  /// and one that could stay certain for less than this does not become so. Answers never are certain too
-  /// long. In [limits::least_time, limits::largest_time]; where numbers of the size of time() are less exact,
-  /// 2^-50 of time() counts instead.
+  /// Time resolution of verdicts (time, > 0), in [limits::least_time, limits::largest_time]. An undecided
+  /// verdict that time alone decides becomes certain at most this late. A verdict that would be certain for
+  /// less than this stays undecided. A certain verdict never lasts too long. Where doubles of the size of
+  /// time() are coarser, 2^-50 of time() applies instead.
   double time_resolution = 1e-3;
-  /// How far ahead pairs are looked for (time, > 0): about the time between two reports of a track. It
-  /// matters for speed, and for needed(), alone; it is rounded down to a power of two. In
-  /// [limits::least_time, limits::largest_time]; while nothing is reported, pairs are looked for farther and
-  /// farther ahead.
+  /// Length of the search window (time, > 0), in [limits::least_time, limits::largest_time]: about the time
+  /// between two reports of a track. It affects only speed and the horizon of needed(), and is rounded down
+  /// to a power of two. While no reports arrive, windows become longer and longer.
   double window = 1.0;
-  /// A track of which nothing is heard for so long is told of, and for so long leaves (time, > 0).
+  /// Ages of a track's latest report (time, > 0) at which the track becomes stale (MonitorEventKind::stale)
+  /// and at which it is dropped (MonitorEventKind::dropped). Infinity, the default, disables them.
   double stale_after = std::numeric_limits<double>::infinity();
   double drop_after = std::numeric_limits<double>::infinity();
-  /// Which pairs are watched, where others watch the rest.
+  /// Pairs that this monitor watches, if other monitors watch the remaining ones.
   Shard shard{};
 };
 
-/// What a monitor has done so far.
+/// Counts of the work that a monitor has done since it was created.
 struct MonitorCounters {
-  std::uint64_t reports = 0;         ///< that were taken
-  std::uint64_t late = 0;            ///< of them, with an older stamp than one before of the same track
-  std::uint64_t repeated = 0;        ///< the same as one before
-  std::uint64_t contradictions = 0;  ///< reports that contradict those before
-  std::uint64_t polls = 0;           ///< tracks that were asked
-  std::uint64_t windows = 0;         ///< that have started
-  std::uint64_t searches = 0;        ///< for tracks near one
-  std::uint64_t near_pairs = 0;      ///< that searches have found
-  std::uint64_t rechecks = 0;        ///< at what is certain of a pair
+  std::uint64_t reports = 0;  ///< Accepted reports, without repeated ones.
+  std::uint64_t late = 0;  ///< Accepted reports with an older timestamp than an earlier report of the track.
+  std::uint64_t repeated = 0;        ///< Reports that repeat an earlier one; they have no effect.
+  std::uint64_t contradictions = 0;  ///< Reports that contradict all hypotheses of their track.
+  std::uint64_t polls = 0;           ///< Requests for a track's report through a Poll.
+  std::uint64_t windows = 0;         ///< Search windows that have started.
+  std::uint64_t searches = 0;        ///< Broad-phase searches for the neighbours of a hypothesis.
+  std::uint64_t near_pairs = 0;      ///< Pairs found by those searches.
+  std::uint64_t rechecks = 0;        ///< Evaluations of a pair at one separation level.
 };
 
-/// What is certain of two tracks and a separation now, and what may come.
+/// The verdict about two tracks and a separation now, and a forecast. Times are absolute.
 struct PairAnswer {
   Verdict verdict = Verdict::apart;
-  /// From when on it was so: of a pair that is apart at all levels, -infinity.
+  /// Time since which the verdict has held; -infinity for a pair that is apart at all levels.
   double since = 0.0;
-  /// A certain verdict is true until then, whatever is reported; it may be told to end sooner, where reports
-  /// that come say less. An undecided one may be decided by the passing of time no earlier than this. In
-  /// [time(), +infinity].
+  /// A certain verdict is true until this time, whatever is reported. A later call may return an earlier time
+  /// if newer reports say less. An undecided verdict changes by the passing of time alone no earlier than
+  /// this. In [time(), +infinity].
   double until = 0.0;
-  /// Limits of the distance now (length). For a cylinder that in the plane.
+  /// Lower and upper limit of the distance now (length, >= 0). For a cylinder, of the distance in the plane.
   double lower = 0.0;
   double upper = 0.0;
-  /// If both went on as reported: the least distance from now on, and when. +infinity, and never, if the
-  /// paths say nothing.
+  /// Closest approach if both tracks continue straight on from now: its distance (length) and its time. An
+  /// estimate, not a bound. For a cylinder, the distance is that in the plane.
   double closest_distance = 0.0;
   double closest_time = 0.0;
-  /// If both went on as reported: when they would first be within the separation; +infinity if not at all.
+  /// Time at which the tracks first are within the separation if they continue straight on from now;
+  /// +infinity if they never are. An estimate, not a bound.
   double likely_time = 0.0;
-  /// Whose report would tell most, and by when it is needed for the verdict to stay certain; of an undecided
-  /// pair that is now.
+  /// The track whose report would tighten the bounds most, and the time by which that report is needed for
+  /// the verdict to stay certain. For an undecided pair that time is now.
   TrackId ask = 0;
   double ask_by = 0.0;
 };
 
-/// A pair that is not certainly apart.
+/// A pair that is not certainly apart at one separation level.
 struct OpenPair {
   TrackId first = 0;
   TrackId second = 0;
@@ -126,19 +129,20 @@ struct OpenPair {
   double since = 0.0;
 };
 
-/// A report that is needed: without it something about the two turns undecided.
+/// A request for a report of `track` by time `by`. Without the report, a verdict about `track` and `other`
+/// turns undecided.
 struct ReportRequest {
   TrackId track = 0;
   double by = 0.0;
   TrackId other = 0;
 };
 
-/// What a monitor knows of a track now. It certainly is within `radius` of `centre` or, where reports
-/// contradict each other, of one of these places.
+/// What a monitor knows about a track now. The track certainly lies within `radius` of `centre` of one of the
+/// `places`. There are several places only while reports contradict each other.
 struct TrackView {
   TrackId id = 0;
   std::size_t track_class = 0;
-  double timestamp = 0.0;  ///< of its latest report
+  double timestamp = 0.0;  ///< Timestamp of the latest report.
   bool stale = false;
   struct Place {
     Vec3 centre{};
@@ -149,78 +153,85 @@ struct TrackView {
 };
 
 /// Any callable `void(std::span<const TrackId> ids, double time, std::span<std::optional<TrackReport>>
-/// reports)`: asks tracks for their latest reports, stamped no later than `time`. Where it leaves a report
-/// empty there is nothing newer.
+/// reports)`. It fetches the latest reports of the tracks, with timestamps no later than `time`. An entry
+/// that it leaves empty means that there is no newer report.
 using Poll =
     Callback<void(std::span<const TrackId> ids, double time, std::span<std::optional<TrackReport>> reports)>;
 
 class MonitorEventRange;
 
-/// One thread at a time may use a monitor; const calls may run at the same time as other const calls. Every
-/// call checks what it is handed, and one that returns an error has changed nothing. Calls that change a
-/// monitor fail with probe_in_progress inside its own Poll, which may ask it everything else. A monitor that
-/// has been moved from answers with moved_from, or throws BadResult where a call returns no Result or answers
-/// a question; it may be assigned to and destroyed.
+/// Tracks, their reports and the verdicts about their pairs.
+///
+/// Thread safety: one thread at a time may use a monitor; const calls may run concurrently with other const
+/// calls. Errors: every call checks its arguments, and a call that returns an error has changed nothing.
+/// Calls that change a monitor fail with probe_in_progress inside its own Poll, which may make all const
+/// calls. A moved-from monitor returns moved_from, or throws BadResult from calls that return no Result or
+/// that are const; it may be assigned to and destroyed.
 class Monitor {
  public:
-  /// Errors: not_finite or out_of_range, naming the field.
+  /// Creates a monitor. Errors: not_finite or out_of_range, naming the field.
   [[nodiscard]] static Result<Monitor> create(const MonitorDefinition& definition);
 
   Monitor(Monitor&&) noexcept;
   Monitor& operator=(Monitor&&) noexcept;
   ~Monitor();
 
-  /// Takes a report that has come in at the current time. The first one of an id makes a track. What changes
-  /// by it is told by the next advance(), at the current time. Errors: not_finite, out_of_range (a negative
-  /// error, an unknown class or another than before, a coordinate too large, no velocity where the class has
-  /// no largest speed). Cost: about that of a hash table's look-up, and a look at each open pair of the
-  /// track.
+  /// Accepts a report that arrives at the current time. The first report of an id adds a track. The next
+  /// advance() emits the resulting events, at the current time. Errors: not_finite; out_of_range (a negative
+  /// error, an unknown class, a class that differs from the track's, a coordinate too large, no velocity
+  /// where the class has no largest speed). Cost: about that of a hash-table lookup, and a recheck of each
+  /// open pair of the track.
   Result<void> report(TrackId id, const TrackReport& report);
-  /// The track leaves. Errors: unknown_body.
+  /// Removes a track; the next advance() emits its `dropped` event. Errors: unknown_body.
   Result<void> remove(TrackId id);
 
-  /// Goes on to the next event, at most to time `until`. Returns it, with time() at its time, or nothing,
-  /// with time() == until. Events of one time come in the order of their fields. Errors: time_backwards,
-  /// not_finite, or out_of_range beyond limits::largest_time for `until`.
+  /// Advances to the next event, at most to time `until`. Returns the event, with time() at its time, or
+  /// nothing, with time() == until. Events of one time come in the order of their kind, ids and level.
+  /// Errors: time_backwards, not_finite, or out_of_range beyond limits::largest_time for `until`.
   Result<std::optional<MonitorEvent>> advance(double until);
-  /// The same, and asks for reports: of a pair that is about to turn undecided for that of one of the two
-  /// and, if that is not enough, of the other. So with a tolerance as MonitorDefinition has it nothing stays
-  /// undecided that can be asked for. Errors: null_probe; those of report() for what comes back, whose track
-  /// is then taken as not having answered.
+  /// Advances as advance(until) does, and requests reports through `poll`: for a pair that is about to turn
+  /// undecided it requests a report of one track and, if that is not enough, of the other one. With a
+  /// tolerance as MonitorDefinition::tolerance recommends, no pair stays undecided while its tracks answer.
+  /// Errors: null_probe; those of report() for the returned reports, whose tracks then count as not having
+  /// answered.
   Result<std::optional<MonitorEvent>> advance(double until, const Poll& poll);
-  /// All events up to a time, for a range-for. Errors are thrown as BadResult.
+  /// Returns all events up to a time, for a range-for. Errors are thrown as BadResult.
   [[nodiscard]] MonitorEventRange events(double until);
   [[nodiscard]] MonitorEventRange events(double until, Poll poll);
 
   double time() const;
   const MonitorDefinition& definition() const;
   const MonitorCounters& counters() const;
-  /// Tracks that there are, by number.
+  /// Returns the ids of all tracks, in ascending order.
   std::vector<TrackId> tracks() const;
   std::size_t size() const;
   bool contains(TrackId id) const;
-  /// Errors: unknown_body.
+  /// Returns what is known about a track now. Errors: unknown_body.
   Result<TrackView> track(TrackId id) const;
 
-  /// What is certain of two tracks. Errors: unknown_body; out_of_range for the same track twice, a level that
-  /// the two do not have, or a pair of another share. Cost: that of a look at the pair; O(pairs that are
-  /// near) where the latest reports alone leave open what was certified before.
+  /// Returns the verdict about two tracks at one level, with its forecast. Errors: unknown_body; out_of_range
+  /// for the same track twice, a level that the pair does not have, or a pair outside the watched shards.
+  /// Cost: that of one recheck of the pair; O(near pairs) where the latest reports alone leave open what was
+  /// certified before.
   Result<PairAnswer> answer(TrackId first, TrackId second, std::uint32_t level = 0) const;
-  /// Pairs that are not certainly apart, by their ids and levels.
+  /// Returns the pairs that are not certainly apart, in the order of their ids and levels.
   std::vector<OpenPair> open_pairs() const;
-  /// Pairs of tracks that are not certainly apart, or were not at some time of the present window: what takes
-  /// memory besides the tracks, about 200 bytes each. Reports count from the next advance() on. Cost: O(1).
+  /// Returns the number of pairs that are not certainly apart or were not at some time in the current window.
+  /// Each of them takes about 200 bytes, in addition to the memory of the tracks. Reports count from the next
+  /// advance() on. Cost: O(1).
   std::size_t open_pair_count() const;
-  /// Tracks without which open_pair_count() is at most `pairs`: those with most open pairs first, of equal
-  /// ones the lower id. Cost: O(tracks log tracks + open pairs).
+  /// Returns tracks whose removal reduces open_pair_count() to at most `pairs`: those with most open pairs
+  /// first, and the lower id first among equals. Cost: O(tracks log tracks + open pairs).
   std::vector<TrackId> crowd(std::size_t pairs) const;
-  /// Whose reports are needed by `until` so that nothing turns undecided before, in the order of those times,
-  /// each track once. Pairs are known ahead until the window ends, no further. Cost: O(pairs that are near).
+  /// Returns the reports that are needed by `until` so that no verdict turns undecided before, in the order
+  /// of their times, each track once. Pairs are known only up to the end of the current window. Cost: O(near
+  /// pairs).
   std::vector<ReportRequest> needed(double until) const;
 
-  /// The whole monitor as bytes; one that is restored from them goes on as this one does. Cost: O(tracks).
+  /// Returns a snapshot of the whole monitor; a monitor that is restored from it continues identically. Cost:
+  /// O(tracks + near pairs).
   std::vector<std::byte> save() const;
-  /// Errors: bad_snapshot.
+  /// Restores a monitor from a snapshot made by save(). Errors: bad_snapshot.
   static Result<Monitor> restore(std::span<const std::byte> snapshot);
 
  private:
@@ -232,7 +243,7 @@ class Monitor {
   std::unique_ptr<Engine> engine_;
 };
 
-/// The events of a monitor up to a time: as EventRange.
+/// The events of a monitor up to a time, as an input range; the counterpart of EventRange.
 class [[nodiscard]] MonitorEventRange {
  public:
   class Iterator {

@@ -1,4 +1,4 @@
-// What a monitor tells.
+// Events of a monitor.
 #pragma once
 
 #include <cstdint>
@@ -8,46 +8,49 @@
 
 namespace kinesphere {
 
-/// The caller's number for what it watches: a transponder's address, an MMSI.
+/// Identifies a track; chosen by the caller, for example a transponder address or an MMSI.
 using TrackId = std::uint64_t;
 
 enum class MonitorEventKind {
-  /// What is certain of two tracks and a separation is another thing from this time on.
+  /// The verdict about two tracks and a separation changes at this time.
   verdict,
-  /// A report contradicts those before: one of them was farther off than it said, or the track moves in a way
-  /// that its class rules out. Both are believed possible, until others show which one was wrong.
+  /// A report contradicts the earlier ones: one of them has larger errors than stated, or the track moves in
+  /// a
+  /// way that its class rules out. The monitor keeps a hypothesis for each until later reports show which one
+  /// is wrong.
   contradiction,
-  /// A contradiction is over: the report that was wrong is not believed any more.
+  /// A contradiction has ended: the hypothesis of the wrong report is dropped.
   resolved,
-  /// Nothing has been heard of a track for MonitorDefinition::stale_after.
+  /// The latest report of a track has reached the age MonitorDefinition::stale_after.
   stale,
-  /// A track that was silent has reported.
+  /// A stale track has reported again.
   resumed,
-  /// A track has left: it was removed, or nothing was heard of it for MonitorDefinition::drop_after. What
-  /// was open about it stays undecided for ever, and nothing more is told of it.
+  /// A track was dropped: it was removed, or its latest report has reached the age
+  /// MonitorDefinition::drop_after. Its open pairs remain undecided, and no more events about it follow.
   dropped,
 };
 
-/// "verdict" and so on.
+/// Returns the name of an event kind in lower case, for example "verdict".
 std::string_view name_of(MonitorEventKind kind);
-/// "apart", "undecided", "within".
+/// Returns "apart", "undecided" or "within".
 std::string_view name_of(Verdict verdict);
 
 struct MonitorEvent {
   double time = 0.0;
   MonitorEventKind kind = MonitorEventKind::verdict;
-  /// The track that it is about; of two, that with the lesser number.
+  /// The track that the event is about; for a verdict, the one with the lower id.
   TrackId first = 0;
-  TrackId second = 0;  ///< of a verdict
+  TrackId second = 0;  ///< For a verdict: the track with the higher id.
 
-  // Of a verdict: about which separation, and what it is and was.
+  // For a verdict: the separation level, the new and the previous verdict.
   std::uint32_t level = 0;
   Verdict verdict = Verdict::apart;
   Verdict before = Verdict::apart;
-  double since = 0.0;  ///< when the one before began; -infinity if they were apart at all levels
+  double since =
+      0.0;  ///< Time at which the previous verdict began; -infinity if the pair was apart at all levels.
 
-  /// Of a contradiction: how far the position, and the velocity, lie outside of what was possible (length,
-  /// length / time).
+  /// For a contradiction: the distance of the reported position and velocity outside of what was possible
+  /// (length, length / time).
   double position_excess = 0.0;
   double velocity_excess = 0.0;
 

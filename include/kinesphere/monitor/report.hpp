@@ -1,5 +1,5 @@
-// What a monitor is told of a track: reports, each with its own time and errors, and what the class of the
-// track promises in between.
+// Input of a monitor: reports of tracks, each with its own timestamp and errors, and the motion limits of
+// track classes.
 #pragma once
 
 #include <algorithm>
@@ -11,15 +11,15 @@
 
 namespace kinesphere {
 
-/// How far off something is at most: in the horizontal plane (x, y), upright (z) and altogether. All units:
-/// lengths for positions, and so on. A number alone means a ball of that radius:
+/// An upper limit of an error: in the horizontal plane (x, y), along the vertical (z), and in total. The unit
+/// is that of the quantity, for example a length for positions. A plain number is a ball of that radius:
 ///   report.position_error = 3.0;
-///   report.position_error = Spread::cylinder(30.0, 8.0);
+///   report.position_error = ErrorBound::cylinder(30.0, 8.0);
 class ErrorBound {
  public:
   constexpr ErrorBound() = default;
   constexpr ErrorBound(double radius) : horizontal_(radius), vertical_(radius), total_(radius) {}
-  /// Both limits hold at once.
+  /// Returns the bound for which the horizontal and the vertical limit hold simultaneously.
   static ErrorBound cylinder(double horizontal, double vertical) {
     ErrorBound error;
     error.horizontal_ = horizontal;
@@ -30,13 +30,13 @@ class ErrorBound {
 
   constexpr double horizontal() const { return horizontal_; }
   constexpr double vertical() const { return vertical_; }
-  /// Where lengths along z count `stretch` >= 0 times.
+  /// Returns the total limit with lengths along z multiplied by `stretch` >= 0.
   double total(double stretch = 1.0) const {
     // No diagonal is shorter than its longer side.
     if (stretch == 1.0 && total_ <= std::max(horizontal_, vertical_)) return total_;
     return std::min(around(horizontal_, stretch * vertical_), std::max(1.0, stretch) * total_);
   }
-  /// In the plane: as if there were no z.
+  /// Returns the limit in the plane, without z.
   constexpr ErrorBound flat() const { return ErrorBound(horizontal_); }
 
   friend constexpr bool operator==(const ErrorBound&, const ErrorBound&) = default;
@@ -46,12 +46,12 @@ class ErrorBound {
   friend ErrorBound operator*(const ErrorBound& a, double factor) {
     return of(a.horizontal_ * factor, a.vertical_ * factor, a.total_ * factor);
   }
-  /// The larger of each.
+  /// Returns the larger one of each limit.
   friend ErrorBound largest(const ErrorBound& a, const ErrorBound& b) {
     return of(std::max(a.horizontal_, b.horizontal_), std::max(a.vertical_, b.vertical_),
               std::max(a.total_, b.total_));
   }
-  /// The lesser of each.
+  /// Returns the smaller one of each limit.
   friend ErrorBound least(const ErrorBound& a, const ErrorBound& b) {
     return of(std::min(a.horizontal_, b.horizontal_), std::min(a.vertical_, b.vertical_),
               std::min(a.total_, b.total_));
@@ -71,7 +71,7 @@ class ErrorBound {
     error.total_ = total;
     return error;
   }
-  /// The diagonal, rounded up.
+  /// Returns the diagonal, rounded up.
   static double around(double horizontal, double vertical) {
     if (vertical == 0.0) return horizontal;
     if (horizontal == 0.0) return vertical;
@@ -83,36 +83,36 @@ class ErrorBound {
   double total_ = 0.0;
 };
 
-/// What all tracks of a class promise about their motion. One of the two limits has to be finite.
+/// Motion limits that hold for all tracks of a class. At least one of the two limits has to be finite.
 struct TrackClass {
-  /// The acceleration differs from the planned one by at most this (length / time^2).
+  /// Largest difference of the acceleration from `planned_acceleration` (length / time^2).
   ErrorBound acceleration_limit = std::numeric_limits<double>::infinity();
   Vec3 planned_acceleration{};
-  /// No speed is larger (length / time).
+  /// Largest speed (length / time).
   ErrorBound largest_speed = std::numeric_limits<double>::infinity();
 };
 
-/// Where a track was, as somebody reported it. The errors are bounds: where a source tells of an accuracy
-/// that holds with some probability, it is the caller who declares which multiple of it contains all errors.
+/// A reported state of a track. The errors are bounds. If a source gives an accuracy that holds only with
+/// some probability, the caller declares which multiple of it contains all errors.
 struct TrackReport {
-  /// When it was so, by the clock of the monitor. Reports may be late, come out of order and be repeated.
+  /// Time of the state on the monitor's clock. Reports may be late, out of order and repeated.
   double timestamp = 0.0;
   State state{};
-  /// The true position is within this of the reported one (length).
+  /// Largest distance of the true position from the reported one (length).
   ErrorBound position_error{};
-  /// The true velocity is within this of the reported one (length / time); infinite if none was reported,
-  /// which needs a class with a largest speed.
+  /// Largest difference of the true velocity from the reported one (length / time). Infinite if no velocity
+  /// was reported, which requires a class with a largest speed.
   ErrorBound velocity_error{};
-  /// The stamp is within this of the true time.
+  /// Largest difference of the timestamp from the true time (time).
   double timestamp_error = 0.0;
 
-  /// A plan is in force from the report's stamp until `valid_until`, whatever reports follow. While it is,
-  /// the acceleration differs from the plan's by at most the plan's limit, and that takes the place of the
-  /// class's planned_acceleration and acceleration_limit; the class's largest_speed holds all the time. Of
-  /// several plans in force at a time each holds. Examples: a satellite's gravity, a filed manoeuvre. Cost: a
-  /// plan within the class's promise adds to what is certain and ends nothing; one beyond it ends what was
-  /// certain of the track's pairs, which the monitor then decides anew. What was told before such a plan came
-  /// in rests upon the class's promise alone.
+  /// A plan in force from the report's timestamp until `valid_until`, whatever reports follow. While it is in
+  /// force, the acceleration differs from the plan's by at most the plan's limit. These replace the class's
+  /// planned_acceleration and acceleration_limit; the class's largest_speed holds all the time. If several
+  /// plans are in force at a time, each of them holds. Examples: a satellite's gravity, a filed manoeuvre.
+  /// Effect: a plan within the limits of its class tightens verdicts and ends none. A plan beyond them ends
+  /// every verdict about the track's pairs, which the monitor then decides anew. Verdicts before such a plan
+  /// arrives rely on the class's limits alone.
   struct Plan {
     Vec3 acceleration{};
     ErrorBound acceleration_limit{};
@@ -120,7 +120,8 @@ struct TrackReport {
   };
   std::optional<Plan> plan{};
 
-  /// Of a track that is new: its class, a number of MonitorDefinition::classes. Later it may not change.
+  /// Class of the track, an index into MonitorDefinition::classes. All reports of a track have the same
+  /// class.
   std::size_t track_class = 0;
 };
 

@@ -1,4 +1,4 @@
-// How far apart two tracks are to be, and what is certain of it.
+// Separations between tracks, and verdicts about them.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace kinesphere {
 
-/// Two tracks are *within* a separation when one is inside this region around the other, counted from
-/// position to position.
+/// A region around a track. Two tracks are *within* a separation if the position of one lies in this region
+/// around the position of the other.
 struct Separation {
   enum class Shape {
     ellipsoid,  ///< (horizontal distance / horizontal)^2 + (vertical distance / vertical)^2 <= 1
@@ -16,7 +16,7 @@ struct Separation {
   };
   Shape shape = Shape::ellipsoid;
   double horizontal = 0.0;  ///< length, > 0
-  double vertical = 0.0;    ///< length, > 0; of no meaning in two dimensions
+  double vertical = 0.0;    ///< length, > 0; ignored in two dimensions
 
   static constexpr Separation sphere(double distance) { return {Shape::ellipsoid, distance, distance}; }
   static constexpr Separation ellipsoid(double horizontal, double vertical) {
@@ -35,15 +35,15 @@ struct Separation {
   }
 };
 
-/// What the reports so far say of two tracks and a separation at one time.
+/// What the reports so far prove about two tracks and a separation at one time.
 enum class Verdict {
-  apart,      ///< certainly not within it
-  undecided,  ///< the reports leave it open
-  within,     ///< certainly within it, or no farther outside than the tolerance
+  apart,      ///< the pair certainly is not within the separation
+  undecided,  ///< the reports prove neither of the other two
+  within,     ///< the pair certainly is within the separation, or outside of it by at most the tolerance
 };
 
-/// Which separations count between the tracks of two classes. The first is the widest that is told of, say a
-/// caution, the last an alarm: a pair is told of each by its number in this list, its level.
+/// The separations between the tracks of two classes. A level is an index into `levels`; each level has its
+/// own verdicts. The first level is the widest, for example a caution, the last one an alarm.
 struct SeparationRule {
   std::size_t first_class = 0;
   std::size_t second_class = 0;
