@@ -77,7 +77,7 @@ TEST(Names, AreThoseOfTheEnumerators) {
   EXPECT_EQ(name_of(EventKind::wall_begin), "wall_begin");
   EXPECT_EQ(name_of(EventKind::wall_end), "wall_end");
   EXPECT_EQ(name_of(EventKind::zeno_guard), "zeno_guard");
-  EXPECT_EQ(name_of(EventKind::woke), "woken");
+  EXPECT_EQ(name_of(EventKind::woke), "woke");
   EXPECT_EQ(name_of(Wall::none), "none");
   EXPECT_EQ(name_of(Wall::x_lower), "x_lower");
   EXPECT_EQ(name_of(Wall::z_upper), "z_upper");
