@@ -24,7 +24,7 @@ TEST(MovedFromWorld, AnswersEveryCallWithAnError) {
   refused(world.reserve(1), "reserve");
   refused(world.add_all({}), "add_all");
   refused(world.add_static({}), "add_static");
-  refused(world.add_static_all({}), "add_fixed_all");
+  refused(world.add_static_all({}), "add_static_all");
   refused(world.shape_of(id), "shape_of");
   refused(world.remove(id), "remove");
   refused(world.remove_all({}), "remove_all");

@@ -528,7 +528,7 @@ TEST(Surroundings, WrongCalls) {
   expect_error(w.add_static({.shape = Triangle{{0, 0, 0}, {1, 0, 0}, {2, 1e-7, 0}}}), range, "shape",
                "add_static: ");
   const std::vector<StaticDefinition> two{{.shape = ground}, {.shape = Triangle{}}};
-  expect_error(w.add_static_all(two), range, "shape", "add_fixed_all: bodies[1]: ");
+  expect_error(w.add_static_all(two), range, "shape", "add_static_all: bodies[1]: ");
   EXPECT_EQ(w.size(), 1u);
   expect_error(w.set_velocity(box, {}), ErrorCode::static_body, "body", "set_velocity: ", box);
   expect_error(w.teleport(box, {}), ErrorCode::static_body, "body", "teleport: ", box);
@@ -551,7 +551,7 @@ TEST(Surroundings, WrongCalls) {
   p.place(HalfSpace{{0, 0, 1 + 1e-9}, -5});
   const auto inside = [&](std::span<const BodyId>, double, std::span<State> states) {
     expect_error(w.add_static({.shape = ground}), ErrorCode::probe_in_progress, "probe", "add_static: ");
-    expect_error(w.add_static_all(two), ErrorCode::probe_in_progress, "probe", "add_fixed_all: ");
+    expect_error(w.add_static_all(two), ErrorCode::probe_in_progress, "probe", "add_static_all: ");
     std::fill(states.begin(), states.end(), State{});
   };
   (void)w.advance(1.0, inside).value();
