@@ -28,10 +28,9 @@ namespace kinesphere {
 ///   - Their swept spheres do not touch before the window ends, so the tracks are apart.
 ///   - The tracks certainly are apart until the window ends.
 ///   - The tracks certainly are apart until the failure time of a PairCertificate.
-///   - The pair has a PairRecord. Its verdicts hold until the failure time of the pair's certificate. Without
-///   a
-///     certificate they hold until one of the two tracks reports or, if all verdicts are apart, until the
-///     window ends.
+///   - The pair has a PairRecord. Its verdicts hold until the failure time of the pair's certificate. If it
+///     has no certificate, they hold until one of the two tracks reports or, if all verdicts are apart, until
+///     the window ends.
 /// All statements are about the true tracks, which obey all correct reports. A report that contradicts none
 /// of the earlier ones therefore ends none of them.
 class Monitor::Engine {

@@ -35,8 +35,8 @@ Chord chord_from(const Track& track, std::size_t k) {
   return {duration, (track[k + 1].position - track[k].position) / duration};
 }
 
-/// Returns the accelerations M of the spline at its samples. With step k of duration h_k and chord velocity
-/// c_k,
+/// Returns the accelerations M of the spline at its samples. Step k has the duration h_k and the chord
+/// velocity c_k:
 ///   h_(k-1) M_(k-1) + 2 (h_(k-1) + h_k) M_k + h_k M_(k+1) = 6 (c_k - c_(k-1)),   M_first = M_last = 0.
 /// Elimination without pivoting solves this accurately, since the matrix is diagonally dominant.
 std::vector<Vec3> spline_accelerations(const Track& track) {

@@ -154,7 +154,7 @@ class StepHash {
 
  private:
   std::uint64_t sum_ = 0;
-  ByteWriter outcome_;  ///< kept for its memory
+  ByteWriter outcome_;  ///< Member, so that its memory is reused.
 };
 
 /// Content of a recording whose form has been validated.

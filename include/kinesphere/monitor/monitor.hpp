@@ -2,8 +2,8 @@
 //
 //   Monitor monitor = Monitor::create({.classes = {{.acceleration_limit = 3.0}},
 //                                      .separations = {{0, 0, {Separation::sphere(50.0)}}}}).value();
-//   monitor.report(7, {.timestamp = 12.0, .state = {{0, 0, 100}, {20, 0, 0}}, .position_error
-//   = 3.0}).value();
+//   TrackReport report{.timestamp = 12.0, .state = {{0, 0, 100}, {20, 0, 0}}, .position_error = 3.0};
+//   monitor.report(7, report).value();
 //   // ... reports of other tracks, in the order in which they arrive
 //   for (const MonitorEvent& event : monitor.events(12.5))
 //     if (event.verdict == Verdict::undecided) ...  // the pair may be within 50 m from event.time on
@@ -49,6 +49,7 @@ struct Shard {
   friend bool operator==(const Shard&, const Shard&) = default;
 };
 
+/// Parameters of a monitor.
 struct MonitorDefinition {
   int dimensions = 3;  ///< 2 or 3. In two dimensions, z is ignored.
   /// Start time of the monitor, optional. Without it, the clock starts at the timestamp of the first report

@@ -15,9 +15,8 @@ enum class MonitorEventKind {
   /// The verdict about two tracks and a separation changes at this time.
   verdict,
   /// A report contradicts the earlier ones: one of them has larger errors than stated, or the track moves in
-  /// a
-  /// way that its class rules out. The monitor keeps a hypothesis for each until later reports show which one
-  /// is wrong.
+  /// a way that its class rules out. The monitor keeps a hypothesis for each until later reports show which
+  /// one is wrong.
   contradiction,
   /// A contradiction has ended: the hypothesis of the wrong report is dropped.
   resolved,
