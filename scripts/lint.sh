@@ -20,7 +20,7 @@ if grep -rnE '#include .*\.cpp[">]' include src programs browser python/module e
   exit 1
 fi
 
-# Names that the glossary has replaced. CHANGELOG.md and mutants of files may speak of them.
+# Names that the glossary has replaced. The CHANGELOG may speak of them.
 retired='Islands|KickComparison|LatePairs|PartSize|BodyKick|KeptContacts|Answerer|Agenda|HotPair|Unsettled|FoundPairs|Outlook'
 retired+='|Judgement|Horizons|ContactBook|RecentContacts|WhileTrue|StillDue|WindowLayer|Capsule|CapsuleTable|RoomyBound|Tempo|Pacing'
 retired+='|MovedBound|Encounter|SizeLevels|KnownSpace|Parcel|Outbox|LocalWorld|PhasePart|DanglingLinks|PairShare|ReportNeed'

@@ -12,6 +12,9 @@ namespace {
 /// Why the first message that was lost could not be written; 0 if none was.
 int message_error = 0;
 
+/// What the call that failed left in errno; EIO where it left nothing.
+int last_error() { return errno != 0 ? errno : EIO; }
+
 [[noreturn]] void fail(const char* stream, int error) {
   throw ProgramError(fmt::format("{}: cannot write: {}", stream, std::strerror(error)));
 }
@@ -20,19 +23,18 @@ int message_error = 0;
 
 void write_output(std::string_view text) {
   errno = 0;
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size())
-    fail("standard output", errno != 0 ? errno : EIO);
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) fail("standard output", last_error());
 }
 
 void finish_output() {
   errno = 0;
-  if (std::fflush(stdout) != 0) fail("standard output", errno != 0 ? errno : EIO);
+  if (std::fflush(stdout) != 0) fail("standard output", last_error());
 }
 
 void write_message(std::string_view text) {
   errno = 0;
   if (std::fwrite(text.data(), 1, text.size(), stderr) == text.size() && std::fflush(stderr) == 0) return;
-  if (message_error == 0) message_error = errno != 0 ? errno : EIO;
+  if (message_error == 0) message_error = last_error();
 }
 
 void check_messages() {

@@ -52,21 +52,21 @@ float SweptSphereSpread::extent() const {
   return extent;
 }
 
-Grid::Grid(const SweptSphereSpread& error, std::size_t spheres, float coarseness) {
+Grid::Grid(const SweptSphereSpread& spread, std::size_t spheres, float coarseness) {
   const bool all_in_one = spheres <= few;
-  const float edge = std::max(all_in_one ? 4.0f * error.extent() : coarseness * error.widest(), 0x1p-20f);
+  const float edge = std::max(all_in_one ? 4.0f * spread.extent() : coarseness * spread.widest(), 0x1p-20f);
   edge_ = {edge / float{slices}, edge, edge};
   for (std::size_t axis = 0; axis < 3; ++axis) per_edge_[axis] = 1.0f / edge_[axis];
   if (all_in_one) {
     folded_ = {true, true, true};
     return;
   }
-  folded_ = {error.is_exceeded(), error.is_exceeded(), error.is_exceeded()};
+  folded_ = {spread.is_exceeded(), spread.is_exceeded(), spread.is_exceeded()};
   std::size_t all_cells = 1;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const float lower = error.lower()[axis];
+    const float lower = spread.lower()[axis];
     first_[axis] = cell_of(lower, axis);
-    const std::int32_t all = cell_of(std::max(lower, error.upper()[axis]), axis) - first_[axis] + 1;
+    const std::int32_t all = cell_of(std::max(lower, spread.upper()[axis]), axis) - first_[axis] + 1;
     count_[axis] = std::min(all, most_along_an_axis);
     if (count_[axis] < all) folded_[axis] = true;
     all_cells *= static_cast<std::size_t>(count_[axis]);

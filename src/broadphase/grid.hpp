@@ -59,7 +59,7 @@ class Grid {
   /// Makes a grid for `spheres` swept spheres: cubes as wide as the widest one, times `coarseness`, over the
   /// box that holds all centres. An axis is folded where a centre may lie beyond that box, or where there
   /// would be far more cells than swept spheres. A few swept spheres (at most 32) get a single cell.
-  Grid(const SweptSphereSpread& error, std::size_t spheres, float coarseness);
+  Grid(const SweptSphereSpread& spread, std::size_t spheres, float coarseness);
 
   /// Edge of a cube.
   float edge() const { return edge_[1]; }

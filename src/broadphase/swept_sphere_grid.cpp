@@ -55,27 +55,27 @@ void SweptSphereGrid::replace(std::uint32_t place, const SweptSphere& sphere, fl
 SweptSphereSpread SweptSphereGrid::spread_of(const UnsortedSweptSpheres& all, PoolLease& shift) {
   std::vector<SweptSphereSpread> spreads(shift.count());
   shift.parallel_for(all.spheres.size(), many, [&](std::size_t begin, std::size_t end, std::size_t worker) {
-    SweptSphereSpread error;
-    for (std::size_t k = begin; k < end; ++k) error.add(float_aabb_of(all.spheres[k], 0.0f, 1.0f));
-    spreads[worker].add(error);
+    SweptSphereSpread spread;
+    for (std::size_t k = begin; k < end; ++k) spread.add(float_aabb_of(all.spheres[k], 0.0f, 1.0f));
+    spreads[worker].add(spread);
   });
-  SweptSphereSpread error;
-  for (const SweptSphereSpread& one : spreads) error.add(one);
-  return error;
+  SweptSphereSpread spread;
+  for (const SweptSphereSpread& one : spreads) spread.add(one);
+  return spread;
 }
 
 /// Chooses a grid with cells coarse enough that each filled one holds several swept spheres, and counts by
 /// its cells.
-void SweptSphereGrid::choose_grid(const UnsortedSweptSpheres& all, const SweptSphereSpread& error,
+void SweptSphereGrid::choose_grid(const UnsortedSweptSpheres& all, const SweptSphereSpread& spread,
                                   std::vector<std::uint32_t>& cells, PoolLease& shift) {
   const std::size_t count = cells.size();
   // Cells wider than 4 times the extent of all swept spheres would separate nothing.
-  const auto is_of_use = [&error](float coarseness) {
-    return coarseness == 1.0f || coarseness * error.widest() <= 4.0f * error.extent();
+  const auto is_of_use = [&spread](float coarseness) {
+    return coarseness == 1.0f || coarseness * spread.widest() <= 4.0f * spread.extent();
   };
   while (!is_of_use(coarseness_)) coarseness_ *= 0.5f;
   for (;;) {
-    grid_ = Grid(error, count, coarseness_);
+    grid_ = Grid(spread, count, coarseness_);
     count_by_cells(all, cells, shift);
     filled_ = filled_cubes(shift);
     const bool few_in_cells = grid_.cells() > 1 && count < too_few_in_a_cell * filled_;
@@ -169,8 +169,8 @@ void SweptSphereGrid::choose_places(const std::vector<std::uint32_t>& cells,
 float SweptSphereGrid::arrange(const UnsortedSweptSpheres& all, PoolLease& shift) {
   const auto count = static_cast<std::uint32_t>(all.numbers.size());
   std::vector<std::uint32_t> cells(count);
-  const SweptSphereSpread error = spread_of(all, shift);
-  choose_grid(all, error, cells, shift);
+  const SweptSphereSpread spread = spread_of(all, shift);
+  choose_grid(all, spread, cells, shift);
   std::vector<std::uint32_t> places(count);
   choose_places(cells, places, shift);
   most_behind_ = least_behind + static_cast<std::uint32_t>(4.0 * std::sqrt(static_cast<double>(count)));
@@ -183,7 +183,7 @@ float SweptSphereGrid::arrange(const UnsortedSweptSpheres& all, PoolLease& shift
     }
   });
   sorted_ = count;
-  return error.largest();
+  return spread.largest();
 }
 
 /// Adds a query, and ranges of sorted slots from `first_place` on that hold all swept spheres which may meet

@@ -125,7 +125,7 @@ class SweptSphereGrid {
   static constexpr std::size_t many = 1024;
 
   static SweptSphereSpread spread_of(const UnsortedSweptSpheres& all, PoolLease& shift);
-  void choose_grid(const UnsortedSweptSpheres& all, const SweptSphereSpread& error,
+  void choose_grid(const UnsortedSweptSpheres& all, const SweptSphereSpread& spread,
                    std::vector<std::uint32_t>& cells, PoolLease& shift);
   void count_by_cells(const UnsortedSweptSpheres& all, std::vector<std::uint32_t>& cells, PoolLease& shift);
   std::uint32_t filled_cubes(PoolLease& shift) const;

@@ -86,23 +86,23 @@ void ContactGraph::start_side_by_side(bool with_sensors) {
 }
 
 /// Returns the bodies of the event whose contact rate counts it: all but static ones, which many bodies may
-/// hit at one time. The result refers to `margin`.
+/// hit at one time. The result refers to `buffer`.
 std::span<const std::uint32_t> ContactGraph::counting(const Event& contact,
-                                                      std::array<std::uint32_t, 2>& margin) const {
+                                                      std::array<std::uint32_t, 2>& buffer) const {
   std::size_t count = 0;
   for (const BodyId id : {contact.first, contact.second})
-    if (id != no_body && !flags_[number_of(id)].is_static) margin[count++] = number_of(id);
-  return std::span(margin).first(count);
+    if (id != no_body && !flags_[number_of(id)].is_static) buffer[count++] = number_of(id);
+  return std::span(buffer).first(count);
 }
 
 bool ContactGraph::is_jammed(const Event& current) const {
-  std::array<std::uint32_t, 2> margin{};
-  return rate_.is_jammed(counting(current, margin), current.time);
+  std::array<std::uint32_t, 2> buffer{};
+  return rate_.is_jammed(counting(current, buffer), current.time);
 }
 
 void ContactGraph::note_contact(Event& begin) {
-  std::array<std::uint32_t, 2> margin{};
-  const auto [repeated, jammed] = rate_.note(counting(begin, margin), begin.time);
+  std::array<std::uint32_t, 2> buffer{};
+  const auto [repeated, jammed] = rate_.note(counting(begin, buffer), begin.time);
   begin.repeated = repeated;
   begin.jammed = jammed;
 }

@@ -119,7 +119,7 @@ class ContactGraph {
 
   void set_half(std::uint32_t body, std::uint32_t partner, const Event& contact, bool touching);
   bool contacts_are_valid(const std::optional<Box>& box) const;
-  std::span<const std::uint32_t> counting(const Event& contact, std::array<std::uint32_t, 2>& margin) const;
+  std::span<const std::uint32_t> counting(const Event& contact, std::array<std::uint32_t, 2>& buffer) const;
 
   ContactRule rule_;
   ContactRule sensor_rule_;

@@ -18,9 +18,9 @@ double share(double own, double other) {
 }
 
 /// Returns the change of relative normal speed: the approach speed plus the rebound speed, which is
-/// `checkpoint` times the approach speed, or zero if the contact is jammed.
-double both_speeds(const Event& contact, double checkpoint) {
-  return (1.0 + (contact.jammed ? 0.0 : checkpoint)) * contact.approach_speed;
+/// `restitution` times the approach speed, or zero if the contact is jammed.
+double both_speeds(const Event& contact, double restitution) {
+  return (1.0 + (contact.jammed ? 0.0 : restitution)) * contact.approach_speed;
 }
 
 /// Returns velocities that change the relative velocity along the normal by `speed`.
@@ -44,11 +44,11 @@ Bounce settle(const Event& contact, double first_mass, double second_mass, doubl
   if (!(approach > 0.0)) return rebound(contact, first_mass, second_mass, both_speeds(contact, restitution));
   const bool gains = contact.repeated && restitution < 1.0;
   const double least = gains ? resting_speed : std::min(resting_speed, approach);
-  const double checkpoint = std::max(restitution, least / approach);
+  const double restitution_now = std::max(restitution, least / approach);
   // The quotient overflows at the smallest approach speeds.
-  const bool overflows = std::isinf(checkpoint) && !contact.jammed;
+  const bool overflows = std::isinf(restitution_now) && !contact.jammed;
   return rebound(contact, first_mass, second_mass,
-                 overflows ? approach + least : both_speeds(contact, checkpoint));
+                 overflows ? approach + least : both_speeds(contact, restitution_now));
 }
 
 double least_resting_speed(double contact_tolerance, double acceleration) {

@@ -88,16 +88,16 @@ std::optional<Passage> passage(const SweptRay& way, const Vec3& centre, double r
 /// Merges hits of the same body, which may come from several pieces of the ray and several images.
 void keep_first_of_each_body(std::vector<CastHit>& hits) {
   std::sort(hits.begin(), hits.end(), [](const CastHit& a, const CastHit& b) { return a.body < b.body; });
-  std::size_t checkpoint = 0;
+  std::size_t count = 0;
   for (const CastHit& hit : hits) {
-    if (checkpoint > 0 && hits[checkpoint - 1].body == hit.body) {
-      hits[checkpoint - 1].lower = std::min(hits[checkpoint - 1].lower, hit.lower);
-      hits[checkpoint - 1].upper = std::min(hits[checkpoint - 1].upper, hit.upper);
+    if (count > 0 && hits[count - 1].body == hit.body) {
+      hits[count - 1].lower = std::min(hits[count - 1].lower, hit.lower);
+      hits[count - 1].upper = std::min(hits[count - 1].upper, hit.upper);
     } else {
-      hits[checkpoint++] = hit;
+      hits[count++] = hit;
     }
   }
-  hits.resize(checkpoint);
+  hits.resize(count);
 }
 
 }  // namespace

@@ -158,10 +158,10 @@ Result<StaticDefinition> World::Preconditions::new_static(const StaticDefinition
   auto valid = check_shape(fixed.shape, definition(), call_);
   if (valid) valid = reach(body_of(fixed), no_body, "shape");
   if (!valid) return valid.error();
-  StaticDefinition checkpoint = fixed;
-  checkpoint.shape = normalized(fixed.shape, engine_->definition());
-  if (auto space = static_room(checkpoint, id); !space) return space.error();
-  return checkpoint;
+  StaticDefinition accepted = fixed;
+  accepted.shape = normalized(fixed.shape, engine_->definition());
+  if (auto space = static_room(accepted, id); !space) return space.error();
+  return accepted;
 }
 
 }  // namespace kinesphere

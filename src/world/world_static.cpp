@@ -7,49 +7,49 @@ namespace kinesphere {
 Result<BodyId> World::add_static(const StaticDefinition& body) {
   const Preconditions check(*this, "add_static");
   if (auto idle = check.idle(); !idle) return idle.error();
-  const auto checkpoint = check.new_static(body, engine_->bodies().table().next_id());
-  if (!checkpoint) return checkpoint.error();
-  return changing(step::AddStatic{*checkpoint}).add_static(*checkpoint);
+  const auto accepted = check.new_static(body, engine_->bodies().table().next_id());
+  if (!accepted) return accepted.error();
+  return changing(step::AddStatic{*accepted}).add_static(*accepted);
 }
 
 Result<BodyId> World::add_zone(const Shape& shape, std::uint64_t user_data) {
   const Preconditions check(*this, "add_zone");
   if (auto idle = check.idle(); !idle) return idle.error();
-  const auto checkpoint =
+  const auto accepted =
       check.new_static({.shape = shape, .solid = false, .sensor_class = zone_class, .user_data = user_data},
                        engine_->bodies().table().next_id());
-  if (!checkpoint) return checkpoint.error();
+  if (!accepted) return accepted.error();
   if (engine_->bodies().sensors.of(zone_class).distances.empty()) {
     Sensor touch = engine_->bodies().sensors.of(zone_class);
     touch.distances = {0.0};
     changing(step::SetSensor{zone_class, touch}).set_sensor(zone_class, touch);
   }
-  return changing(step::AddStatic{*checkpoint}).add_static(*checkpoint);
+  return changing(step::AddStatic{*accepted}).add_static(*accepted);
 }
 
 Result<std::vector<BodyId>> World::add_static_all(std::span<const StaticDefinition> bodies) {
   if (auto idle = Preconditions(*this, "add_static_all").idle(); !idle) return idle.error();
-  std::vector<StaticDefinition> checkpoint;
-  checkpoint.reserve(bodies.size());
+  std::vector<StaticDefinition> accepted;
+  accepted.reserve(bodies.size());
   for (std::size_t number = 0; number < bodies.size(); ++number) {
     const std::string call = "add_static_all: bodies[" + std::to_string(number) + "]";
     auto valid =
         Preconditions(*this, call).new_static(bodies[number], engine_->bodies().table().next_id(number));
     if (!valid) return valid.error();
-    checkpoint.push_back(*valid);
+    accepted.push_back(*valid);
   }
   std::vector<BodyId> ids;
-  ids.reserve(checkpoint.size());
-  for (const StaticDefinition& body : checkpoint)
+  ids.reserve(accepted.size());
+  for (const StaticDefinition& body : accepted)
     ids.push_back(changing(step::AddStatic{body}).add_static(body));
   return ids;
 }
 
 Result<Shape> World::shape_of(BodyId body) const {
   if (auto valid = Preconditions(*this, "shape_of").known(body); !valid) return valid.error();
-  const Body& checkpoint = engine_->bodies()[body.index];
-  if (checkpoint.is_static()) return engine_->bodies().shapes.of(checkpoint);
-  return Shape(Ball{checkpoint.bound.position, checkpoint.radius});
+  const Body& known = engine_->bodies()[body.index];
+  if (known.is_static()) return engine_->bodies().shapes.of(known);
+  return Shape(Ball{known.bound.position, known.radius});
 }
 
 }  // namespace kinesphere

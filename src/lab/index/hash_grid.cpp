@@ -171,21 +171,21 @@ void HashGrid::Level::erase(const FloatBox& box, std::uint32_t body) {
 
 /// Drops the empty cells and makes room for twice as many as remain.
 void HashGrid::Level::rehash() {
-  std::vector<Slot> checkpoint;
+  std::vector<Slot> kept;
   for (const Slot& slot : slots_) {
     if (slot.is_free()) continue;
     if (links_[slot.first_block].size > 0) {
-      checkpoint.push_back(slot);
+      kept.push_back(slot);
     } else {
       free_blocks_.push_back(slot.first_block);
     }
   }
-  cells_ = checkpoint.size();
+  cells_ = kept.size();
   empty_cells_ = 0;
   std::size_t capacity = 64;
   while (capacity < 4 * (cells_ + 1)) capacity *= 2;
   slots_.assign(capacity, {});
-  for (const Slot& slot : checkpoint) slots_[slot_of(slot.index)] = slot;
+  for (const Slot& slot : kept) slots_[slot_of(slot.index)] = slot;
 }
 
 namespace {

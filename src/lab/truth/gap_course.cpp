@@ -87,8 +87,8 @@ struct CoursePiece {
 /// Finds the first root of one piece for one level.
 class RootSearch {
  public:
-  RootSearch(const CoursePiece& piece, LevelCrossing overlap, double level)
-      : piece_(piece), level_(level), sign_(overlap == LevelCrossing::falls_to ? 1.0 : -1.0) {}
+  RootSearch(const CoursePiece& piece, LevelCrossing crossing, double level)
+      : piece_(piece), level_(level), sign_(crossing == LevelCrossing::falls_to ? 1.0 : -1.0) {}
 
   /// The first s in [0, end - begin] at which the level is reached.
   std::optional<double> first() const { return first_within(0.0, piece_.end - piece_.begin, 0); }
@@ -240,11 +240,11 @@ void GapCourse::for_each_piece(double from, double to, const Visit& visit) const
   }
 }
 
-std::optional<double> GapCourse::first_time(LevelCrossing overlap, double level, double from,
+std::optional<double> GapCourse::first_time(LevelCrossing crossing, double level, double from,
                                             double to) const {
   std::optional<double> time;
   for_each_piece(from, to, [&](const CoursePiece& piece) {
-    if (const auto s = RootSearch(piece, overlap, level).first())
+    if (const auto s = RootSearch(piece, crossing, level).first())
       time = std::min(piece.begin + *s, piece.end);
     return time.has_value();
   });

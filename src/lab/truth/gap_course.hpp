@@ -27,7 +27,7 @@ class GapCourse {
 
   double gap_at(double t) const;
   /// The first time in [from, to] at which the gap is at most (falls_to) or at least (rises_to) `level`.
-  std::optional<double> first_time(LevelCrossing overlap, double level, double from, double to) const;
+  std::optional<double> first_time(LevelCrossing crossing, double level, double from, double to) const;
 
   struct Least {
     double time;

@@ -180,16 +180,16 @@ class Search {
   }
 
   void merge() {
-    std::size_t checkpoint = 0;
+    std::size_t count = 0;
     for (const NearSpan& span : spans_) {
-      if (checkpoint > 0 && spans_[checkpoint - 1].first == span.first &&
-          spans_[checkpoint - 1].second == span.second && span.begin <= spans_[checkpoint - 1].end) {
-        spans_[checkpoint - 1].end = std::max(spans_[checkpoint - 1].end, span.end);
+      if (count > 0 && spans_[count - 1].first == span.first && spans_[count - 1].second == span.second &&
+          span.begin <= spans_[count - 1].end) {
+        spans_[count - 1].end = std::max(spans_[count - 1].end, span.end);
       } else {
-        spans_[checkpoint++] = span;
+        spans_[count++] = span;
       }
     }
-    spans_.resize(checkpoint);
+    spans_.resize(count);
   }
 
   const std::vector<PresentBody>& bodies_;

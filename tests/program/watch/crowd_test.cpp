@@ -59,7 +59,7 @@ TEST_F(WatchedCrowd, NewTracksAreNotTakenWhileHalfOfTheOpenPairsThatMayBeAre) {
 
 TEST_F(WatchedCrowd, TracksThatGatherAreDroppedAndOthersStay) {
   std::string text;
-  // Two pairs far away that stay; a hundred come together.
+  // Two tracks far away stay; a hundred others come together.
   for (const char* far : {"far1", "far2"}) text += report_line(far, 0, 1e6);
   for (int k = 0; k < 100; ++k) text += report_line("here" + std::to_string(k), 0.0, 200.0 * k);
   for (int k = 0; k < 100; ++k) text += report_line("here" + std::to_string(k), 1.0, 0.01 * k);

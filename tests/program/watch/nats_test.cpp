@@ -109,8 +109,8 @@ TEST_F(WatchNats, OneTwoAndFourTellTheSame) {
 }
 
 TEST_F(WatchNats, WhoIsKilledIsTakenOverFrom) {
-  const std::string checkpoint = " --snapshot '" + path("state") + "' --snapshot-every 20ms";
-  auto first = watch("1-4/8"), second = watch("5-8/8", checkpoint);
+  const std::string kept = " --snapshot '" + path("state") + "' --snapshot-every 20ms";
+  auto first = watch("1-4/8"), second = watch("5-8/8", kept);
   std::thread publisher([this] { publish(); });
   wait_for_alerts(count_ / 4);
   first->signal(SIGKILL);
@@ -120,7 +120,7 @@ TEST_F(WatchNats, WhoIsKilledIsTakenOverFrom) {
   second->wait();
   // One begins at the begin, the other at the snapshot.
   first = watch("1-4/8");
-  second = watch("5-8/8", checkpoint);
+  second = watch("5-8/8", kept);
   publisher.join();
   expect_all_alerts();
   expect_to_end_well(std::array{first.get(), second.get()});
@@ -145,10 +145,10 @@ TEST_F(WatchNats, TheServerMayBeStartedAgain) {
 /// All of it at once: four share the pairs, one watches them all as well, the server and one of them are
 /// killed, and another takes over from its snapshot, all while reports come in.
 TEST_F(WatchNats, WhileReportsComeInAllMayBeKilled) {
-  const std::string checkpoint = " --snapshot '" + path("state") + "' --snapshot-every 20ms";
+  const std::string kept = " --snapshot '" + path("state") + "' --snapshot-every 20ms";
   std::vector<std::unique_ptr<LiveWatch>> all;
   for (const char* share : {"1-2/8", "3-4/8", "5-6/8", "1-8/8"}) all.push_back(watch(share));
-  auto killed = watch("7-8/8", checkpoint);
+  auto killed = watch("7-8/8", kept);
   std::atomic<bool> is_published = false;
   std::thread publisher([&] {
     publish(0.0, 1.0, std::chrono::milliseconds(4));
@@ -162,7 +162,7 @@ TEST_F(WatchNats, WhileReportsComeInAllMayBeKilled) {
   broker_->start();
   ASSERT_TRUE(broker_->is_running());
   const bool came_in_before = is_published;
-  killed = watch("7-8/8", checkpoint);
+  killed = watch("7-8/8", kept);
   wait_for_alerts(count_ / 4);
   broker_->stop(SIGTERM);
   broker_->start();
@@ -248,8 +248,8 @@ TEST_F(WatchNats, AStreamThatIsMadeAnewEndsIt) {
 
 /// The snapshot of one knows no place in the other.
 TEST_F(WatchNats, ASubjectAndAStreamOfTheSameNameAreTwo) {
-  const std::string checkpoint = " --snapshot '" + path("state") + "' --summary '" + path("sum") + "' ";
-  const std::string arguments = "'" + broker_->url("plain.x") + "'" + options + checkpoint;
+  const std::string kept = " --snapshot '" + path("state") + "' --summary '" + path("sum") + "' ";
+  const std::string arguments = "'" + broker_->url("plain.x") + "'" + options + kept;
   const NatsConnection connection = broker_->connect();
   const auto read_until_stopped = [&](const std::function<void()>& send) {
     LiveWatch live("--format jsonl " + arguments, path("err"));
@@ -355,15 +355,15 @@ TEST_F(WatchNats, RefusesWhatCannotBe) {
   expect_wrong_input("watch '" + broker_->url("sky.>") + "'" + options, {"all of 'sky.>'", "sky.*"});
   // A stream that was made anew is not the one that was read.
   publish(0.0, 0.2);
-  const std::string checkpoint = " --snapshot '" + path("state") + "' --snapshot-every 20ms";
-  auto live = watch("1-8/8", checkpoint);
+  const std::string kept = " --snapshot '" + path("state") + "' --snapshot-every 20ms";
+  auto live = watch("1-8/8", kept);
   wait_for_alerts(10);
   live->signal(SIGTERM);
   EXPECT_EQ(live->wait(), 0);
   const NatsConnection connection = broker_->connect();
   ASSERT_EQ(js_DeleteStream(connection.jetstream(), "SKY", nullptr, nullptr), NATS_OK);
   broker_->add_stream("SKY", "sky.*");
-  expect_wrong_input("watch '" + broker_->url("sky.*") + "'" + options + checkpoint + " --share 1-8/8",
+  expect_wrong_input("watch '" + broker_->url("sky.*") + "'" + options + kept + " --share 1-8/8",
                      {"sky.*", "snapshot"});
 }
 

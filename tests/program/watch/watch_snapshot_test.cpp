@@ -86,13 +86,13 @@ TEST_F(WatchRestart, KilledAtAnyMomentItTellsEverythingOnce) {
 void WatchRestart::expect_the_same_when_it_grows(const std::string& text, const std::string& options,
                                                  int parts) {
   const std::string whole = run_whole(write("s", text), options);
-  const std::string checkpoint =
+  const std::string kept_in =
       " --quiet --snapshot '" + path("state") + "' --alerts '" + path("parts.jsonl") + "'";
   // Nothing new the last time: nothing is told twice.
   for (int part = 1; part <= parts + 1; ++part) {
     const double size = static_cast<double>(text.size()) * std::min(part, parts) / parts;
     write("s", text.substr(0, static_cast<std::size_t>(size)));
-    const ProgramRun result = run("watch " + path("s") + options + checkpoint);
+    const ProgramRun result = run("watch " + path("s") + options + kept_in);
     ASSERT_EQ(result.exit_code, 0) << result.err;
   }
   expect_same_lines(read_text(path("parts.jsonl")), whole);
@@ -145,26 +145,26 @@ TEST_F(WatchRestart, TakesTracksAlongToAnotherStream) {
 TEST_F(WatchRestart, RefusesWhatItCannotGoOnFrom) {
   const std::string text = stream_of(json_line, 2000);
   const std::string stream = write("s.jsonl", text);
-  const std::string checkpoint = " --snapshot '" + path("state") + "' --alerts '" + path("alerts") + "' ";
-  ASSERT_EQ(run("watch " + stream + crossing_promises + crossing_errors + checkpoint).exit_code, 0);
+  const std::string kept_in = " --snapshot '" + path("state") + "' --alerts '" + path("alerts") + "' ";
+  ASSERT_EQ(run("watch " + stream + crossing_promises + crossing_errors + kept_in).exit_code, 0);
   const std::string alerts = read_text(path("alerts")), state = read_text(path("state"));
   expect_wrong_input("watch " + stream +
                          " --separation sphere:12 --separation cylinder:9:2 --acceleration 5" +
-                         crossing_errors + checkpoint,
+                         crossing_errors + kept_in,
                      {"--separation", "cylinder:9:1", "cylinder:9:2", path("state")});
-  expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + checkpoint + "--silence 4",
+  expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + kept_in + "--silence 4",
                      {"--silence", "not given", "'4'"});
-  expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + checkpoint + "--format csv",
+  expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + kept_in + "--format csv",
                      {"--format", "jsonl", "csv"});
   write("s.jsonl", "{" + text);
-  expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + checkpoint,
+  expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + kept_in,
                      {stream, "are others"});
   write("s.jsonl", text.substr(0, 1000));
-  expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + checkpoint,
+  expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + kept_in,
                      {stream, "are others"});
   write("s.jsonl", text);
   write("alerts", alerts.substr(0, 100));
-  expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + checkpoint,
+  expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + kept_in,
                      {path("alerts"), "100"});
   write("alerts", alerts);
   Random random(3);
@@ -176,7 +176,7 @@ TEST_F(WatchRestart, RefusesWhatItCannotGoOnFrom) {
     else
       damaged[at] = static_cast<char>(damaged[at] ^ 4);
     write("state", damaged);
-    expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + checkpoint,
+    expect_wrong_input("watch " + stream + crossing_promises + crossing_errors + kept_in,
                        {path("state"), "expected a snapshot"});
   }
   EXPECT_TRUE(read_text(path("alerts")) == alerts) << "nothing was changed by any of these";
@@ -198,7 +198,7 @@ TEST_F(WatchRestart, LeavesAlertsAsTheyAreWhenItRefuses) {
   const std::string text = stream_of(json_line, 2000);
   const std::string stream = write("s.jsonl", text), options = crossing_promises + crossing_errors;
   const std::string alerts = " --alerts '" + path("alerts") + "'",
-                    checkpoint = " --snapshot '" + path("state") + "'";
+                    kept_in = " --snapshot '" + path("state") + "'";
   write("alerts", "precious\n");
   expect_wrong_input("watch " + stream + " --separation sphere:a --acceleration 5" + alerts,
                      {"--separation"});
@@ -206,27 +206,26 @@ TEST_F(WatchRestart, LeavesAlertsAsTheyAreWhenItRefuses) {
   expect_wrong_input("watch " + stream + options + alerts + " --summary /nowhere/sum", {"/nowhere/sum"});
   EXPECT_EQ(read_text(path("alerts")), "precious\n");
   // Others than those that the snapshot's run has written.
-  ASSERT_EQ(run("watch --quiet " + stream + options + checkpoint + alerts).exit_code, 0);
+  ASSERT_EQ(run("watch --quiet " + stream + options + kept_in + alerts).exit_code, 0);
   std::string changed = read_text(path("alerts"));
   const std::string told = changed;
   changed[changed.size() - 5] = '#';
   write("alerts", changed);
-  expect_wrong_input("watch " + stream + options + checkpoint + alerts, {path("alerts"), "are others"});
+  expect_wrong_input("watch " + stream + options + kept_in + alerts, {path("alerts"), "are others"});
   EXPECT_TRUE(read_text(path("alerts")) == changed);
   write("other", "precious\n");
-  expect_wrong_input("watch " + stream + options + checkpoint + " --alerts '" + path("other") + "'",
+  expect_wrong_input("watch " + stream + options + kept_in + " --alerts '" + path("other") + "'",
                      {"--alerts", path("other"), "something else"});
   EXPECT_EQ(read_text(path("other")), "precious\n");
   // The same file under other names is the same, and another one is begun.
   write("alerts", told);
   ASSERT_EQ(std::system(("cp '" + path("alerts") + "' '" + path("copy") + "'").c_str()), 0);
   for (const std::string& name : {path("./alerts"), path("copy")})
-    EXPECT_EQ(run("watch --quiet " + stream + options + checkpoint + " --alerts '" + name + "'").exit_code,
-              0);
+    EXPECT_EQ(run("watch --quiet " + stream + options + kept_in + " --alerts '" + name + "'").exit_code, 0);
   EXPECT_TRUE(read_text(path("alerts")) == told);
   EXPECT_TRUE(read_text(path("copy")) == told);
-  EXPECT_EQ(
-      run("watch --quiet " + stream + options + checkpoint + " --alerts '" + path("new") + "'").exit_code, 0);
+  EXPECT_EQ(run("watch --quiet " + stream + options + kept_in + " --alerts '" + path("new") + "'").exit_code,
+            0);
   EXPECT_EQ(read_text(path("new")), "");
 }
 

@@ -51,15 +51,15 @@ void Sweep::begin(double duration) {
 }
 
 Sweep::Crossing Sweep::step() {
-  const Crossing overlap = queue_.front();
+  const Crossing crossing = queue_.front();
   pop();
-  time_ = overlap.time;
-  const std::size_t lower = rank_[overlap.below];
+  time_ = crossing.time;
+  const std::size_t lower = rank_[crossing.below];
   exchange(lower);
   if (lower > 0) schedule_crossing(lower - 1);
   if (lower + 2 < status_.size()) schedule_crossing(lower + 1);
   drop_outdated();
-  return overlap;
+  return crossing;
 }
 
 void Sweep::schedule_crossing(std::size_t lower) {
