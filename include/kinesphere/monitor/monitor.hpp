@@ -218,7 +218,7 @@ class Monitor {
   /// Returns the pairs that are not certainly apart, in the order of their ids and levels.
   std::vector<OpenPair> open_pairs() const;
   /// Returns the number of pairs that are not certainly apart or were not at some time in the current window.
-  /// Each of them takes about 200 bytes, in addition to the memory of the tracks. Reports count from the next
+  /// Each of them takes about 150 bytes, in addition to the memory of the tracks. Reports count from the next
   /// advance() on. Cost: O(1).
   std::size_t open_pair_count() const;
   /// Returns tracks whose removal reduces open_pair_count() to at most `pairs`: those with most open pairs
