@@ -36,7 +36,7 @@ class RankResponder final : public ResponseHandler {
 
   Result<Response> respond(const Event& event) override;
   Result<void> apply(const Event& event, const Response& answer) override {
-    return kinesphere::turn(source_, definition_, event, answer);
+    return apply_response(source_, definition_, event, answer);
   }
   MotionOrigin origin(BodyId body) override { return source_.origin(body); }
   void set_origin(BodyId body, const MotionOrigin& origin) override { source_.set_origin(body, origin); }

@@ -7,8 +7,8 @@
 
 namespace kinesphere {
 
-Result<void> turn(MotionSource& source, const WorldDefinition& world, const Event& event,
-                  const Response& answer) {
+Result<void> apply_response(MotionSource& source, const WorldDefinition& world, const Event& event,
+                            const Response& answer) {
   // All states are validated before the first origin is set.
   std::optional<MotionOrigin> first, second;
   const auto make = [&](BodyId body, const std::optional<Vec3>& velocity,

@@ -24,7 +24,7 @@ class ResponseHandler {
 
 /// Sets the origins of all bodies with new velocities, or of none if the source throws or returns a state
 /// that check_report() refuses. Errors: those of check_report().
-Result<void> turn(MotionSource& source, const WorldDefinition& world, const Event& event,
-                  const Response& answer);
+Result<void> apply_response(MotionSource& source, const WorldDefinition& world, const Event& event,
+                            const Response& answer);
 
 }  // namespace kinesphere

@@ -11,17 +11,17 @@ namespace kinesphere {
 namespace {
 
 /// Returns a point of the shape, which events and views show as the position.
-Vec3 certain_sphere_of(const Ball& ball) { return ball.centre; }
-Vec3 certain_sphere_of(const HalfSpace& solid) { return solid.normal * solid.offset; }
-Vec3 certain_sphere_of(const Box& box) { return 0.5 * box.lower + 0.5 * box.upper; }
-Vec3 certain_sphere_of(const Triangle& t) { return (t.a + t.b + t.c) / 3.0; }
+Vec3 anchor_of(const Ball& ball) { return ball.centre; }
+Vec3 anchor_of(const HalfSpace& solid) { return solid.normal * solid.offset; }
+Vec3 anchor_of(const Box& box) { return 0.5 * box.lower + 0.5 * box.upper; }
+Vec3 anchor_of(const Triangle& t) { return (t.a + t.b + t.c) / 3.0; }
 
 }  // namespace
 
 BodyDefinition body_of(const StaticDefinition& fixed) {
   const Ball* ball = std::get_if<Ball>(&fixed.shape);
   return {.radius = ball ? ball->radius : 0.0,
-          .position = std::visit([](const auto& solid) { return certain_sphere_of(solid); }, fixed.shape),
+          .position = std::visit([](const auto& solid) { return anchor_of(solid); }, fixed.shape),
           .filter = fixed.filter,
           .solid = fixed.solid,
           .sensor_class = fixed.sensor_class,

@@ -49,7 +49,7 @@ class World::Run final : private ResponseHandler {
   Result<void> answer_one(const Event& event);
   Result<Response> respond(const Event& event) override;
   Result<void> apply(const Event& event, const Response& answer) override {
-    return kinesphere::turn(*source_, world_.definition(), event, answer);
+    return apply_response(*source_, world_.definition(), event, answer);
   }
   MotionOrigin origin(BodyId body) override { return source_->origin(body); }
   void set_origin(BodyId body, const MotionOrigin& origin) override { source_->set_origin(body, origin); }
