@@ -1,21 +1,26 @@
 #!/usr/bin/env bash
-# Checks the format of all C++ and Python files, all sources but the tests with clang-tidy, and that neither the library nor the
-# examples include the lab. The sources of a target are checked together, as their headers take most of the time.
-# Usage: lint.sh
+# Checks the format of all C++ and Python files, all sources but the tests with clang-tidy, and that dependencies point
+# one way: research may use everything, programs and simulation/ the library, the library nothing. The sources of a target
+# are checked together, as their headers take most of the time.
+# Usage: lint.sh [research]
+#   With the argument clang-tidy checks research/ alone; without it everything else.
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build=build/lint
+part=${1:-all}
+if [[ $part != all && $part != research ]]; then echo "lint: usage: lint.sh [research]" >&2 && exit 2; fi
 
-find include src programs browser/module python/module examples tests -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run -Werror
+find include src simulation programs research browser/module python/module examples tests -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run -Werror
 /usr/bin/black --config python/pyproject.toml --quiet --diff --check python
 
-if grep -rn '#include ["<]lab/' include examples src --exclude-dir=lab; then
-  echo "lint: only the lab itself, the program and the tests may include the lab" >&2
+if grep -rn '#include ["<]\(simulation\|research\)/' include examples src ||
+  grep -rn '#include ["<]research/' simulation programs browser python tests; then
+  echo "lint: the library may not include simulation/, and nothing but research/ itself may include research/" >&2
   exit 1
 fi
 
-if grep -rnE '#include .*\.cpp[">]' include src programs browser python/module examples; then
+if grep -rnE '#include .*\.cpp[">]' include src simulation programs research browser python/module examples; then
   echo "lint: a source includes another" >&2
   exit 1
 fi
@@ -37,7 +42,7 @@ if command -v mpicxx >/dev/null && find /usr/include /usr/local/include -name zo
 if [[ $mpi == OFF ]]; then echo "lint: without MPI and Zoltan, so clang-tidy leaves out src/distributed"; fi
 for batch in target file; do
   cmake -S . -B "$build/$batch" -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
-    -DCMAKE_CXX_FLAGS_RELEASE=-O3 -DKINESPHERE_BATCH=$batch -DKINESPHERE_BUILD_PROGRAM=ON -DKINESPHERE_BUILD_BENCH=ON \
+    -DCMAKE_CXX_FLAGS_RELEASE=-O3 -DKINESPHERE_BATCH=$batch -DKINESPHERE_BUILD_PROGRAM=ON -DKINESPHERE_BUILD_RESEARCH=ON \
     -DKINESPHERE_BUILD_MPI=$mpi >"$build/lint.log" 2>&1 ||
     { cat "$build/lint.log"; exit 1; }
 done
@@ -52,32 +57,39 @@ calls=$build/calls
 check() { printf '%q ' tidy "$@" >>"$calls" && echo >>"$calls"; }
 : >"$calls"
 batches=-checks=-bugprone-suspicious-include,-misc-unused-using-decls
-mapfile -t sources < <(sed -n 's/^ *"file": "\(.*\)".*/\1/p' "$build/target/compile_commands.json")
+research_paths="^$PWD/($build/target/)?research/"
+of_part() { if [[ $part == research ]]; then grep -E "$research_paths"; else grep -vE "$research_paths"; fi; }
+mapfile -t sources < <(sed -n 's/^ *"file": "\(.*\)".*/\1/p' "$build/target/compile_commands.json" | of_part)
 for source in "${sources[@]}"; do check -p "$build/target" $batches "$source"; done
-# All examples at once, each in a namespace of its own, as most of the time goes into their headers.
-mapfile -t examples < <(find examples -maxdepth 1 -name '*.cpp' | sort)
-{
-  grep -h '^#include <' "${examples[@]}" | sort -u
-  for example in "${examples[@]}"; do
-    printf 'namespace %s {\n#include "%s"\n}\n' "$(basename "$example" .cpp)" "$PWD/$example"
-  done
-} >"$build/examples.cpp"
-check $batches "$build/examples.cpp" -- -std=c++20 -Iinclude -I"$build/target/include"
-# The face for JavaScript, as emscripten's compiler reads it.
-sysroot=/usr/share/emscripten/cache/sysroot
-wasm=(-target wasm32-unknown-emscripten --sysroot=$sysroot -isystem $sysroot/include/c++/v1 -std=c++20 -Iinclude -Isrc
-  -I"$build/target/include")
-if [[ -d $sysroot ]]; then
-  printf "#include \"$PWD/%s\"\n" browser/module/*.cpp >"$build/faces.cpp"
-  check $batches "$build/faces.cpp" -- "${wasm[@]}"
-else
-  echo "lint: without emscripten, so clang-tidy leaves out browser/module"
-fi
 # The check that does not look into what a batch includes, nor into classes and functions.
 using() { grep -rlE '^using [^=]*::[^=]*;' "$@" --include='*.cpp' || true; }
 unused=-checks=-*,misc-unused-using-decls
-for source in $(using src programs examples); do check -p "$build/file" "$unused" "$source"; done
-if [[ -d $sysroot ]]; then
+if [[ $part == research ]]; then folders=(research); else folders=(src simulation programs examples); fi
+for source in $(using "${folders[@]}"); do check -p "$build/file" "$unused" "$source"; done
+
+check_examples() {
+  # All at once, each in a namespace of its own, as most of the time goes into their headers.
+  local examples
+  mapfile -t examples < <(find examples -maxdepth 1 -name '*.cpp' | sort)
+  {
+    grep -h '^#include <' "${examples[@]}" | sort -u
+    for example in "${examples[@]}"; do
+      printf 'namespace %s {\n#include "%s"\n}\n' "$(basename "$example" .cpp)" "$PWD/$example"
+    done
+  } >"$build/examples.cpp"
+  check $batches "$build/examples.cpp" -- -std=c++20 -Iinclude -I"$build/target/include"
+}
+
+# The face for JavaScript, as emscripten's compiler reads it.
+check_browser() {
+  local sysroot=/usr/share/emscripten/cache/sysroot
+  if [[ ! -d $sysroot ]]; then echo "lint: without emscripten, so clang-tidy leaves out browser/module" && return; fi
+  local wasm=(-target wasm32-unknown-emscripten --sysroot=$sysroot -isystem $sysroot/include/c++/v1 -std=c++20 -I.
+    -Iinclude -Isrc -I"$build/target/include")
+  printf "#include \"$PWD/%s\"\n" browser/module/*.cpp >"$build/faces.cpp"
+  check $batches "$build/faces.cpp" -- "${wasm[@]}"
   for source in $(using browser/module); do check "$unused" "$source" -- "${wasm[@]}"; done
-fi
+}
+
+if [[ $part == all ]]; then check_examples && check_browser; fi
 xargs -P "$(nproc)" -d '\n' -n 1 bash -c <"$calls"

@@ -1,19 +1,19 @@
 #!/usr/bin/env bash
-# Breaks a copy of the library on purpose, one deliberate bug of tests/mutants/ at a time, and fails unless the test
+# Breaks a copy of the sources on purpose, one deliberate bug of tests/mutants/ or research/tests/mutants/ at a time, and fails unless the test
 # that the bug's file names notices. Each file is a patch; lines before it say what it does and, after "Caught by:",
 # which test executable and which of its tests must fail. Arguments: names of files, if not all.
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-if [[ $# -gt 0 ]]; then mutants=("$@"); else mutants=(tests/mutants/*.patch); fi
+if [[ $# -gt 0 ]]; then mutants=("$@"); else mutants=(tests/mutants/*.patch research/tests/mutants/*.patch); fi
 
 copy=build/mutants/source
 build=build/mutants/build
 rm -rf "$copy"
 mkdir -p "$copy"
-git ls-files -z CMakeLists.txt cmake include src tests | xargs -0 cp --parents -t "$copy"
+git ls-files -z CMakeLists.txt cmake include src simulation research tests | xargs -0 cp --parents -t "$copy"
 cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 \
-  -DKINESPHERE_BUILD_TESTS=ON -DKINESPHERE_BUILD_MPI=ON >/dev/null
+  -DKINESPHERE_BUILD_TESTS=ON -DKINESPHERE_BUILD_MPI=ON -DKINESPHERE_BUILD_RESEARCH=ON >/dev/null
 
 apply() { (cd "$copy" && GIT_CEILING_DIRECTORIES=$PWD/.. git apply "$@"); }
 caught_by() { sed -n 's/^Caught by: //p' "$1"; }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that are missing here. Where none is, it does nothing, without network.
-# Usage: setup.sh run | mpi | browser | python | bench | prove | test | coverage
+# Usage: setup.sh run | mpi | browser | python | research | prove | test | coverage
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libhwy-dev libcli11-dev libfmt-dev nlohmann-json3-dev libsimdjson-dev zlib1g-dev libgeographiclib-dev libnats-dev)
@@ -17,11 +17,11 @@ case ${1:-} in
   mpi) packages+=("${mpi[@]}") ;;
   browser) packages+=("${browser[@]}") ;;
   python) packages+=("${python[@]}") ;;
-  bench) packages+=(gnuplot-nox libbullet-dev) ;;
+  research) packages+=(gnuplot-nox libbullet-dev libgtest-dev librapidcheck-dev clang clang-format clang-tidy black) ;;
   test) packages+=("${testing[@]}") ;;
   prove) packages=("${proving[@]}" g++ libgtest-dev) ;;
   coverage) packages+=("${testing[@]}" gcovr) ;;
-  *) echo "setup: usage: setup.sh run | mpi | browser | python | bench | prove | test | coverage" >&2 && exit 2 ;;
+  *) echo "setup: usage: setup.sh run | mpi | browser | python | research | prove | test | coverage" >&2 && exit 2 ;;
 esac
 
 if ! command -v apt-get >/dev/null; then

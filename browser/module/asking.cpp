@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "exchange.hpp"
-#include "lab/scene/scene.hpp"
-#include "lab/simulation/scene_answer.hpp"
 #include "motion.hpp"
+#include "simulation/run/scene_answer.hpp"
+#include "simulation/scene/scene.hpp"
 
 namespace kinesphere::browser {
 namespace {

@@ -2,9 +2,9 @@
 #include <string>
 
 #include "exchange.hpp"
-#include "lab/scene/make_scene.hpp"
-#include "lab/scene/scene.hpp"
 #include "motion.hpp"
+#include "simulation/scene/make_scene.hpp"
+#include "simulation/scene/scene.hpp"
 
 namespace kinesphere::browser {
 

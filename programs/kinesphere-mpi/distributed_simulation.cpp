@@ -15,8 +15,8 @@
 #include <tuple>
 #include <utility>
 
-#include "lab/simulation/scene_answer.hpp"
 #include "program_error.hpp"
+#include "simulation/run/scene_answer.hpp"
 
 namespace kinesphere::program {
 namespace {

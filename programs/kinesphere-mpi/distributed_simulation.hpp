@@ -11,9 +11,9 @@
 #include "checkpoint_folder.hpp"
 #include "contact_files.hpp"
 #include "kinesphere/distributed/distributed_world.hpp"
-#include "lab/scene/scene.hpp"
 #include "rank_table.hpp"
 #include "ranks.hpp"
+#include "simulation/scene/scene.hpp"
 
 namespace kinesphere::program {
 

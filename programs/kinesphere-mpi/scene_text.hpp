@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "lab/scene/make_scene.hpp"
+#include "simulation/scene/make_scene.hpp"
 
 namespace kinesphere::program {
 

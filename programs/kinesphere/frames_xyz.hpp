@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "lab/detector/detector.hpp"
-#include "lab/scene/scene.hpp"
 #include "output_file.hpp"
+#include "simulation/detector/detector.hpp"
+#include "simulation/scene/scene.hpp"
 
 namespace kinesphere::program {
 

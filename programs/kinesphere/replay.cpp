@@ -9,8 +9,8 @@
 #include <span>
 
 #include "input_file.hpp"
-#include "lab/simulation/recorded_simulation.hpp"
 #include "program_error.hpp"
+#include "simulation/run/recorded_simulation.hpp"
 #include "standard_output.hpp"
 #include "summary.hpp"
 

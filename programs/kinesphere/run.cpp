@@ -40,10 +40,6 @@ struct Attachments {
 
 Attachments attach(const RunOptions& options, const Scene& scene) {
   Attachments attached;
-  if (!options.record.empty() && options.detector.name != "world")
-    throw ProgramError("--record: expected only with --detector world");
-  if (options.threads && options.detector.name != "world")
-    throw ProgramError("--threads: expected only with --detector world");
   if (options.threads && options.audit) throw ProgramError("--audit: expected only without --threads");
   if (!options.contacts.empty()) attached.contacts = std::make_unique<ContactLog>(options.contacts);
   if (!options.frames.empty()) attached.frames = std::make_unique<FramesXyz>(options.frames, scene);
@@ -120,13 +116,14 @@ void add_paper_events(Summary& summary, const DetectorCounters& counters) {
   if (counters.rebuilds > 0) summary.row("rebuilds", grouped(counters.rebuilds), "of all bounds");
 }
 
-std::string summary_of(const SceneParameters& parameters, const RunOptions& options, const Scene& scene,
-                       const SimulationResult& result, double real_seconds) {
+std::string summary_of(const SceneParameters& parameters, const RunOptions& options,
+                       const NamedDetector& detector, const Scene& scene, const SimulationResult& result,
+                       double real_seconds) {
   const DetectorCounters& counters = result.counters;
   const auto probes = static_cast<double>(counters.probes);
   Summary summary;
   add_scene(summary, parameters);
-  summary.row("detector", options.detector.description(),
+  summary.row("detector", detector.name,
               options.threads
                   ? fmt::format("by itself, {} thread{}", *options.threads, *options.threads == 1 ? "" : "s")
                   : "");
@@ -162,7 +159,6 @@ CLI::App* add_run_command(CLI::App& program, RunOptions& options) {
   CLI::App* command = program.add_subcommand("run", "Simulate a scene and summarise it");
   add_scene_options(*command, options.scene);
   add_response_options(*command, options.scene);
-  add_detector_options(*command, options.detector);
   command->add_option("--contacts", options.contacts, "Write every event to this .csv or .jsonl file")
       ->type_name("FILE");
   command->add_option("--frames", options.frames, "Write snapshots to this file (extended XYZ, for OVITO)")
@@ -183,9 +179,8 @@ CLI::App* add_run_command(CLI::App& program, RunOptions& options) {
   return command;
 }
 
-int run(const RunOptions& options) {
+int run(const RunOptions& options, const NamedDetector& detector) {
   const SceneSource source = options.scene.source();
-  const DetectorMaker make_detector = options.detector.maker();
   const Scene scene = make_scene(source);
   const OutputPath outputs[] = {
       {"--contacts", options.contacts}, {"--frames", options.frames}, {"--record", options.record}};
@@ -198,7 +193,7 @@ int run(const RunOptions& options) {
 
   const auto started = std::chrono::steady_clock::now();
   const SimulationResult result =
-      require(simulate(scene, make_detector, observer, workers ? &*workers : nullptr));
+      require(simulate(scene, detector.make, observer, workers ? &*workers : nullptr));
   const std::chrono::duration<double> real_time = std::chrono::steady_clock::now() - started;
 
   attached.progress.reset();
@@ -217,7 +212,7 @@ int run(const RunOptions& options) {
   if (options.hash_only) {
     print("{:016x}\n", result.contact_hash);
   } else if (!options.quiet) {
-    print("{}", summary_of(source.parameters, options, scene, result, real_time.count()));
+    print("{}", summary_of(source.parameters, options, detector, scene, result, real_time.count()));
   }
   if (failure) throw ProgramError(*failure);
   if (!attached.finding) return exit_fine;

@@ -5,14 +5,13 @@
 #include <optional>
 #include <string>
 
-#include "detector_options.hpp"
+#include "named_detector.hpp"
 #include "scene_options.hpp"
 
 namespace kinesphere::program {
 
 struct RunOptions {
   SceneOptions scene;
-  DetectorOptions detector;
   std::string contacts;
   std::string frames;
   std::string record;
@@ -26,6 +25,6 @@ struct RunOptions {
 /// `options` must live until the command line has been parsed.
 CLI::App* add_run_command(CLI::App& program, RunOptions& options);
 /// Returns the exit code. Throws ProgramError.
-int run(const RunOptions& options);
+int run(const RunOptions& options, const NamedDetector& detector = {});
 
 }  // namespace kinesphere::program

@@ -14,8 +14,8 @@
 #include <string>
 #include <string_view>
 
-#include "lab/scene/make_scene.hpp"
-#include "lab/scene/scene.hpp"
+#include "simulation/scene/make_scene.hpp"
+#include "simulation/scene/scene.hpp"
 
 namespace kinesphere::program {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "lab/scene/make_scene.hpp"
-#include "lab/simulation/simulate.hpp"
+#include "simulation/run/simulate.hpp"
+#include "simulation/scene/make_scene.hpp"
 
 namespace kinesphere::program {
 

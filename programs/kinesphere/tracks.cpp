@@ -10,11 +10,11 @@
 #include <memory>
 #include <utility>
 
-#include "lab/tracks/approaches.hpp"
-#include "lab/truth/comparison.hpp"
 #include "output_paths.hpp"
 #include "program_error.hpp"
 #include "progress.hpp"
+#include "simulation/oracle/comparison.hpp"
+#include "simulation/tracks/approaches.hpp"
 #include "standard_output.hpp"
 #include "summary.hpp"
 #include "table_file.hpp"

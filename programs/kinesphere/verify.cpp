@@ -14,19 +14,17 @@ CLI::App* add_verify_command(CLI::App& program, VerifyOptions& options) {
   CLI::App* command = program.add_subcommand(
       "verify", "Compare every contact of a scene with an exact oracle (bodies pass through each other)");
   add_scene_options(*command, options.scene);
-  add_detector_options(*command, options.detector);
   return command;
 }
 
-int verify(const VerifyOptions& options) {
+int verify(const VerifyOptions& options, const NamedDetector& detector) {
   SceneSource source = options.scene.source();
   source.parameters.response = SceneResponse::pass_through;
-  const DetectorMaker make_detector = options.detector.maker();
   const Scene scene = make_scene(source);
-  const ContactComparison comparison = require(kinesphere::verify(scene, make_detector));
+  const ContactComparison comparison = require(kinesphere::verify(scene, detector.make));
   Summary summary;
   add_scene(summary, source.parameters);
-  summary.row("detector", options.detector.description());
+  summary.row("detector", detector.name);
   summary.row("seconds", number(source.parameters.seconds));
   summary.space();
   add_comparison(summary, comparison);

@@ -5,8 +5,8 @@
 #include "errors.hpp"
 #include "exchange.hpp"
 #include "kinesphere/workers.hpp"
-#include "lab/simulation/scene_answer.hpp"
 #include "moving.hpp"
+#include "simulation/run/scene_answer.hpp"
 #include "world.hpp"
 
 namespace kinesphere::python {

@@ -4,9 +4,9 @@
 
 #include "errors.hpp"
 #include "exchange.hpp"
-#include "lab/scene/make_scene.hpp"
-#include "lab/scene/scene.hpp"
 #include "motions.hpp"
+#include "simulation/scene/make_scene.hpp"
+#include "simulation/scene/scene.hpp"
 #include "world.hpp"
 
 namespace kinesphere::python {

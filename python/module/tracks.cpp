@@ -3,10 +3,10 @@
 
 #include "errors.hpp"
 #include "exchange.hpp"
-#include "lab/detector/detector.hpp"
-#include "lab/simulation/simulate.hpp"
-#include "lab/tracks/approaches.hpp"
-#include "lab/tracks/scene_of_tracks.hpp"
+#include "simulation/detector/detector.hpp"
+#include "simulation/run/simulate.hpp"
+#include "simulation/tracks/approaches.hpp"
+#include "simulation/tracks/scene_of_tracks.hpp"
 #include "world.hpp"
 
 namespace kinesphere::python {

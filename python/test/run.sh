@@ -2,7 +2,7 @@
 # Builds the Python package `kinesphere` as a wheel, from its source distribution, installs it into a clean virtual
 # environment, and tests it there: the ten lines of its README, types (mypy), tests (pytest), and every example.
 # Nothing is asked of any network. The interpreter is Debian's, for which its packages are; PYTHON names another.
-# Usage: run.sh <build folder with the library, its lab and the native program>
+# Usage: run.sh <build folder with the library, simulation/ and the native program>
 set -euo pipefail
 
 build=$(realpath "$1")

@@ -25,8 +25,8 @@ left_out=()
 if [[ $mpi == 0 ]]; then left_out=(-not -path './kinesphere/distributed/*'); fi
 (cd "$source/../../include" && { find . -name '*.hpp' "${left_out[@]}"; echo ./kinesphere/version.hpp; } | sort) |
   diff - "$work/headers"
-if find "$prefix" -name '*kinesphere_lab*' | grep .; then
-  echo "consumer: the lab is installed" >&2
+if find "$prefix" -name '*kinesphere_simulation*' | grep .; then
+  echo "consumer: simulation/ is installed" >&2
   exit 1
 fi
 wc -l <"$work/headers"

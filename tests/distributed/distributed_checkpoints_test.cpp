@@ -7,7 +7,7 @@
 
 #include "distributed/one_world.hpp"
 #include "kinesphere/random.hpp"
-#include "lab/scene/make_scene.hpp"
+#include "simulation/scene/make_scene.hpp"
 #include "support/expect_error.hpp"
 
 namespace kinesphere::distributed_checkpoints_test {

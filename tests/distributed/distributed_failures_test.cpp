@@ -8,7 +8,7 @@
 #include <string>
 
 #include "distributed/one_world.hpp"
-#include "lab/scene/make_scene.hpp"
+#include "simulation/scene/make_scene.hpp"
 #include "support/expect_error.hpp"
 
 namespace kinesphere::distributed_failures_test {

@@ -10,9 +10,9 @@
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/motion/random_forces.hpp"
 #include "kinesphere/random.hpp"
-#include "lab/scene/make_scene.hpp"
-#include "lab/truth/comparison.hpp"
-#include "scene/differential_scenes.hpp"
+#include "simulation/oracle/comparison.hpp"
+#include "simulation/scene/make_scene.hpp"
+#include "support/differential_scenes.hpp"
 
 namespace kinesphere::distributed_world_test {
 namespace {

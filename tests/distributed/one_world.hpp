@@ -16,7 +16,7 @@
 #include "kinesphere/distributed/distributed_world.hpp"
 #include "kinesphere/kinesphere.hpp"
 #include "kinesphere/workers.hpp"
-#include "lab/scene/scene.hpp"
+#include "simulation/scene/scene.hpp"
 
 namespace kinesphere {
 

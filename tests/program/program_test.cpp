@@ -56,7 +56,7 @@ TEST_F(ProgramTest, ListsTheScenes) {
 
 TEST_F(ProgramTest, RefusesWrongOptions) {
   const std::string scene = write("s.json", small_scene);
-  expect_wrong_input("", {"expected a command: run, replay, tracks, verify, scenes, view, watch or bench"});
+  expect_wrong_input("", {"expected a command: run, replay, tracks, verify, scenes, view or watch"});
   expect_wrong_input("fly", {"fly"});
   expect_wrong_input("run", {"SCENE"});
   expect_wrong_input("run " + scene + " --fast", {"--fast"});
@@ -70,15 +70,9 @@ TEST_F(ProgramTest, RefusesWrongOptions) {
   expect_wrong_input("run " + scene + " --radius -1 2", {"radius"});
   expect_wrong_input("run " + scene + " --seconds soon", {"--seconds", "expected a finite number", "soon"});
   expect_wrong_input("run " + scene + " --response stick", {"--response", "pass_through", "stick"});
-  expect_wrong_input(
-      "run " + scene + " --detector eye",
-      {"--detector", "world, paper, ballistic, hubbard, hayward, fixed-step, brute-force, oracle", "eye"});
-  expect_wrong_input("run " + scene + " --detector fixed-step", {"--step"});
-  expect_wrong_input("run " + scene + " --step 0.1", {"--step", "fixed-step"});
   for (const char* threads : {"0", "257", "-1", "two"}) {
     expect_wrong_input("run " + scene + " --threads " + threads, {"--threads", "from 1 to 256", threads});
   }
-  expect_wrong_input("run " + scene + " --threads 2 --detector paper", {"--threads", "--detector world"});
   expect_wrong_input("run " + scene + " --threads 2 --audit", {"--audit", "--threads"});
   expect_wrong_input("run " + scene + " --frames " + path("f.xyz") + " --frame-interval 0",
                      {"--frame-interval", "0"});
@@ -189,21 +183,6 @@ TEST_F(ProgramTest, VerifiesAScene) {
   const ProgramRun result = run("verify " + write("s.json", small_scene));
   EXPECT_EQ(result.exit_code, 0) << result.out;
   EXPECT_NE(result.out.find("detector and oracle agree"), std::string::npos);
-}
-
-TEST_F(ProgramTest, EngineAndOracleWriteTheSameContacts) {
-  const std::string scene =
-      "run " + write("s.json", small_scene) + " --response pass_through --quiet --contacts ";
-  EXPECT_EQ(run(scene + path("engine.csv")).exit_code, 0);
-  EXPECT_EQ(run(scene + path("oracle.csv") + " --detector oracle").exit_code, 0);
-  const auto engine = rows_of(read_text(path("engine.csv")));
-  const auto oracle = rows_of(read_text(path("oracle.csv")));
-  ASSERT_GT(engine.size(), 10u);
-  ASSERT_EQ(engine.size(), oracle.size());
-  for (std::size_t row = 1; row < engine.size(); ++row) {
-    EXPECT_NEAR(std::stod(engine[row][0]), std::stod(oracle[row][0]), 1e-4);
-    for (std::size_t column = 1; column < 5; ++column) EXPECT_EQ(engine[row][column], oracle[row][column]);
-  }
 }
 
 /// Two that meet head-on at 2 units/s: closer than 2 from time 4 to time 6. A third that starts close to the

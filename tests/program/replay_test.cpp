@@ -38,7 +38,6 @@ TEST_F(ProgramTest, RefusesWhatIsNoRecording) {
 
 TEST_F(ProgramTest, RecordsWithTheWorldAloneAndIntoAFileOfItsOwn) {
   const std::string scene = write("s.json", coming_and_going);
-  expect_wrong_input("run " + scene + " --record " + path("r") + " --detector paper", {"--record", "world"});
   expect_wrong_input("run " + scene + " --record " + path("r.csv") + " --contacts " + path("r.csv"),
                      {"--record", "another file than that of --contacts"});
   expect_wrong_input("run " + scene + " --record " + path("no/r"), {"no/r", "cannot write"});

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kinesphere/workers.hpp"
-#include "lab/scene/scene.hpp"
+#include "simulation/scene/scene.hpp"
 #include "stream/operation.hpp"
 #include "stream/told_contacts.hpp"
 

@@ -10,7 +10,7 @@
 #include "contact/contact_rule.hpp"
 #include "kinesphere/event_hash.hpp"
 #include "kinesphere/world.hpp"
-#include "lab/truth/pair_table.hpp"
+#include "simulation/oracle/pair_table.hpp"
 #include "stream/truth.hpp"
 
 namespace kinesphere::stream {

@@ -15,7 +15,7 @@
 #include "kinesphere/motion/trajectory.hpp"
 #include "kinesphere/shape.hpp"
 #include "kinesphere/world_definition.hpp"
-#include "lab/truth/gap_course.hpp"
+#include "simulation/oracle/gap_course.hpp"
 #include "stream/operation.hpp"
 
 namespace kinesphere::stream {

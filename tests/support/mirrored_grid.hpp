@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "lab/index/hash_grid.hpp"
+#include "simulation/grid/hash_grid.hpp"
 
 namespace kinesphere {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "lab/tracks/approaches.hpp"
 #include "output_file.hpp"
+#include "simulation/tracks/approaches.hpp"
 #include "table_file.hpp"
 #include "tracks/recording.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lab/tracks/approaches.hpp"
+#include "simulation/tracks/approaches.hpp"
 #include "tracks/recording.hpp"
 
 namespace kinesphere::program {

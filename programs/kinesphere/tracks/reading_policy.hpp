@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "lab/tracks/scene_of_tracks.hpp"
+#include "simulation/tracks/scene_of_tracks.hpp"
 #include "tracks/projection.hpp"
 #include "tracks/track_columns.hpp"
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "lab/tracks/scene_of_tracks.hpp"
 #include "program_error.hpp"
+#include "simulation/tracks/scene_of_tracks.hpp"
 
 namespace kinesphere::program {
 namespace {

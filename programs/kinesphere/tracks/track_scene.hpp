@@ -6,7 +6,7 @@
 #include <string>
 
 #include "kinesphere/motion/recorded_tracks.hpp"
-#include "lab/scene/scene.hpp"
+#include "simulation/scene/scene.hpp"
 #include "tracks/reading_policy.hpp"
 #include "tracks/recording.hpp"
 

@@ -13,9 +13,9 @@
 
 #include "contact/contact_rule.hpp"
 #include "kinesphere/random.hpp"
-#include "lab/truth/comparison.hpp"
 #include "program/support.hpp"
 #include "program/tracks/simulated_events.hpp"
+#include "simulation/oracle/comparison.hpp"
 #include "tracks/projection.hpp"
 #include "tracks/track_file.hpp"
 #include "tracks/track_scene.hpp"

@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "lab/detector/detector.hpp"
-#include "lab/scene/scene.hpp"
-#include "lab/simulation/simulate.hpp"
 #include "program_error.hpp"
+#include "simulation/detector/detector.hpp"
+#include "simulation/run/simulate.hpp"
+#include "simulation/scene/scene.hpp"
 
 namespace kinesphere::program {
 

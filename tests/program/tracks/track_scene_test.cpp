@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "kinesphere/random.hpp"
-#include "lab/tracks/linear_tracks.hpp"
-#include "lab/truth/comparison.hpp"
 #include "program/support.hpp"
 #include "program/tracks/simulated_events.hpp"
+#include "simulation/oracle/comparison.hpp"
+#include "simulation/tracks/linear_tracks.hpp"
 #include "tracks/reading_summary.hpp"
 #include "tracks/track_file.hpp"
 

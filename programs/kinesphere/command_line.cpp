@@ -1,0 +1,57 @@
+#include "command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <new>
+#include <sstream>
+#include <string>
+
+#include "kinesphere/version.hpp"
+#include "program_error.hpp"
+#include "standard_output.hpp"
+#include "standard_streams.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+int parse_and_run(CLI::App& app, const std::function<int()>& run_command, int argc, char** argv) {
+  reserve_standard_streams();
+  app.set_version_flag("--version", std::string(version));
+  app.require_subcommand(0, 1);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    std::ostringstream text;
+    const int exit_code = app.exit(help, text, text);
+    write_output(text.str());
+    finish_output();
+    return exit_code;
+  } catch (const CLI::ParseError& error) {
+    throw ProgramError(fmt::format("{} (see --help)", error.what()));
+  }
+  const int exit_code = run_command();
+  finish_output();
+  if (exit_code == exit_fine) check_messages();
+  return exit_code;
+}
+
+}  // namespace
+
+int run_program(CLI::App& app, const std::function<int()>& run_command, int argc, char** argv) {
+  const auto complain = [&app](std::string message) {
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    print_message("{}: {}\n", app.get_name(), message);
+    return exit_wrong_input;
+  };
+  try {
+    return parse_and_run(app, run_command, argc, argv);
+  } catch (const ProgramError& error) {
+    return complain(error.what());
+  } catch (const std::bad_alloc&) {
+    return complain("out of memory");
+  }
+}
+
+}  // namespace kinesphere::program

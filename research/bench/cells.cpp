@@ -1,0 +1,94 @@
+// Section 3.2: is the cell size that the cost model picks a good one, and are its rates true?
+#include "research/bench/measurement.hpp"
+#include "research/bench/sections.hpp"
+#include "research/rivals/event_driven/cost_model.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+/// A chosen edge counts as good when no other one tried is cheaper by more than this.
+constexpr double good_enough = 1.25;
+
+CostModel model_of(const Scene& scene) {
+  std::vector<MovingSphere> spheres;
+  for (std::uint32_t body = 0; body < scene.bodies.size(); ++body) {
+    const BodyDefinition promise = scene.motion->definition(body, scene.world.start_time);
+    spheres.push_back({.radius = scene.bodies[body].radius + promise.position_error,
+                       .speed = norm(promise.velocity),
+                       .growth_speed = promise.velocity_error,
+                       .limit = promise.acceleration_limit});
+  }
+  return {spheres, *scene.world.box, true};
+}
+
+struct Case {
+  std::uint32_t bodies;
+  double speed;  ///< factor
+};
+
+struct Tables {
+  ResultTable sweep{
+      {"n", "speed", "edge", "edge_to_chosen", "ms_per_second", "model_ms_per_second", "contacts", "hash"}};
+  ResultTable choice{{"n", "speed", "chosen_edge", "best_edge", "time_to_best", "within_a_quarter"}};
+  ResultTable rates{{"n", "speed", "rate", "expected", "measured", "expected_to_measured"}};
+};
+
+void add_rates(ResultTable& table, const Case& what, const ExpectedRates& expected, const Run& run) {
+  const auto add = [&](const char* name, double rate, std::uint64_t DetectorCounters::*count) {
+    const double measured = static_cast<double>(run.count(count)) / run.result.simulated_time;
+    table.row({std::uint64_t{what.bodies}, what.speed, std::string(name), rate, measured, rate / measured});
+  };
+  add("entering", expected.entering, &DetectorCounters::entering);
+  add("leaving", expected.leaving, &DetectorCounters::leaving);
+  add("resetting", expected.resetting, &DetectorCounters::resetting);
+  add("colliding", expected.colliding, &DetectorCounters::colliding);
+  add("pair tests", expected.pair_tests, &DetectorCounters::certificates);
+}
+
+void add_case(Tables& tables, const Case& what, const BenchSettings& settings) {
+  SceneParameters parameters = first_experiment(what.bodies, settings.cell_body_seconds / what.bodies);
+  parameters.speed_min *= what.speed;
+  parameters.speed_max *= what.speed;
+  const auto scenes = seeded_scenes(parameters, 1);
+  const Scene& scene = scenes.front();
+  const CostModel model = model_of(scene);
+  const double chosen = model.choose_cell_edge();
+
+  std::vector<NamedDetector> detectors;
+  for (const double factor : settings.cell_factors)
+    detectors.push_back(paper_engine({.cell_edge = factor * chosen}));
+  const auto series = measure(detectors, scenes, settings.repetitions);
+  std::size_t best = 0, own = 0;
+  for (std::size_t k = 0; k < settings.cell_factors.size(); ++k) {
+    const double factor = settings.cell_factors[k];
+    if (series[k].per_simulated_second() < series[best].per_simulated_second()) best = k;
+    if (factor == 1.0) own = k;
+    tables.sweep.row({std::uint64_t{what.bodies}, what.speed, factor * chosen, factor,
+                      1e3 * series[k].per_simulated_second(),
+                      1e-6 * model.expected_rates(factor * chosen).cost, series[k].contacts(),
+                      series[k].hash()});
+  }
+  const double to_best = ratio(series[own], series[best]);
+  tables.choice.row({std::uint64_t{what.bodies}, what.speed, chosen, settings.cell_factors[best] * chosen,
+                     to_best, to_best <= good_enough});
+  add_rates(tables.rates, what, model.expected_rates(chosen), series[own].runs.front());
+}
+
+}  // namespace
+
+void bench_cells(const Report& report, const BenchSettings& settings) {
+  Tables tables;
+  for (const std::uint32_t bodies : settings.cell_bodies) {
+    for (const double speed : settings.cell_speeds) add_case(tables, {bodies, speed}, settings);
+  }
+  report.note(
+      "The first experiment with edges of the finest grid around the model's choice; speed: factor of the "
+      "paper's.");
+  report.table("cells_sweep", tables.sweep);
+  report.note("The choice against the best edge tried:");
+  report.table("cells_choice", tables.choice);
+  report.note("Per simulated second, at the chosen edge:");
+  report.table("cells_rates", tables.rates);
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,17 @@
+// The detectors that are compared, by the names they have in the tables.
+#pragma once
+
+#include "named_detector.hpp"
+#include "research/rivals/rivals.hpp"
+
+namespace kinesphere::program {
+
+NamedDetector paper_engine(const PaperOptions& options = {});
+NamedDetector hubbard_engine();
+NamedDetector hayward_engine();
+NamedDetector fixed_step_engine(double step);
+NamedDetector world_engine();
+/// The default engine with a sensor of this distance on every body.
+NamedDetector alarm_engine(double distance);
+
+}  // namespace kinesphere::program

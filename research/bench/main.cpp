@@ -1,0 +1,59 @@
+// `kinesphere-bench`: measurements that anyone can repeat, and scenes under the algorithms of other papers.
+#include <CLI/CLI.hpp>
+
+#include "command_line.hpp"
+#include "program_error.hpp"
+#include "research/bench/detector_options.hpp"
+#include "research/bench/gas.hpp"
+#include "research/bench/monitoring.hpp"
+#include "research/bench/paper.hpp"
+#include "research/bench/satellites.hpp"
+#include "research/bench/soak.hpp"
+#include "research/bench/speed/speed.hpp"
+#include "research/bench/vessels.hpp"
+#include "run.hpp"
+#include "verify.hpp"
+
+int main(int argc, char** argv) {
+  namespace program = kinesphere::program;
+  CLI::App app("Measurements of Kinesphere, and comparisons with what was published.", "kinesphere-bench");
+  program::BenchOptions paper_options{.output = "bench-paper", .only = {}};
+  program::SpeedOptions speed_options{{.output = "bench-speed", .only = {}}, {}};
+  program::BenchOptions gas_options{.output = "bench-gas", .only = {}};
+  program::VesselOptions vessel_options;
+  program::MonitoringOptions monitoring_options;
+  program::SoakOptions soak_options;
+  program::SatelliteOptions satellite_options;
+  program::RunOptions run_options;
+  program::VerifyOptions verify_options;
+  program::DetectorOptions detector_options;
+  const CLI::App& paper = *add_bench_paper_command(app, paper_options);
+  const CLI::App& speed = *add_bench_speed_command(app, speed_options);
+  const CLI::App& gas = *add_bench_gas_command(app, gas_options);
+  const CLI::App& vessels = *add_bench_vessels_command(app, vessel_options);
+  const CLI::App& monitoring = *add_bench_monitoring_command(app, monitoring_options);
+  const CLI::App& soak = *add_bench_soak_command(app, soak_options);
+  const CLI::App& satellites = *add_bench_satellites_command(app, satellite_options);
+  CLI::App& run = *add_run_command(app, run_options);
+  CLI::App& verify = *add_verify_command(app, verify_options);
+  for (CLI::App* command : {&run, &verify}) add_detector_options(*command, detector_options);
+  const auto run_command = [&] {
+    if (paper) return bench_paper(paper_options);
+    if (speed) return bench_speed(speed_options);
+    if (gas) return bench_gas(gas_options);
+    if (vessels) return bench_vessels(vessel_options);
+    if (monitoring) return bench_monitoring(monitoring_options);
+    if (soak) return bench_soak(soak_options);
+    if (satellites) return bench_satellites(satellite_options);
+    if (run) {
+      if (detector_options.name != "world" && (run_options.threads || !run_options.record.empty()))
+        throw program::ProgramError("--threads, --record: expected only with --detector world");
+      return program::run(run_options, detector_options.chosen());
+    }
+    if (verify) return program::verify(verify_options, detector_options.chosen());
+    throw program::ProgramError(
+        "expected a command: paper, speed, gas, vessels, monitoring, soak, satellites, run or verify (see "
+        "--help)");
+  };
+  return program::run_program(app, run_command, argc, argv);
+}

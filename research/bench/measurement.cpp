@@ -1,0 +1,115 @@
+// Timed runs of scenes: medians over repetitions, ratios of runs that took turns.
+#include "research/bench/measurement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+#include <optional>
+#include <utility>
+
+#include "program_error.hpp"
+#include "scene_file.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+Run run_once(const NamedDetector& detector, const Scene& scene) {
+  Run run;
+  const double begin = cpu_seconds();
+  std::optional<double> start;
+  // Snapshots are taken at the start, when all bodies are in, and at the end, before anything is taken down.
+  SimulationObserver observer;
+  observer.frame_interval = scene.end_time - scene.world.start_time;
+  observer.on_frame = [&](const Detector& watching, const Motion&, double) {
+    const double now = cpu_seconds();
+    if (start) {
+      run.simulating = now - *start;
+      return;
+    }
+    run.preparing = now - begin;
+    run.prepared = watching.counters();
+    start = cpu_seconds();
+  };
+  run.result = require(simulate(scene, detector.make, observer));
+  return run;
+}
+
+SceneParameters built_in(std::string_view name, std::uint32_t bodies, double seconds) {
+  SceneParameters parameters = find_scene(std::string(name)).parameters;
+  parameters.bodies = bodies;
+  parameters.seconds = seconds;
+  return parameters;
+}
+
+template <class Value>
+double median_of(const std::vector<Run>& runs, Value value) {
+  std::vector<double> values(runs.size());
+  std::transform(runs.begin(), runs.end(), values.begin(), value);
+  return median(std::move(values));
+}
+
+}  // namespace
+
+double cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double Series::per_simulated_second() const {
+  return median_of(runs, [](const Run& run) { return run.per_simulated_second(); });
+}
+
+double Series::preparing() const {
+  return median_of(runs, [](const Run& run) { return run.preparing; });
+}
+
+std::uint64_t Series::contacts() const {
+  const Counters& counters = result().counters;
+  return counters.count(EventKind::contact_begin) + counters.count(EventKind::wall_begin);
+}
+
+std::string Series::hash() const { return fmt::format("{:016x}", result().contact_hash); }
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+double ratio(const Series& series, const Series& other) {
+  std::vector<double> ratios;
+  for (std::size_t k = 0; k < series.runs.size(); ++k)
+    ratios.push_back(series.runs[k].simulating / other.runs[k].simulating);
+  return median(std::move(ratios));
+}
+
+std::vector<Series> measure(const std::vector<NamedDetector>& detectors, const std::vector<Scene>& scenes,
+                            int repetitions) {
+  std::vector<Series> series(detectors.size());
+  for (int repetition = 0; repetition < repetitions; ++repetition) {
+    for (const Scene& scene : scenes) {
+      for (std::size_t k = 0; k < detectors.size(); ++k)
+        series[k].runs.push_back(run_once(detectors[k], scene));
+    }
+  }
+  return series;
+}
+
+std::vector<Scene> seeded_scenes(SceneParameters parameters, std::uint64_t seeds) {
+  std::vector<Scene> scenes;
+  for (parameters.seed = 1; parameters.seed <= seeds; ++parameters.seed)
+    scenes.push_back(require(make_scene(parameters)));
+  return scenes;
+}
+
+SceneParameters first_experiment(std::uint32_t bodies, double seconds) {
+  return built_in("paper1", bodies, seconds);
+}
+
+SceneParameters second_experiment(std::uint32_t bodies, double seconds) {
+  return built_in("paper2", bodies, seconds);
+}
+
+}  // namespace kinesphere::program

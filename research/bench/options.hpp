@@ -1,0 +1,33 @@
+// What all benchmarks can be told.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "research/bench/report.hpp"
+#include "research/bench/settings.hpp"
+
+namespace kinesphere::program {
+
+struct BenchOptions {
+  std::string output;             ///< folder
+  std::vector<std::string> only;  ///< names of parts; all when empty
+  bool full = false;
+  bool quick = false;
+};
+
+/// --output, --only, --full and --quick. `options` must live until the command line has been parsed.
+CLI::App* add_bench_options(CLI::App& command, BenchOptions& options, const std::vector<std::string>& names,
+                            const std::string& full_description);
+
+/// Throws ProgramError when --only names what is not there, or both --full and --quick are given.
+void check_bench_options(const BenchOptions& options, const std::vector<std::string>& names);
+Effort effort_of(const BenchOptions& options);
+bool is_chosen(const BenchOptions& options, std::string_view name);
+
+/// The machine, on the terminal and as machine.txt.
+void describe_machine(const Report& report);
+
+}  // namespace kinesphere::program

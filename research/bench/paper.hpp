@@ -1,0 +1,15 @@
+// `kinesphere bench paper`: the evaluation of the paper, repeated on this machine.
+#pragma once
+
+#include <CLI/App.hpp>
+
+#include "research/bench/options.hpp"
+
+namespace kinesphere::program {
+
+/// `options` must live until the command line has been parsed.
+CLI::App* add_bench_paper_command(CLI::App& bench, BenchOptions& options);
+/// Returns the exit code. Throws ProgramError.
+int bench_paper(const BenchOptions& options);
+
+}  // namespace kinesphere::program

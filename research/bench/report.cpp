@@ -1,0 +1,71 @@
+// What a section of the benchmark writes: on the terminal and into the folder of results.
+#include "research/bench/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "output_file.hpp"
+#include "program_error.hpp"
+#include "standard_output.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+constexpr std::size_t line_width = 110;
+
+std::string wrapped(std::string_view text) {
+  std::string lines;
+  while (text.size() > line_width) {
+    const std::size_t blank = std::min(text.rfind(' ', line_width), text.size());
+    lines += std::string(text.substr(0, blank)) + '\n';
+    text.remove_prefix(std::min(blank + 1, text.size()));
+  }
+  return lines += text;
+}
+
+}  // namespace
+
+Report::Report(std::string folder) : folder_(std::move(folder)), draws_(has_gnuplot()) {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error || !std::filesystem::is_directory(folder_))
+    throw ProgramError(fmt::format("--output: expected a folder that can be made, but got '{}'", folder_));
+}
+
+void Report::heading(std::string_view title) const {
+  print("{}\n{:=<{}}\n", title, "", title.size());
+  finish_output();
+}
+
+void Report::note(std::string_view text) const {
+  print("{}\n\n", wrapped(text));
+  finish_output();
+}
+
+void Report::table(const std::string& name, const ResultTable& table) const {
+  save(name, table);
+  print("{}\n", table.text());
+  finish_output();
+}
+
+void Report::save(const std::string& name, const ResultTable& table) const {
+  table.save(fmt::format("{}/{}.csv", folder_, name));
+}
+
+void Report::plot(const Plot& plot) const {
+  file(plot.name + ".gp", gnuplot_script(plot));
+  if (draws_) run_gnuplot(folder_, plot.name);
+}
+
+void Report::file(const std::string& name, std::string_view text) const {
+  OutputFile file(fmt::format("{}/{}", folder_, name));
+  file.write(text);
+  file.commit();
+}
+
+}  // namespace kinesphere::program

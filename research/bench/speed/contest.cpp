@@ -1,0 +1,234 @@
+#include "research/bench/speed/contest.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "program_error.hpp"
+#include "research/bench/contact_counts.hpp"
+#include "research/bench/detectors.hpp"
+#include "research/bench/measurement.hpp"
+#include "research/bench/speed/bullet_kernel.hpp"
+#include "research/bench/speed/recall.hpp"
+#include "research/bench/speed/transcript.hpp"
+#include "research/bench/speed/tuning.hpp"
+#include "research/measures/probe_floor.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+/// Who takes longer than this (seconds) for a turn has one only against each group of rivals.
+constexpr double slow = 2.0;
+
+class Contest {
+ public:
+  Contest(const SpeedScene& entry, const SpeedSettings& settings)
+      : entry_(entry),
+        settings_(settings),
+        scene_(entry.make(entry.response)),
+        world_(default_engine(entry.alarm > 0.0 ? alarm_engine(entry.alarm) : world_engine())) {
+    if (!has_rivals() && !entry.floor) return;
+    passing_ = entry.make(SceneResponse::pass_through);
+    // Who looks at steps alone need not know an alarm from a contact.
+    for (SceneBody& body : passing_.bodies) body.radius += 0.5 * entry.alarm;
+    if (has_rivals()) truth_ = counted(count_contacts(passing_, world_engine().make));
+    if (entry.floor) count_floor();
+  }
+
+  std::vector<SpeedRow> run() {
+    for (const double rate : entry_.rates)
+      for (const SphereTest test : {SphereTest::at_steps, SphereTest::swept}) run_steps(rate, test);
+    if (world_.row.turns.empty()) take_turns({});
+    settle(world_);
+    rows_.insert(rows_.begin(), world_.row);
+    return std::move(rows_);
+  }
+
+ private:
+  struct Cost {
+    double detection;                  ///< seconds for a body-second
+    std::optional<double> building{};  ///< seconds
+  };
+
+  struct Contestant {
+    SpeedRow row;
+    std::function<Cost()> run;
+    bool is_slow = false;
+    std::vector<double> building{};  ///< by run
+  };
+
+  bool has_rivals() const { return !entry_.rates.empty(); }
+  /// What fixed steps are timed on.
+  const Scene& stepped() const { return entry_.response == SceneResponse::bounce ? scene_ : passing_; }
+
+  ContactCounts counted(ContactCounts counts) const {
+    std::erase_if(counts, [&](const auto& entry) { return std::get<1>(entry.first) < entry_.first_counted; });
+    return counts;
+  }
+
+  double body_time_of_all() const { return duration() * static_cast<double>(scene_.bodies.size()); }
+  double duration() const { return scene_.end_time - scene_.world.start_time; }
+
+  Contestant default_engine(const NamedDetector& detector) const {
+    const auto transcript = std::make_shared<Transcript>(write_down(scene_, detector.make));
+    const double body_time = transcript->body_time();
+    SpeedRow row{.detector = detector.name,
+                 .moves = static_cast<double>(transcript->probes) / body_time,
+                 .contacts = static_cast<double>(transcript->contacts()) / body_time,
+                 .missed = 0.0,
+                 .hash = transcript->result.contact_hash};
+    if (transcript->result.memory)
+      row.bytes =
+          static_cast<double>(transcript->result.memory->total()) / static_cast<double>(scene_.bodies.size());
+    const auto play_again = [transcript, make = detector.make, body_time] {
+      const Playing playing = play(*transcript, make);
+      return Cost{playing.detecting / body_time, playing.building};
+    };
+    return {std::move(row), play_again};
+  }
+
+  void count_floor() {
+    const Flight flight = require(record_flight(stepped(), world_engine().make));
+    const auto floor = static_cast<double>(require(probe_floor(stepped(), flight)).total());
+    if (floor > 0.0) floor_ = floor / flight.result.body_time;
+  }
+
+  /// A group of rivals, each in turn, and the default engine before them.
+  void take_turns(std::vector<Contestant> contestants) {
+    for (int turn = 0; turn < settings_.repetitions; ++turn) {
+      if (turn > 0 && world_.is_slow && !contestants.empty()) break;
+      const double world = take_turn(world_);
+      world_.row.turns.push_back({world, world});
+      for (Contestant& contestant : contestants) {
+        if (turn > 0 && contestant.is_slow) continue;
+        contestant.row.turns.push_back({take_turn(contestant), world});
+      }
+    }
+    for (Contestant& contestant : contestants) {
+      settle(contestant);
+      rows_.push_back(std::move(contestant.row));
+    }
+  }
+
+  /// Seconds for a body-second. Runs that are over too soon to be timed are repeated.
+  double take_turn(Contestant& contestant) const {
+    const double begin = cpu_seconds();
+    double cost = 0.0;
+    int runs = 0;
+    double taken = 0.0;
+    do {
+      const Cost once = contestant.run();
+      if (once.building) contestant.building.push_back(*once.building);
+      cost += once.detection;
+      ++runs;
+      taken = cpu_seconds() - begin;
+    } while (taken < settings_.least_turn);
+    contestant.is_slow = taken > slow;
+    return cost / runs;
+  }
+
+  void settle(Contestant& contestant) const {
+    std::vector<double> costs;
+    for (const Turn& turn : contestant.row.turns) costs.push_back(turn.own);
+    contestant.row.detection = median(std::move(costs));
+    if (!contestant.building.empty()) contestant.row.building = median(contestant.building);
+    if (floor_ && !contestant.row.rate) contestant.row.to_floor = contestant.row.moves / *floor_;
+  }
+
+  void run_steps(double rate, SphereTest test) {
+    const double most =
+        static_cast<double>(settings_.most_recorded) / static_cast<double>(scene_.bodies.size());
+    const auto steps =
+        static_cast<std::size_t>(std::max(1.0, std::min(std::round(rate * duration()), std::floor(most))));
+    const StepRecording recording = record_steps(stepped(), 1.0 / rate, steps, test);
+    const std::optional<ContactCounts> seen = seen_at_steps(rate, test);
+    std::vector<Contestant> contestants;
+    const auto enter = [&](const std::string& name, const KernelMaker& make) {
+      if (make) contestants.push_back(fixed_steps(name, recording, make, seen));
+    };
+    enter(test == SphereTest::swept ? "swept" : "tuned", tuned_kernel(recording));
+    if (entry_.trees && test == SphereTest::at_steps) {
+      const auto& radii = recording.radii;
+      if (make_bullet_kernel({})) enter("bullet", [&] { return make_bullet_kernel(radii); });
+      enter("bullet-best", tuned_bullet_kernel(recording));
+    }
+    take_turns(std::move(contestants));
+  }
+
+  Contestant fixed_steps(const std::string& name, const StepRecording& recording, const KernelMaker& make,
+                         const std::optional<ContactCounts>& seen) const {
+    const auto kernel = make();
+    const StepTiming timing = time_steps(recording, *kernel, recording.steps());
+    SpeedRow row{.detector = name,
+                 .settings = kernel->name(),
+                 .rate = 1.0 / recording.step,
+                 .moves = 1.0 / recording.step,
+                 .bytes = static_cast<double>(timing.bytes) / static_cast<double>(recording.radii.size()),
+                 .hash = timing.hash};
+    if (entry_.response == SceneResponse::bounce)
+      row.contacts = static_cast<double>(recording.contacts) / recording.body_time();
+    else if (seen)
+      row.contacts = static_cast<double>(total(*seen)) / body_time_of_all();
+    if (seen) row.missed = missed_part(counted(*seen));
+    const auto run = [&recording, make] {
+      return Cost{time_steps(recording, *make(), recording.steps()).seconds / recording.body_time()};
+    };
+    return {std::move(row), run};
+  }
+
+  /// Where all pass through; nothing when that would take too long.
+  std::optional<ContactCounts> seen_at_steps(double rate, SphereTest test) const {
+    const double steps = std::ceil(rate * duration());
+    if (steps * static_cast<double>(scene_.bodies.size()) > static_cast<double>(settings_.most_looked))
+      return std::nullopt;
+    return contacts_at_steps(passing_, 1.0 / rate, static_cast<std::size_t>(steps), test);
+  }
+
+  std::optional<double> missed_part(const ContactCounts& seen) const {
+    const std::uint64_t contacts = total(truth_);
+    if (contacts == 0) return std::nullopt;
+    return static_cast<double>(missed(truth_, seen)) / static_cast<double>(contacts);
+  }
+
+  const SpeedScene& entry_;
+  const SpeedSettings& settings_;
+  Scene scene_;
+  Contestant world_;
+  Scene passing_;                ///< the same, where nobody bounces, and contacts are alarms if there are any
+  ContactCounts truth_;          ///< its contacts that count
+  std::optional<double> floor_;  ///< probes in a body-second
+  std::vector<SpeedRow> rows_;
+};
+
+}  // namespace
+
+const SpeedRow* find_row(const std::vector<SpeedRow>& rows, const std::string& detector,
+                         std::optional<double> rate) {
+  const auto row = std::find_if(rows.begin(), rows.end(), [&](const SpeedRow& one) {
+    return one.detector == detector && one.rate == rate;
+  });
+  return row == rows.end() ? nullptr : &*row;
+}
+
+const SpeedRow* find_slowest_safe(const std::vector<SpeedRow>& rows, const std::string& detector) {
+  const SpeedRow* slowest = nullptr;
+  for (const SpeedRow& row : rows) {
+    if (row.detector != detector || !row.rate || row.missed != 0.0) continue;
+    if (slowest == nullptr || row.rate < slowest->rate) slowest = &row;
+  }
+  return slowest;
+}
+
+double SpeedRow::to_world(const SpeedRow& world, double price) const {
+  std::vector<double> ratios;
+  for (const Turn& turn : turns)
+    ratios.push_back((turn.own + price * moves) / (turn.world + price * world.moves));
+  return median(std::move(ratios));
+}
+
+std::vector<SpeedRow> compare_speed(const SpeedScene& scene, const SpeedSettings& settings) {
+  return Contest(scene, settings).run();
+}
+
+}  // namespace kinesphere::program

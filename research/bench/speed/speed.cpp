@@ -1,0 +1,138 @@
+#include "research/bench/speed/speed.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kinesphere/workers.hpp"
+#include "program_error.hpp"
+#include "research/bench/measurement.hpp"
+#include "research/bench/report.hpp"
+#include "research/bench/speed/bullet_kernel.hpp"
+#include "research/bench/speed/contest.hpp"
+#include "research/bench/speed/threads.hpp"
+#include "research/bench/speed/verdicts.hpp"
+#include "standard_output.hpp"
+#include "validators.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+Cell cell(const std::optional<double>& value, double scale = 1.0) {
+  return value ? Cell(scale * *value) : Cell();
+}
+
+const std::vector<std::string> columns{
+    "scene",      "n",        "detector", "rate",     "us",       "total_100ns",    "total_1us",
+    "total_10us", "to_world", "moves",    "to_floor", "contacts", "per_cpu_second", "missed_percent",
+    "bytes",      "build_s",  "settings", "hash"};
+
+void add_row(ResultTable& table, const SpeedScene& scene, const SpeedRow& row, const SpeedRow& world) {
+  table.row({scene.name, std::uint64_t{scene.bodies}, row.detector, cell(row.rate),
+             1e6 * row.total(move_prices[0]), 1e6 * row.total(move_prices[1]),
+             1e6 * row.total(move_prices[2]), 1e6 * row.total(move_prices[3]), row.to_world(world), row.moves,
+             cell(row.to_floor), cell(row.contacts), cell(row.contacts, 1.0 / row.detection),
+             cell(row.missed, 100.0), cell(row.bytes), cell(row.building), row.settings,
+             fmt::format("{:016x}", row.hash)});
+}
+
+std::vector<std::string> names_of(const std::vector<SpeedScene>& scenes) {
+  std::vector<std::string> names;
+  names.reserve(scenes.size());
+  for (const SpeedScene& scene : scenes) names.push_back(scene.name);
+  return names;
+}
+
+void explain(const Report& report, const SpeedSettings& settings) {
+  report.note(fmt::format(
+      "Effort {}. \"us\" is CPU time for detection alone, in microseconds for a sphere and a simulated "
+      "second: the default engine (world) gets the answers of its probes, and the kicks, from a run that was "
+      "written down before; fixed-step detectors look at recorded steps. \"total\" adds what moving costs, "
+      "at so much for each probe or step (\"moves\", per body-second). Medians of {} turns; \"to world\" is "
+      "the median ratio to the default engine in the same turn.",
+      settings.name, settings.repetitions));
+  report.note(
+      "tuned: the fastest of several grids and Verlet lists for this scene and rate (\"settings\"), which "
+      "sees overlaps at steps; swept: the same, with a test along the straight ways between steps. \"to "
+      "floor\": probes to the least that a method that knew all other motion would need. \"missed percent\": "
+      "contacts that are overlooked in the same scene without bounces (bullets: those of bullets). "
+      "\"contacts\" are those of a body-second, \"per cpu second\" those that are found in a second of this "
+      "machine.");
+  if (!make_bullet_kernel({}))
+    report.note("Bullet is left out: it was not installed when this program was built (libbullet-dev).");
+}
+
+int bench_threads(const SpeedOptions& options, const std::vector<SpeedScene>& scenes,
+                  const SpeedSettings& settings, const Report& report) {
+  report.note(fmt::format(
+      "Effort {}. Seconds of real time for whole simulations, motion and response included, from when all "
+      "bodies are in: a loop over advance(), World::run on one thread, and on {}. They take turns; medians "
+      "of "
+      "{} turns.",
+      settings.name, *options.threads, settings.repetitions));
+  ResultTable table(
+      {"scene", "n", "threads", "loop_s", "one_s", "many_s", "one_to_loop", "one_to_many", "events", "hash"});
+  std::vector<ThreadsRow> rows;
+  for (const SpeedScene& scene : scenes) {
+    const bool usual = scene.name == "dense-100000" || scene.name == "dense-1000000" || scene.name == "crowd";
+    if (options.only.empty() ? !usual : !is_chosen(options, scene.name)) continue;
+    const ThreadsRow& row = rows.emplace_back(compare_threads(scene, *options.threads, settings));
+    const auto seconds = [&](double ThreadsTurn::*way) {
+      std::vector<double> all;
+      all.reserve(row.turns.size());
+      for (const ThreadsTurn& turn : row.turns) all.push_back(turn.*way);
+      return median(std::move(all));
+    };
+    table.row({row.scene, std::uint64_t{row.bodies}, static_cast<std::uint64_t>(row.threads),
+               seconds(&ThreadsTurn::loop), seconds(&ThreadsTurn::one), seconds(&ThreadsTurn::many),
+               row.one_to_loop(), row.one_to_many(), row.events, fmt::format("{:016x}", row.hash)});
+  }
+  report.table("threads", table);
+  report.table("threads_verdicts", table_of(verdicts_of_threads(rows)));
+  return exit_fine;
+}
+
+}  // namespace
+
+CLI::App* add_bench_speed_command(CLI::App& bench, SpeedOptions& options) {
+  CLI::App* speed = bench.add_subcommand("speed", "Compare with fixed steps and others; takes half an hour");
+  add_bench_options(*speed, options, names_of(speed_scenes(speed_settings(Effort::full))),
+                    "Up to a million bodies; takes an hour");
+  speed
+      ->add_option(
+          "--threads", options.threads,
+          "Only this: whole simulations by World::run, on so many threads and on one, against a loop")
+      ->check(whole_number(Workers::most_threads, 1));
+  return speed;
+}
+
+int bench_speed(const SpeedOptions& options) {
+  const SpeedSettings& settings = speed_settings(effort_of(options));
+  const std::vector<SpeedScene> scenes = speed_scenes(settings);
+  check_bench_options(options, names_of(scenes));
+  const Report report(options.output);
+  describe_machine(report);
+  if (options.threads) return bench_threads(options, scenes, settings, report);
+  explain(report, settings);
+  SpeedResults results;
+  ResultTable all(columns);
+  for (const SpeedScene& scene : scenes) {
+    if (!is_chosen(options, scene.name)) continue;
+    report.heading(fmt::format("{}, {} bodies", scene.name, scene.bodies));
+    const std::vector<SpeedRow>& rows = results[scene.name] = compare_speed(scene, settings);
+    ResultTable table(columns);
+    for (const SpeedRow& row : rows) {
+      add_row(table, scene, row, rows.front());
+      add_row(all, scene, row, rows.front());
+    }
+    print("{}\n", table.text());
+    report.save("speed", all);  // as far as it is known: the rest may take long
+  }
+  save_verdicts(report, scenes, results);
+  return exit_fine;
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,165 @@
+#include "research/bench/speed/speed_scenes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "program_error.hpp"
+#include "research/bench/measurement.hpp"
+#include "research/bench/speed/mixture.hpp"
+#include "research/bench/vessels.hpp"
+#include "scene_file.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+const std::vector<double> game_rates{60.0, 240.0, 1000.0};
+
+/// Scenes of parameters, smaller and shorter as the settings say.
+class SceneList {
+ public:
+  explicit SceneList(const SpeedSettings& settings) : settings_(settings) {}
+
+  std::vector<SpeedScene> all() {
+    paper();
+    crowds();
+    extremes();
+    gases();
+    SceneParameters pile = find_scene("pile").parameters;
+    pile.seconds = 3.0;  // all lie, and jostle
+    // Where all pass through they fall out of the box: nothing is left to be missed.
+    add({.name = "pile", .rates = game_rates, .first_counted = pile.bodies, .floor = true}, pile);
+    const auto too_large = [this](const SpeedScene& scene) { return scene.bodies > settings_.most_bodies; };
+    scenes_.erase(std::remove_if(scenes_.begin(), scenes_.end(), too_large), scenes_.end());
+    for (SpeedScene& scene : scenes_)
+      if (scene.bodies > settings_.most_with_rivals) scene.rates.clear();
+    return std::move(scenes_);
+  }
+
+ private:
+  std::uint32_t fewer(std::uint32_t bodies) const { return std::max(bodies / settings_.divide, 10u); }
+  double shorter(double seconds) const { return seconds * settings_.shorten; }
+
+  /// As dense with `bodies` as the parameters are with theirs.
+  static SceneParameters with_box(SceneParameters parameters, std::uint32_t bodies) {
+    const double scale = std::cbrt(static_cast<double>(bodies) / parameters.bodies);
+    parameters.box.upper = parameters.box.lower + (parameters.box.upper - parameters.box.lower) * scale;
+    parameters.bodies = bodies;
+    return parameters;
+  }
+
+  void add(SpeedScene scene, SceneParameters parameters) {
+    parameters = with_box(parameters, fewer(parameters.bodies));
+    parameters.seconds = shorter(parameters.seconds);
+    scene.bodies = parameters.bodies;
+    scene.response = parameters.response;
+    scene.make = [parameters](SceneResponse response) mutable {
+      parameters.response = response;
+      return require(make_scene(parameters));
+    };
+    scenes_.push_back(std::move(scene));
+  }
+
+  void paper() {
+    for (const std::uint32_t bodies : {500u, 1000u, 2000u, 3500u}) {
+      add({.name = fmt::format("paper1-{}", bodies), .rates = game_rates, .trees = true, .floor = true},
+          first_experiment(bodies, 2.0));
+    }
+    // All of the same length, as the small ones heat up.
+    for (const std::uint32_t bodies : {1000u, 10'000u, 100'000u, 1'000'000u}) {
+      add({.name = fmt::format("dense-{}", bodies),
+           .rates = bodies > 100'000 ? std::vector{60.0} : game_rates,
+           .trees = bodies <= 100'000},
+          with_box(first_experiment(1000, 0.2), bodies));
+    }
+    add({.name = "paper2", .rates = game_rates, .floor = true}, second_experiment(1000, 2.0));
+  }
+
+  void mixture(SpeedScene scene, const MixtureParameters& parameters) {
+    for (const BodyKind& kind : parameters.kinds) scene.bodies += kind.bodies;
+    scene.make = [parameters](SceneResponse response) { return make_mixture(parameters, response); };
+    scenes_.push_back(std::move(scene));
+  }
+
+  void crowds() {
+    constexpr double alarm = 10.0;
+    const std::uint32_t drones = fewer(100'000);
+    const double shrink = std::sqrt(drones / 100'000.0);
+    mixture({.name = "drones",
+             .response = SceneResponse::pass_through,
+             .rates = {1.0, 4.0, 15.0, 60.0, 240.0},
+             .alarm = alarm,
+             .floor = true},
+            {.box = {{0, 0, 0}, {20'000 * shrink, 20'000 * shrink, 300}},
+             .walls = false,
+             .kinds = {{drones, 0.5, 0.5, 15.0, 15.0, 5.0}},
+             .gap = alarm,
+             .seconds = shorter(20.0)});
+    const CrowdParameters people{.people = fewer(20'000), .area_each = 4.0, .seconds = shorter(4.0)};
+    scenes_.push_back({.name = "crowd",
+                       .bodies = people.people,
+                       .response = SceneResponse::pass_through,
+                       .make = [people](SceneResponse response) { return make_crowd(people, response); },
+                       .rates = {10.0, 30.0, 60.0, 240.0},
+                       .floor = true});
+    constexpr double close = 50.0;
+    const VesselParameters vessels{.vessels = fewer(2708), .seconds = shorter(3600.0)};
+    scenes_.push_back({.name = "vessels",
+                       .bodies = vessels.vessels,
+                       .response = SceneResponse::pass_through,
+                       .make = [vessels](SceneResponse) { return make_vessels(vessels, close); },
+                       .rates = {0.1, 1.0}});
+  }
+
+  void extremes() {
+    const std::uint32_t boulders = fewer(10'000);
+    const double edge = 200.0 * std::cbrt(boulders / 10'000.0);
+    mixture({.name = "bullets",
+             .response = SceneResponse::pass_through,
+             .rates = {60.0, 240.0, 1000.0, 4000.0},
+             .first_counted = boulders,
+             .floor = true},
+            {.box = {{0, 0, 0}, {edge, edge, edge}},
+             .kinds = {{boulders, 1.0, 3.0, 0.0, 1.0, 0.5}, {10, 0.01, 0.05, 1000.0, 1000.0, 1.0}},
+             .seconds = shorter(0.25)});
+    // Each kind twice as large as the one before, and half as many: 1 to 1024.
+    MixtureParameters sizes{.box = {{0, 0, 0}, {100, 100, 100}}, .kinds = {}, .seconds = shorter(2.0)};
+    for (std::uint32_t k = 0; k <= 10; ++k) {
+      const double radius = 0.01 * static_cast<double>(1u << k);
+      sizes.kinds.push_back({std::max(fewer(8192) >> k, 1u), radius, radius, 1.0, 10.0, 10.0});
+    }
+    mixture({.name = "sizes",
+             .response = SceneResponse::bounce,
+             .rates = game_rates,
+             .trees = true,
+             .floor = true},
+            sizes);
+  }
+
+  /// Fixed steps have no way around a space that repeats.
+  void gases() {
+    for (const std::uint32_t bodies : {4'000u, 108'000u}) {
+      for (const int percent : {25, 49}) {
+        // Fewer would not fit between walls at the start.
+        const GasParameters gas{.bodies = std::max(fewer(bodies), 1000u),
+                                .filled = 0.01 * percent,
+                                .seconds = shorter(bodies > 4'000 ? 0.2 : 3.0)};
+        scenes_.push_back({.name = fmt::format("gas{}-{}", percent, bodies),
+                           .bodies = gas.bodies,
+                           .response = SceneResponse::bounce,
+                           .make = [gas](SceneResponse response) { return make_gas(gas, response); },
+                           .rates = {}});
+      }
+    }
+  }
+
+  const SpeedSettings& settings_;
+  std::vector<SpeedScene> scenes_;
+};
+
+}  // namespace
+
+std::vector<SpeedScene> speed_scenes(const SpeedSettings& settings) { return SceneList(settings).all(); }
+
+}  // namespace kinesphere::program

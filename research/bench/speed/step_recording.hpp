@@ -1,0 +1,41 @@
+// A scene moved in fixed steps, as it looks at each of them. Detectors are then timed on what is recorded, so
+// that the motion does not count.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "kinesphere/event.hpp"
+#include "research/bench/speed/step_kernel.hpp"
+#include "simulation/scene/scene.hpp"
+
+namespace kinesphere::program {
+
+struct StepRecording {
+  double step;               ///< (time)
+  SphereTest test;           ///< how contacts were found that were answered
+  std::vector<float> radii;  ///< by body, which are numbered along strips of space, as a tuned program does
+  std::vector<std::vector<float>> x, y, z;  ///< by step, by body; the first is the start
+  std::uint64_t contacts = 0;               ///< of bodies and walls that came nearer to each other
+  std::optional<Box> box{};
+
+  std::size_t steps() const { return x.size() - 1; }
+  Frame frame(std::size_t step_number) const {
+    return {x[step_number].data(), y[step_number].data(), z[step_number].data()};
+  }
+  double body_time() const { return step * static_cast<double>(steps()) * static_cast<double>(radii.size()); }
+};
+
+/// Called for each pair, or body and wall (then `second` is the body again), that touches in a step, with
+/// numbers of bodies as in the scene.
+using TouchObserver =
+    std::function<void(std::size_t step_number, std::uint32_t first, std::uint32_t second, Wall wall)>;
+
+/// Contacts that come nearer are answered at the step as the scene says. Frames are kept unless there is an
+/// observer. Throws ProgramError.
+StepRecording record_steps(const Scene& scene, double step, std::size_t steps, SphereTest test,
+                           const TouchObserver& observer = {});
+
+}  // namespace kinesphere::program

@@ -1,0 +1,118 @@
+#include "research/bench/speed/tuned_kernels.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "research/bench/speed/touch.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+std::string text_of(const StripSettings& settings) {
+  return fmt::format("{:.3g} x {:.3g}{}", settings.row_edge, settings.column_edge,
+                     settings.order == StripOrder::forward ? "" : " larger first");
+}
+
+/// Adds those of the pairs that touch.
+template <class Touch>
+void sift(const std::vector<SpherePair>& pairs, std::vector<SpherePair>& touching, Touch touch) {
+  for (const SpherePair& pair : pairs)
+    if (touch(pair.first, pair.second)) touching.push_back(pair);
+}
+
+class GridKernel final : public StepKernel {
+ public:
+  GridKernel(std::vector<float> radii, const StripSettings& settings, SphereTest test)
+      : name_("grid " + text_of(settings)), radii_(std::move(radii)), grid_(settings), test_(test) {}
+
+  std::string name() const override { return name_; }
+
+  void look(const Frame& before, const Frame& now, std::vector<SpherePair>& touching) override {
+    if (test_ == SphereTest::at_steps) {
+      grid_.find(now, radii_, near_);
+      touching.insert(touching.end(), near_.begin(), near_.end());
+      return;
+    }
+    surround_ways(before, now);
+    grid_.find({middle_x_.data(), middle_y_.data(), middle_z_.data()}, wide_radii_, near_);
+    sift(near_, touching, [&](std::uint32_t a, std::uint32_t b) {
+      return touch_between(before, now, radii_[a] + radii_[b], a, b);
+    });
+  }
+
+  std::size_t bytes() const override {
+    return grid_.bytes() + sizeof(float) * (radii_.capacity() + 4 * middle_x_.capacity()) +
+           sizeof(SpherePair) * near_.capacity();
+  }
+
+ private:
+  /// Spheres around all places that each sphere passes in the step.
+  void surround_ways(const Frame& before, const Frame& now) {
+    const std::size_t size = radii_.size();
+    for (auto* const array : {&middle_x_, &middle_y_, &middle_z_, &wide_radii_}) array->resize(size);
+    for (std::size_t at = 0; at < size; ++at) {
+      const float x = 0.5f * (now.x[at] - before.x[at]);
+      const float y = 0.5f * (now.y[at] - before.y[at]);
+      const float z = 0.5f * (now.z[at] - before.z[at]);
+      middle_x_[at] = before.x[at] + x;
+      middle_y_[at] = before.y[at] + y;
+      middle_z_[at] = before.z[at] + z;
+      wide_radii_[at] = 1.0001f * (radii_[at] + std::sqrt(x * x + y * y + z * z));
+    }
+  }
+
+  std::string name_;
+  std::vector<float> radii_;
+  StripGrid grid_;
+  SphereTest test_;
+  std::vector<SpherePair> near_;
+  std::vector<float> middle_x_, middle_y_, middle_z_, wide_radii_;  ///< of ways
+};
+
+class VerletKernel final : public StepKernel {
+ public:
+  VerletKernel(std::vector<float> radii, const VerletSettings& settings, SphereTest test)
+      : name_(fmt::format("Verlet skin {:.3g} + {} steps on grid {}", settings.skin, settings.steps,
+                          text_of(settings.grid))),
+        radii_(std::move(radii)),
+        list_(settings),
+        test_(test) {}
+
+  std::string name() const override { return name_; }
+
+  void look(const Frame& before, const Frame& now, std::vector<SpherePair>& touching) override {
+    list_.follow(before, now, radii_);
+    if (test_ == SphereTest::at_steps) {
+      sift(list_.pairs(), touching,
+           [&](std::uint32_t a, std::uint32_t b) { return touch_at(now, radii_[a] + radii_[b], a, b); });
+    } else {
+      sift(list_.pairs(), touching, [&](std::uint32_t a, std::uint32_t b) {
+        return touch_between(before, now, radii_[a] + radii_[b], a, b);
+      });
+    }
+  }
+
+  std::size_t bytes() const override { return list_.bytes() + sizeof(float) * radii_.capacity(); }
+
+ private:
+  std::string name_;
+  std::vector<float> radii_;
+  VerletList list_;
+  SphereTest test_;
+};
+
+}  // namespace
+
+std::unique_ptr<StepKernel> make_grid_kernel(std::vector<float> radii, const StripSettings& settings,
+                                             SphereTest test) {
+  return std::make_unique<GridKernel>(std::move(radii), settings, test);
+}
+
+std::unique_ptr<StepKernel> make_verlet_kernel(std::vector<float> radii, const VerletSettings& settings,
+                                               SphereTest test) {
+  return std::make_unique<VerletKernel>(std::move(radii), settings, test);
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,49 @@
+// Collision rate and pressure of a gas of equal hard spheres: measured in a run, and as theory knows them.
+//
+// All in units of the diameter, the mass of a sphere and the thermal speed sqrt(kT / m).
+#pragma once
+
+#include <cstdint>
+
+#include "simulation/detector/detector.hpp"
+#include "simulation/run/simulate.hpp"
+#include "simulation/scene/scene.hpp"
+
+namespace kinesphere {
+
+/// Compressibility factor Z = p V / (N kT) of the hard-sphere fluid that fills this part of space, from 0 to
+/// freezing at 0.494: the polynomial of Kolafa, Labik and Malijevsky (Phys. Chem. Chem. Phys. 6, 2335, 2004)
+/// in x = packing / (1 - packing).
+double hard_sphere_compressibility(double packing);
+/// Collisions of one sphere per unit of time, 6 (Z - 1) / sqrt(pi). Each collision counts for both partners.
+double hard_sphere_collision_rate(double packing);
+
+struct Estimate {
+  double value = 0.0;
+  double standard_error = 0.0;  ///< from the scatter between blocks, taken as independent
+};
+
+struct GasProperties {
+  double packing = 0.0;
+  Estimate collision_rate;     ///< as hard_sphere_collision_rate()
+  Estimate compressibility;    ///< as hard_sphere_compressibility(), from the virial of the collisions
+  std::uint64_t contacts = 0;  ///< that were measured
+  double energy_change = 0.0;  ///< largest since the start, as a part of the energy
+  /// Largest change of the total momentum since the start, in units of N m sqrt(kT / m).
+  double momentum_change = 0.0;
+  SimulationResult result;  ///< of the whole run
+};
+
+/// The time of a scene in blocks of one length.
+struct GasBlocks {
+  int equilibration = 10;  ///< at the start, not measured
+  int measured = 20;
+};
+
+/// Runs a scene of equal spheres that fly freely and bounce without loss where space repeats on all axes.
+/// Errors: unsupported, naming what is otherwise; out_of_range for fewer than 2 measured blocks, or a
+/// negative number of others; those of simulate(). Differs from an infinite system by about 1 / N.
+Result<GasProperties> measure_gas(const Scene& scene, const DetectorMaker& make,
+                                  const GasBlocks& blocks = {});
+
+}  // namespace kinesphere

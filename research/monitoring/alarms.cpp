@@ -1,0 +1,185 @@
+#include "research/monitoring/alarms.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+namespace kinesphere {
+namespace {
+
+Span both_there(const RecordedSky& sky, const TrackPair& pair) {
+  const Span& a = sky.span(pair.first);
+  const Span& b = sky.span(pair.second);
+  return {std::max(a.begin, b.begin), std::min(a.end, b.end)};
+}
+
+double overlap(const Span& a, const Span& b) {
+  return std::max(0.0, std::min(a.end, b.end) - std::max(a.begin, b.begin));
+}
+
+const std::vector<Span>& of(const std::map<TrackPair, std::vector<Span>>& spans, const TrackPair& pair) {
+  static const std::vector<Span> none;
+  const auto at = spans.find(pair);
+  return at == spans.end() ? none : at->second;
+}
+
+/// Calls visit(span, verdict) for what was told of a pair while both were there.
+template <class Visit>
+void for_each_verdict(const std::vector<VerdictChange>& changes, const Span& there, Visit visit) {
+  double begin = there.begin;
+  Verdict verdict = Verdict::apart;
+  for (const VerdictChange& change : changes) {
+    const double end = std::clamp(change.time, begin, there.end);
+    if (end > begin) visit(Span{begin, end}, verdict);
+    begin = end;
+    verdict = change.verdict;
+  }
+  if (there.end > begin) visit(Span{begin, there.end}, verdict);
+}
+
+}  // namespace
+
+VerdictHistory watch(Monitor& monitor, const RecordedSky& sky, const std::vector<Delivery>& deliveries) {
+  std::vector<std::pair<double, TrackId>> ends;
+  for (TrackId track = 0; track < sky.size(); ++track) ends.emplace_back(sky.span(track).end, track);
+  std::sort(ends.begin(), ends.end());
+  VerdictHistory history;
+  const auto go_to = [&](double time) {
+    for (const MonitorEvent& event : monitor.events(std::max(time, monitor.time())))
+      if (event.kind == MonitorEventKind::verdict)
+        history[{event.first, event.second}].push_back({event.time, event.verdict});
+  };
+  auto end = ends.begin();
+  const auto let_go = [&](double until) {
+    for (; end != ends.end() && end->first <= until; ++end) {
+      go_to(end->first);
+      if (monitor.contains(end->second)) monitor.remove(end->second).value();
+    }
+  };
+  for (const Delivery& delivery : deliveries) {
+    let_go(delivery.time);
+    go_to(delivery.time);
+    monitor.report(delivery.track, delivery.report).value();
+    go_to(delivery.time);
+  }
+  let_go(ends.back().first);
+  return history;
+}
+
+Correctness correctness_of(const VerdictHistory& history, const RecordedSky& sky,
+                           const std::map<TrackPair, std::vector<Span>>& clearly,
+                           const std::map<TrackPair, std::vector<Span>>& loosely) {
+  Correctness correctness;
+  static const std::vector<VerdictChange> nothing_told;
+  for (TrackId first = 0; first < sky.size(); ++first)
+    for (TrackId second = first + 1; second < sky.size(); ++second) {
+      const TrackPair pair{first, second};
+      const Span there = both_there(sky, pair);
+      if (!(there.begin < there.end)) continue;
+      correctness.pair_time += there.end - there.begin;
+      for (const Span& span : of(clearly, pair)) correctness.within_time += overlap(span, there);
+      const auto at = history.find(pair);
+      for_each_verdict(at == history.end() ? nothing_told : at->second, there,
+                       [&](const Span& span, Verdict verdict) {
+                         if (verdict == Verdict::undecided)
+                           correctness.undecided_time += span.end - span.begin;
+                         double within = 0.0;
+                         for (const Span& truly : of(verdict == Verdict::within ? loosely : clearly, pair))
+                           within += overlap(truly, span);
+                         if (verdict == Verdict::apart) correctness.wrong_time += within;
+                         if (verdict == Verdict::within)
+                           correctness.wrong_time += std::max(0.0, span.end - span.begin - within);
+                       });
+    }
+  return correctness;
+}
+
+Alarms alarms_of(const VerdictHistory& history, const RecordedSky& sky) {
+  Alarms alarms;
+  for (const auto& [pair, changes] : history)
+    for_each_verdict(changes, both_there(sky, pair), [&, &which = pair](const Span& span, Verdict verdict) {
+      if (verdict == Verdict::apart) return;
+      std::vector<Span>& spans = alarms[which];
+      if (!spans.empty() && spans.back().end == span.begin)
+        spans.back().end = span.end;
+      else
+        spans.push_back(span);
+    });
+  return alarms;
+}
+
+Alarms straight_on_alarms(const RecordedSky& sky, const std::vector<Delivery>& deliveries, double distance,
+                          double look_ahead, double step) {
+  Alarms alarms;
+  std::map<TrackId, TrackReport> latest;
+  std::set<TrackPair> warned;
+  const auto warns = [&](const TrackReport& a, const TrackReport& b, double now) {
+    const auto ahead = [now](const TrackReport& report) {
+      return report.state.position + report.state.velocity * (now - report.timestamp);
+    };
+    const Vec3 offset = ahead(a) - ahead(b);
+    const Vec3 velocity = a.state.velocity - b.state.velocity;
+    const double v2 = norm_squared(velocity);
+    const double nearest = v2 > 0.0 ? std::clamp(-dot(offset, velocity) / v2, 0.0, look_ahead) : 0.0;
+    return norm(offset + velocity * nearest) <= distance;
+  };
+  const auto look = [&](double now) {
+    std::erase_if(latest, [&](const auto& known) { return sky.span(known.first).end <= now; });
+    std::set<TrackPair> warnings;
+    for (auto a = latest.begin(); a != latest.end(); ++a)
+      for (auto b = std::next(a); b != latest.end(); ++b)
+        if (warns(a->second, b->second, now)) warnings.insert({a->first, b->first});
+    for (const TrackPair& pair : warnings) {
+      std::vector<Span>& spans = alarms[pair];
+      if (warned.count(pair) == 0) spans.push_back({now, now});
+      spans.back().end = now + step;
+    }
+    warned = std::move(warnings);
+  };
+  if (deliveries.empty()) return alarms;
+  double next = (std::floor(deliveries.front().time / step) + 1.0) * step;
+  for (const Delivery& delivery : deliveries) {
+    for (; next <= delivery.time; next += step) look(next);
+    TrackReport& known = latest.try_emplace(delivery.track, delivery.report).first->second;
+    if (known.timestamp < delivery.report.timestamp) known = delivery.report;
+  }
+  return alarms;
+}
+
+AlarmScore score_of(const Alarms& alarms, const std::map<TrackPair, std::vector<Span>>& truth,
+                    double look_ahead) {
+  AlarmScore score;
+  Alarms distinct;
+  for (const auto& [pair, spans] : alarms)
+    for (const Span& span : spans) {
+      std::vector<Span>& joined = distinct[pair];
+      if (!joined.empty() && span.begin <= joined.back().end + look_ahead)
+        joined.back().end = span.end;
+      else
+        joined.push_back(span);
+    }
+  for (const auto& [pair, approaches] : truth)
+    for (const Span& approach : approaches) {
+      ++score.approaches;
+      std::optional<double> first;
+      for (const Span& alarm : of(distinct, pair))
+        if (!first && alarm.end >= approach.begin && alarm.begin <= approach.end) first = alarm.begin;
+      if (!first)
+        ++score.missed;
+      else if (*first > approach.begin)
+        ++score.late;
+    }
+  for (const auto& [pair, spans] : distinct)
+    for (const Span& alarm : spans) {
+      ++score.alarms;
+      const std::vector<Span>& approaches = of(truth, pair);
+      if (std::none_of(approaches.begin(), approaches.end(), [&](const Span& approach) {
+            return approach.begin <= alarm.end + look_ahead && approach.end >= alarm.begin;
+          }))
+        ++score.false_alarms;
+    }
+  return score;
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,125 @@
+// `kinesphere-bench paper`, with tiny sizes: every section leaves its tables, scripts and pictures.
+#include <set>
+
+#include "program/support.hpp"
+#include "research/bench/plot.hpp"
+#include "research/bench/sections.hpp"
+#include "research/tests/bench/bench_table.hpp"
+
+namespace kinesphere::program::bench_test {
+namespace {
+
+using Row = std::vector<std::string>;
+
+class BenchTest : public ProgramTest {
+ protected:
+  ProgramRun bench(const std::string& options) const {
+    ProgramRun result = run("paper --quick --output '" + path("out") + "-bench' " + options);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    return result;
+  }
+  std::string read(const std::string& name) const { return read_text(path("out-bench/" + name)); }
+
+  std::set<std::string> written() const {
+    std::set<std::string> found;
+    for (const auto& entry : std::filesystem::directory_iterator(path("out-bench")))
+      found.insert(entry.path().filename());
+    return found;
+  }
+
+  /// A table with as many rows, rectangular; empty cells only where nothing was published or nothing
+  /// happened.
+  std::vector<Row> table(const std::string& name, std::size_t rows) const {
+    std::vector<Row> found = csv_rows(read(name));
+    EXPECT_EQ(found.size(), rows + 1) << name;
+    for (const Row& row : found) {
+      EXPECT_EQ(row.size(), found.front().size()) << name;
+      for (std::size_t column = 0; column < row.size(); ++column) {
+        const std::string& heading = found.front()[column];
+        if (heading.starts_with("published") || heading == "speedup" || heading == "expected_to_measured")
+          continue;
+        EXPECT_NE(row[column], "") << name << ", " << heading;
+      }
+    }
+    return found;
+  }
+};
+
+TEST_F(BenchTest, EverySectionWritesItsTables) {
+  const ProgramRun result = bench("");
+  for (const Section& section : bench_sections())
+    EXPECT_NE(result.out.find(section.title), std::string::npos) << section.title;
+  for (const char* label : {"processor", "compiler", "flags", "version", "date"}) {
+    EXPECT_NE(result.out.find(label), std::string::npos) << label;
+    EXPECT_NE(read("machine.txt").find(label), std::string::npos) << label;
+  }
+
+  const auto figure5 = table("figure5.csv", 2);
+  EXPECT_EQ(csv_cell(figure5, 0, "n"), "20");
+  EXPECT_EQ(csv_cell(figure5, 1, "n"), "40");
+  EXPECT_EQ(csv_cell(figure5, 0, "paper_hash").size(), 16u);
+  const auto figure6 = table("figure6.csv", 2);
+  EXPECT_EQ(csv_cell(figure6, 1, "hash"), csv_cell(figure5, 1, "paper_hash"))
+      << "figures 5 and 6 are about the same runs";
+  EXPECT_GT(std::stoi(csv_cell(figure6, 1, "colliding")), 0);
+  table("table1.csv", 2);
+  table("table1_others.csv", 2);
+  const auto circulation = table("circulation.csv", 2);
+  EXPECT_EQ(csv_cell(circulation, 0, "detector"), "paper");
+  EXPECT_EQ(csv_cell(circulation, 0, "ratio"), "1");
+  table("growth.csv", 2);
+  const auto trimming = table("trimming.csv", 2);
+  EXPECT_EQ(csv_cell(trimming, 0, "hash"), csv_cell(trimming, 1, "hash"));
+  EXPECT_LT(std::stoi(csv_cell(trimming, 0, "inserted")), std::stoi(csv_cell(trimming, 1, "inserted")));
+  table("cells_sweep.csv", 3);
+  table("cells_choice.csv", 1);
+  table("cells_rates.csv", 5);
+}
+
+TEST_F(BenchTest, CurvesAreScriptsAndPictures) {
+  const ProgramRun result = bench("--only figure5,figure6,growth");
+  for (const std::string name : {"figure5", "figure6", "growth"}) {
+    const std::string script = read(name + ".gp");
+    EXPECT_NE(script.find("'" + name + ".csv'"), std::string::npos) << script;
+    EXPECT_EQ(written().count(name + ".svg"), has_gnuplot() ? 1u : 0u) << name;
+    if (has_gnuplot()) {
+      EXPECT_NE(read(name + ".svg").find("</svg>"), std::string::npos) << name;
+    }
+  }
+  EXPECT_EQ(result.out.find("gnuplot-nox") != std::string::npos, !has_gnuplot()) << result.out;
+}
+
+TEST_F(BenchTest, SpheresAreDrawn) {
+  bench("--only circulation");
+  const auto circles = [](const std::string& svg) {
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = svg.find("<circle", at)) != std::string::npos; ++at) ++count;
+    return count;
+  };
+  for (const char* name :
+       {"figure7a.svg", "figure7b.svg", "figure7c.svg", "figure8_0.svg", "figure8_2.svg"}) {
+    EXPECT_EQ(circles(read(name)), 50u) << name;
+    EXPECT_TRUE(read(name).ends_with("</svg>\n")) << name;
+  }
+  EXPECT_EQ(read("figure7a.svg").substr(0, 20000), read("figure8_0.svg").substr(0, 20000))
+      << "both at the start";
+  EXPECT_NE(read("figure7b.svg"), read("figure7a.svg"));
+}
+
+TEST_F(BenchTest, OnlyTheSectionsChosen) {
+  bench("--only trimming,cells");
+  EXPECT_EQ(written(), (std::set<std::string>{"cells_choice.csv", "cells_rates.csv", "cells_sweep.csv",
+                                              "machine.txt", "trimming.csv"}));
+}
+
+TEST_F(BenchTest, RefusesWrongOptions) {
+  expect_wrong_input("bench", {"subcommand"});
+  expect_wrong_input("paper --only figure5,figure9", {"--only", "figure5, figure6", "figure9"});
+  expect_wrong_input("paper --quick --full", {"--full", "--quick"});
+  const std::string file = write("file", "");
+  expect_wrong_input("paper --quick --output " + file, {"--output", file});
+}
+
+}  // namespace
+}  // namespace kinesphere::program::bench_test

@@ -1,0 +1,198 @@
+// A gas of hard spheres has the collision rate and the pressure that theory knows.
+#include "research/measures/gas_properties.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <sstream>
+
+#include "kinesphere/motion/ballistic.hpp"
+#include "simulation/oracle/oracle.hpp"
+#include "simulation/scene/make_scene.hpp"
+#include "support/expect_error.hpp"
+
+namespace kinesphere::gas_properties_test {
+namespace {
+
+SceneParameters small_gas() {
+  const auto& scenes = built_in_scenes();
+  SceneParameters gas = *std::find_if(scenes.begin(), scenes.end(),
+                                      [](const auto& scene) { return scene.name == "periodic_gas"; });
+  gas.bodies = 50;
+  gas.seconds = 1.0;
+  return gas;
+}
+
+TEST(HardSphereTheory, BeginsWithTheVirialsOfADiluteGas) {
+  const double packing = 1e-4;
+  EXPECT_NEAR(hard_sphere_compressibility(packing), 1.0 + 4.0 * packing + 10.0 * packing * packing, 1e-10);
+  EXPECT_EQ(hard_sphere_compressibility(0.0), 1.0);
+  EXPECT_EQ(hard_sphere_collision_rate(0.0), 0.0);
+}
+
+/// hardsphere_Z_and_collision_rate.csv of the project's data, to its six decimals.
+TEST(HardSphereTheory, IsThatOfTheReference) {
+  struct Row {
+    double packing, compressibility, rate;
+  };
+  for (const Row& row :
+       {Row{0.05, 1.227485, 0.770069}, Row{0.10, 1.521647, 1.765845}, Row{0.25, 3.080182, 7.041703},
+        Row{0.40, 6.945460, 20.126198}, Row{0.49, 12.170358, 37.813199}}) {
+    EXPECT_NEAR(hard_sphere_compressibility(row.packing), row.compressibility, 6e-7) << row.packing;
+    EXPECT_NEAR(hard_sphere_collision_rate(row.packing), row.rate, 2e-6) << row.packing;
+  }
+}
+
+TEST(HardSphereTheory, IsThatOfTheWholeReferenceTable) {
+  const char* const folder = std::getenv("KINESPHERE_DATA");
+  const auto path = std::filesystem::path(folder != nullptr ? folder : KINESPHERE_DEFAULT_DATA) /
+                    "hardsphere_ref/hardsphere_Z_and_collision_rate.csv";
+  std::ifstream file(path);
+  if (!file) GTEST_SKIP() << "no " << path;
+  std::string line;
+  std::getline(file, line);
+  int rows = 0;
+  for (; std::getline(file, line); ++rows) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream fields(line);
+    double packing, density, compressibility, carnahan_starling, rate;
+    fields >> packing >> density >> compressibility >> carnahan_starling >> rate;
+    EXPECT_NEAR(hard_sphere_compressibility(packing), compressibility, 6e-7) << line;
+    EXPECT_NEAR(hard_sphere_collision_rate(packing), rate, 2e-6) << line;
+  }
+  EXPECT_EQ(rows, 49);
+}
+
+class Gas : public testing::TestWithParam<double> {};
+
+/// A fifth of the contacts, 80 collisions of each sphere, are for the gas to forget its start. The standard
+/// error is then about 0.2 % (that of a count, 1 / sqrt(320,000), is 0.18 %); the finite size shifts by
+/// 1 / N = 0.05 %.
+TEST_P(Gas, HasTheRateAndThePressureOfTheory) {
+  const double packing = GetParam();
+  const GasBlocks blocks{.equilibration = 10, .measured = 40};
+  const double contacts = 400'000;
+  SceneParameters gas = small_gas();
+  gas.bodies = 2000;
+  gas.packing = packing;
+  gas.seconds = contacts / (0.5 * gas.bodies * hard_sphere_collision_rate(packing));
+  SCOPED_TRACE(testing::Message() << "packing " << packing << ", seed " << gas.seed);
+  const GasProperties found = measure_gas(make_scene(gas).value(), make_world_detector, blocks).value();
+  EXPECT_NEAR(found.packing, packing, 1e-12);
+
+  const auto expect_close = [](const Estimate& estimate, double theory) {
+    EXPECT_GT(estimate.standard_error, 0.0);
+    EXPECT_LT(estimate.standard_error, 0.004 * theory);
+    EXPECT_NEAR(estimate.value, theory, 0.005 * theory + 2.0 * estimate.standard_error);
+  };
+  expect_close(found.compressibility, hard_sphere_compressibility(packing));
+  expect_close(found.collision_rate, hard_sphere_collision_rate(packing));
+  EXPECT_LT(found.energy_change, 1e-11);
+  EXPECT_LT(found.momentum_change, 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(Packings, Gas, testing::Values(0.05, 0.25, 0.49));
+
+/// Two spheres that meet head on for ever: the virial is known.
+TEST(GasProperties, OfTwoSpheresAreCountedByHand) {
+  // They meet at 1.5 and, the other way round the box, at 5.5 and 9.5.
+  Scene scene;
+  scene.world = {.box = Box{{0, 0, 0}, {10, 10, 10}},
+                 .periodic = {true, true, true},
+                 .contact_tolerance = 1e-9,
+                 .contacts = ContactMode::impacts};
+  scene.bodies = {{.radius = 0.5}, {.radius = 0.5}};
+  scene.motion = std::make_unique<Ballistic>(
+      Ballistic::create({.start = {{{2, 5, 5}, {1, 0, 0}}, {{6, 5, 5}, {-1, 0, 0}}}}).value());
+  scene.response = SceneResponse::bounce;
+  scene.end_time = 8.0;
+  const GasBlocks blocks{.equilibration = 2, .measured = 6};
+  const GasProperties found = measure_gas(scene, make_world_detector, blocks).value();
+  // The sum of m v^2 is 2 = 3 (N - 1) kT, the exchanged momentum 2, and 6 the time that is measured.
+  const double temperature = 2.0 / 3.0;
+  EXPECT_EQ(found.contacts, 1u);
+  EXPECT_NEAR(found.packing, 3.14159265358979 / 3000.0, 1e-12);
+  EXPECT_NEAR(found.compressibility.value, 1.0 + 2.0 / (3.0 * 2.0 * temperature * 6.0), 1e-8);
+  EXPECT_NEAR(found.collision_rate.value, 2.0 / (2.0 * 6.0) / std::sqrt(temperature), 1e-8);
+  // One block has it all: the standard error is as large as the mean.
+  EXPECT_NEAR(found.collision_rate.standard_error, found.collision_rate.value, 1e-8);
+  EXPECT_NEAR(found.energy_change, 0.0, 1e-15);
+  EXPECT_EQ(found.result.counters.count(EventKind::contact_begin), 2u);
+}
+
+/// In units of its own diameter and temperature the same gas has the same properties.
+TEST(GasProperties, DoNotDependOnUnits) {
+  SceneParameters gas = small_gas();
+  const GasProperties one = measure_gas(make_scene(gas).value(), make_world_detector).value();
+  gas.radius_min = gas.radius_max = 4.0 * gas.radius_max;
+  gas.contact_tolerance *= 4.0;
+  gas.speed_min = gas.speed_max = 2.0 * gas.speed_max;
+  gas.seconds *= 2.0;
+  const GasProperties other = measure_gas(make_scene(gas).value(), make_world_detector).value();
+  EXPECT_GT(one.contacts, 50u);
+  EXPECT_EQ(other.contacts, one.contacts);
+  EXPECT_NEAR(other.collision_rate.value, one.collision_rate.value, 1e-6);
+  EXPECT_NEAR(other.compressibility.value, one.compressibility.value, 1e-3);
+}
+
+/// kT is that of the motion relative to the centre of mass.
+TEST(GasProperties, KnowNoCommonMotion) {
+  const auto measured = [](const Vec3& wind) {
+    Scene scene = make_scene(small_gas()).value();
+    std::vector<State> start;
+    for (std::uint32_t body = 0; body < scene.bodies.size(); ++body) {
+      start.push_back(scene.motion->state(body, 0.0));
+      start.back().velocity += wind;
+    }
+    scene.motion = std::make_unique<Ballistic>(Ballistic::create({.start = start}).value());
+    return measure_gas(scene, make_world_detector, {.equilibration = 0, .measured = 2}).value();
+  };
+  const GasProperties still = measured({});
+  const GasProperties windy = measured({0.5, -0.25, 0});
+  // The same few contacts, which chaos has not yet had time to change.
+  EXPECT_EQ(windy.contacts, still.contacts);
+  EXPECT_NEAR(windy.compressibility.value, still.compressibility.value, 1e-3);
+  EXPECT_NEAR(windy.collision_rate.value, still.collision_rate.value, 1e-9);
+}
+
+TEST(GasProperties, RefuseWhatIsNoGas) {
+  const auto refused = [](const std::string& argument, const SceneParameters& parameters,
+                          BodyId body = no_body) {
+    expect_error(measure_gas(make_scene(parameters).value(), make_world_detector), ErrorCode::unsupported,
+                 argument, "measure_gas:", body);
+  };
+  const auto but = [](auto change) {
+    SceneParameters gas = small_gas();
+    change(gas);
+    return gas;
+  };
+  ASSERT_TRUE(measure_gas(make_scene(small_gas()).value(), make_world_detector));
+  refused("periodic", but([](auto& gas) { gas.periodic = false; }));
+  refused("response", but([](auto& gas) { gas.response = SceneResponse::pass_through; }));
+  refused("response", but([](auto& gas) { gas.restitution = 0.9; }));
+  refused("response", but([](auto& gas) { gas.resting_speed = 0.1; }));
+  refused("bodies", but([](auto& gas) { gas.bodies = 1, gas.packing = 0.01; }));
+  refused("end_time", but([](auto& gas) { gas.seconds = 0.0; }));
+  refused("radius", but([](auto& gas) { gas.radius_min = 0.4; }), {1, 0});
+  refused("radius", but([](auto& gas) { gas.radius_min = gas.radius_max = gas.packing = 0.0; }), {0, 0});
+  refused("acceleration_limit", but([](auto& gas) { gas.gravity = {0, 0, -1}; }), {0, 0});
+  Scene scene = make_scene(small_gas()).value();
+  scene.bodies[3].appears = 0.5;
+  expect_error(measure_gas(scene, make_world_detector), ErrorCode::unsupported, "appears",
+               "measure_gas:", {3, 0});
+  scene = make_scene(small_gas()).value();
+  expect_error(measure_gas(scene, make_world_detector, {.measured = 1}), ErrorCode::out_of_range, "measured",
+               "measure_gas:");
+  expect_error(measure_gas(scene, make_world_detector, {.equilibration = -1}), ErrorCode::out_of_range,
+               "equilibration", "measure_gas:");
+  EXPECT_EQ(measure_gas(scene, make_oracle).error().code, ErrorCode::unsupported);
+}
+
+}  // namespace
+}  // namespace kinesphere::gas_properties_test

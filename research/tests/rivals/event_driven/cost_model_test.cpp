@@ -1,0 +1,221 @@
+// The cost model: against what can be worked out by hand, and against the detector itself.
+#include "research/rivals/event_driven/cost_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "kinesphere/random.hpp"
+#include "research/rivals/rivals.hpp"
+#include "simulation/detector/detector.hpp"
+#include "simulation/run/simulate.hpp"
+#include "simulation/scene/make_scene.hpp"
+#include "simulation/scene/scene.hpp"
+
+namespace kinesphere::cost_model_test {
+namespace {
+
+const Box box{{0, 0, 0}, {200, 200, 200}};
+
+/// The same edge in other units of length and time; exact for powers of two.
+std::vector<MovingSphere> scaled(std::vector<MovingSphere> spheres, double length, double time) {
+  for (MovingSphere& sphere : spheres) {
+    sphere.radius *= length;
+    sphere.speed *= length / time;
+    sphere.growth_speed *= length / time;
+    sphere.limit *= length / (time * time);
+  }
+  return spheres;
+}
+
+std::vector<MovingSphere> random_spheres(std::size_t count, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<MovingSphere> spheres(count);
+  for (MovingSphere& sphere : spheres) {
+    sphere.radius = random.uniform(0.1, 10.0);
+    sphere.speed = random.uniform(4.0, 43.0);
+    sphere.limit = random.uniform(10.0, 20.0);
+  }
+  return spheres;
+}
+
+CostModel model_of(const std::vector<MovingSphere>& spheres, const Box& extent = box, bool walls = true) {
+  return {spheres, extent, walls};
+}
+
+TEST(CostModel, counts_crossings_of_points_that_fly_straight) {
+  // A point crosses |v_x| + |v_y| + |v_z| over the edge planes a second; each component is v/2 on average.
+  const std::vector<MovingSphere> points(1, {.speed = 12.0});
+  // Of the planes 10 apart, 19 are inside of the box, and those on its walls count half.
+  const ExpectedRates rates = model_of(points, box, false).expected_rates(10.0);
+  EXPECT_NEAR(rates.entering, 3.0 * 6.0 * 20.0 / 200.0, 1e-9);
+  EXPECT_NEAR(rates.leaving, rates.entering, 1e-9);
+  EXPECT_NEAR(rates.resetting, 0.0, 1e-9);
+  EXPECT_EQ(rates.colliding, 0.0);
+  EXPECT_EQ(rates.pair_tests, 0.0);
+}
+
+TEST(CostModel, resets_a_body_at_rest_as_eq_8_says) {
+  const std::vector<MovingSphere> spheres(1, {.radius = 1.0, .limit = 2.0});
+  EXPECT_NEAR(model_of(spheres, box, false).expected_rates(10.0).resetting,
+              1.0 / std::sqrt((10.0 - 2.0) / 2.0), 1e-9);
+  const std::vector<MovingSphere> uncertain(1, {.radius = 1.0, .growth_speed = 3.0});
+  EXPECT_NEAR(model_of(uncertain, box, false).expected_rates(10.0).resetting, 3.0 / 4.0, 1e-9);
+}
+
+/// Spheres in a dilute gas, where nothing grows, meet as in kinetic theory; and are looked at a few times
+/// more.
+TEST(CostModel, counts_collisions_as_kinetic_theory_does) {
+  constexpr double bodies = 1000.0, radius = 0.1, speed = 10.0;
+  const std::vector<MovingSphere> spheres(static_cast<std::size_t>(bodies),
+                                          {.radius = radius, .speed = speed});
+  const double relative_speed = std::numbers::sqrt2 * speed;
+  const double cross_section = std::numbers::pi * 4.0 * radius * radius;
+  const double contacts = 0.5 * bodies * (bodies - 1.0) / 8e6 * cross_section * relative_speed;
+  const double colliding = model_of(spheres, box, false).expected_rates(10.0).colliding;
+  EXPECT_GT(colliding, contacts);
+  EXPECT_LT(colliding, 5.0 * contacts);
+  const double with_walls = model_of(spheres).expected_rates(10.0).colliding;
+  EXPECT_GT(with_walls, colliding + bodies * 6.0 / 200.0 * speed / 4.0);
+}
+
+TEST(CostModel, tests_all_pairs_where_one_cell_holds_all) {
+  constexpr std::size_t bodies = 100;
+  const std::vector<MovingSphere> spheres(bodies, {.radius = 0.5, .speed = 1.0, .limit = 1.0});
+  const Box extent{{1, 1, 1}, {19, 19, 19}};
+  const ExpectedRates rates = model_of(spheres, extent, false).expected_rates(40.0);
+  EXPECT_EQ(rates.entering, 0.0);
+  EXPECT_EQ(rates.leaving, 0.0);
+  EXPECT_GT(rates.pair_tests, rates.colliding * (bodies - 1.0));
+}
+
+TEST(CostModel, chooses_the_same_cells_in_any_units) {
+  const std::vector<MovingSphere> spheres = random_spheres(300, 1);
+  const double edge = model_of(spheres).choose_cell_edge();
+  for (const double length : {0x1p-40, 0.5, 1024.0, 0x1p40})
+    for (const double time : {0x1p-20, 1.0, 0x1p20}) {
+      const Box extent{box.lower * length, box.upper * length};
+      EXPECT_EQ(model_of(scaled(spheres, length, time), extent).choose_cell_edge(), edge * length)
+          << length << " " << time;
+    }
+}
+
+TEST(CostModel, does_not_depend_on_the_order_of_the_bodies) {
+  std::vector<MovingSphere> spheres = random_spheres(1000, 2);
+  const double edge = model_of(spheres).choose_cell_edge();
+  std::rotate(spheres.begin(), spheres.begin() + 1, spheres.end());
+  EXPECT_EQ(model_of(spheres).choose_cell_edge(), edge);
+}
+
+TEST(CostModel, chooses_the_least_cost) {
+  for (const std::size_t bodies : {10u, 100u, 1000u, 5000u}) {
+    const CostModel model = model_of(random_spheres(bodies, 3));
+    const double chosen = model.expected_rates(model.choose_cell_edge()).cost;
+    for (double edge = 0.5; edge < 400.0; edge *= 1.1)
+      EXPECT_LE(chosen, 1.1 * model.expected_rates(edge).cost) << bodies << " bodies, edge " << edge;
+  }
+}
+
+TEST(CostModel, makes_cells_smaller_for_more_bodies_and_larger_for_faster_ones) {
+  const auto edge_for = [](std::size_t bodies, double speed) {
+    return model_of(std::vector<MovingSphere>(bodies, {.radius = 0.1, .speed = speed, .limit = 1.0}))
+        .choose_cell_edge();
+  };
+  EXPECT_LT(edge_for(10000, 10.0), edge_for(100, 10.0));
+  EXPECT_GT(edge_for(1000, 1000.0), edge_for(1000, 1.0));
+}
+
+TEST(CostModel, has_an_answer_for_unusual_bodies) {
+  const Box point{{3, 3, 3}, {3, 3, 3}};
+  const Box plane{{0, 0, 5}, {100, 100, 5}};
+  const std::vector<std::vector<MovingSphere>> unusual{
+      {},
+      {{}},
+      {{.radius = 1.0}},
+      {{.limit = 1.0}},
+      {{.speed = 1e9}},
+      {{.growth_speed = 2.0}},
+      std::vector<MovingSphere>(50),
+      std::vector<MovingSphere>(50, {.radius = 1.0}),
+      std::vector<MovingSphere>(50, {.radius = 1e3, .speed = 1e-3}),
+      {{.radius = 1e-3, .speed = 1.0}, {.radius = 1e3, .limit = 5.0}, {.limit = 1e-9}},
+  };
+  for (const auto& spheres : unusual)
+    for (const Box& extent : {box, point, plane})
+      for (const bool walls : {false, true}) {
+        const CostModel model = model_of(spheres, extent, walls);
+        const double edge = model.choose_cell_edge();
+        EXPECT_GT(edge, 0.0);
+        EXPECT_LT(edge, 1e6);
+        const ExpectedRates rates = model.expected_rates(edge);
+        for (const double rate : {rates.entering, rates.leaving, rates.resetting, rates.colliding,
+                                  rates.pair_tests, rates.visits, rates.cost}) {
+          EXPECT_GE(rate, 0.0);
+          EXPECT_TRUE(std::isfinite(rate));
+        }
+      }
+}
+
+/// A scene as in the paper, and what became of it with cells of some edge.
+class CostModelOfScene : public testing::TestWithParam<std::uint32_t> {
+ protected:
+  CostModelOfScene() : scene_(make_scene({.bodies = GetParam(), .seconds = 1.0}).value()) {}
+
+  CostModel model() const {
+    std::vector<MovingSphere> spheres;
+    for (std::uint32_t k = 0; k < scene_.bodies.size(); ++k) {
+      const BodyDefinition body = scene_.motion->definition(k, 0.0);
+      spheres.push_back({.radius = scene_.bodies[k].radius,
+                         .speed = norm(body.velocity),
+                         .limit = body.acceleration_limit});
+    }
+    return model_of(spheres);
+  }
+
+  DetectorCounters run(double edge) const {
+    const auto paper = [edge](const WorldDefinition& definition, const Motion& motion) {
+      return make_paper_detector(definition, motion, {.cell_edge = edge});
+    };
+    return simulate(scene_, paper).value().counters;
+  }
+
+  Scene scene_;
+};
+
+void expect_near_factor(double expected, std::uint64_t measured, double factor, const char* what) {
+  EXPECT_LT(expected, factor * static_cast<double>(measured)) << what;
+  EXPECT_GT(expected * factor, static_cast<double>(measured)) << what;
+}
+
+TEST_P(CostModelOfScene, expects_what_happens) {
+  for (const double edge : {10.0, 25.0, 60.0}) {
+    SCOPED_TRACE(edge);
+    const ExpectedRates expected = model().expected_rates(edge);
+    const DetectorCounters measured = run(edge);
+    expect_near_factor(expected.entering, measured.entering, 3.0, "entering");
+    expect_near_factor(expected.leaving, measured.leaving, 3.0, "leaving");
+    expect_near_factor(expected.colliding, measured.colliding, 1.5, "colliding");
+    expect_near_factor(expected.pair_tests, measured.certificates, 2.0, "pair tests");
+  }
+}
+
+/// By operations counted, not timed: the same on every machine.
+TEST_P(CostModelOfScene, chooses_cells_that_are_within_a_quarter_of_the_best) {
+  const auto cost = [this](double edge) {
+    const DetectorCounters counters = run(edge);
+    return static_cast<double>(counters.certificates) * UnitCosts::pair_test +
+           static_cast<double>(counters.event_insertions + counters.event_removals) *
+               UnitCosts::tree_operation +
+           static_cast<double>(counters.entering + counters.leaving) * 4.0 * UnitCosts::cell_operation +
+           static_cast<double>(counters.probes) * (UnitCosts::probe + 8.0 * UnitCosts::cell_operation);
+  };
+  const double chosen = cost(model().choose_cell_edge());
+  for (double edge = 1.6; edge < 110.0; edge *= 1.5) EXPECT_LT(chosen, 1.25 * cost(edge)) << edge;
+}
+
+INSTANTIATE_TEST_SUITE_P(Bodies, CostModelOfScene, testing::Values(100, 400));
+
+}  // namespace
+}  // namespace kinesphere::cost_model_test

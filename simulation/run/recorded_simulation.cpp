@@ -1,0 +1,56 @@
+// The recording of a simulation, gone through again.
+#include <map>
+
+#include "kinesphere/event_hash.hpp"
+#include "kinesphere/recording.hpp"
+#include "simulation/detector/numbered_event.hpp"
+#include "simulation/run/recorded_simulation.hpp"
+#include "simulation/run/simulate.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// The numbers of bodies, those too that are gone by the time of an event.
+class Numbers {
+ public:
+  void see(const World& world) {
+    for (const BodyId id : world.bodies())
+      numbers_[id] = static_cast<std::uint32_t>(world.user_data(id).value());
+  }
+  std::uint32_t of(BodyId id, const World& world) {
+    if (const auto data = world.user_data(id)) return static_cast<std::uint32_t>(*data);
+    return numbers_[id];
+  }
+
+ private:
+  std::map<BodyId, std::uint32_t> numbers_;
+};
+
+}  // namespace
+
+Result<SimulationResult> replay(std::span<const std::byte> recording) {
+  auto opened = Replay::open(recording);
+  if (!opened) return opened.error();
+  const World& world = opened->world();
+  const double start = world.time();
+  Numbers numbers;
+  EventHash hash;
+  SimulationResult result;
+  while (!opened->finished()) {
+    const double before = world.time();
+    const auto event = opened->advance();
+    if (!event) return event.error();
+    result.body_time += (world.time() - before) * static_cast<double>(world.size());
+    // Between events bodies come and go.
+    if (*event)
+      hash.add(numbered(**event, [&](BodyId id) { return numbers.of(id, world); }));
+    else
+      numbers.see(world);
+  }
+  result.counters = {world.counters()};
+  result.simulated_time = world.time() - start;
+  result.contact_hash = hash.value();
+  return result;
+}
+
+}  // namespace kinesphere

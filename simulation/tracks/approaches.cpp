@@ -1,0 +1,75 @@
+// When which two bodies of a recording were close, and how close they came.
+#include "simulation/tracks/approaches.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "simulation/oracle/gap_course.hpp"
+
+namespace kinesphere {
+namespace {
+
+Approach begun(const Scene& scene, const Event& event) {
+  const SceneBody& first = scene.bodies[event.first.index];
+  const SceneBody& second = scene.bodies[event.second.index];
+  return {.first = event.first.index,
+          .second = event.second.index,
+          .begin = event.time,
+          .end = std::min({first.vanishes, second.vanishes, scene.end_time}),
+          .begins_with_track = event.time <= std::max(first.appears, second.appears),
+          .ends_with_track = true};
+}
+
+ClosestApproach closest_in(const Motion& motion, const Approach& approach) {
+  const Trajectory first = motion.trajectory(approach.first, approach.begin, approach.end);
+  const Trajectory second = motion.trajectory(approach.second, approach.begin, approach.end);
+  const GapCourse::Least least = GapCourse(first, second, 0.0).least(approach.begin, approach.end);
+  const State a = segment_at(first, least.time).state_at(least.time);
+  const State b = segment_at(second, least.time).state_at(least.time);
+  return {.time = least.time,
+          .distance = least.gap,
+          .first = a.position,
+          .second = b.position,
+          .relative_speed = norm(a.velocity - b.velocity)};
+}
+
+}  // namespace
+
+std::vector<Approach> approaches_in(const Scene& scene, const std::vector<Event>& events) {
+  std::vector<Approach> approaches;
+  std::map<std::pair<BodyId, BodyId>, std::size_t> last;
+  for (const Event& event : events) {
+    const std::pair bodies{event.first, event.second};
+    if (event.kind == EventKind::contact_begin) {
+      last[bodies] = approaches.size();
+      approaches.push_back(begun(scene, event));
+    } else if (const auto found = last.find(bodies);
+               event.kind == EventKind::contact_end && found != last.end()) {
+      Approach& approach = approaches[found->second];
+      approach.ends_with_track = event.time >= approach.end;
+      approach.end = event.time;
+    }
+  }
+  return approaches;
+}
+
+void find_closest(const Motion& motion, std::vector<Approach>& approaches) {
+  for (Approach& approach : approaches) approach.closest = closest_in(motion, approach);
+}
+
+std::vector<std::size_t> closest_of(const std::vector<Approach>& approaches, std::size_t most) {
+  std::vector<std::size_t> order(approaches.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto closer = [&](std::size_t a, std::size_t b) {
+    const double difference = approaches[a].closest.distance - approaches[b].closest.distance;
+    return difference != 0.0 ? difference < 0.0 : a < b;
+  };
+  const auto shown = static_cast<std::ptrdiff_t>(std::min(most, order.size()));
+  std::partial_sort(order.begin(), order.begin() + shown, order.end(), closer);
+  order.resize(static_cast<std::size_t>(shown));
+  return order;
+}
+
+}  // namespace kinesphere

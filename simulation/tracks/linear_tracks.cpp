@@ -1,0 +1,107 @@
+// Motion along recorded tracks: straight on from sample to sample.
+#include "simulation/tracks/linear_tracks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "motion/checks.hpp"
+#include "number/infinity.hpp"
+
+namespace kinesphere {
+namespace {
+
+Trajectory straight_lines(const Track& track) {
+  Trajectory result;
+  for (std::size_t k = 0; k + 1 < track.size(); ++k) {
+    const TrackSample& here = track[k];
+    const TrackSample& next = track[k + 1];
+    result.push_back({.begin = here.time,
+                      .end = next.time,
+                      .position = here.position,
+                      .velocity = (next.position - here.position) / (next.time - here.time)});
+  }
+  return result;
+}
+
+}  // namespace
+
+Result<LinearTracks> LinearTracks::create(const std::vector<Track>& tracks) {
+  // The same samples are wrong for both.
+  if (auto curves = RecordedTracks::create(tracks); !curves) return curves.error();
+  std::vector<Trajectory> trajectories;
+  trajectories.reserve(tracks.size());
+  for (const Track& track : tracks) trajectories.push_back(straight_lines(track));
+  return LinearTracks(std::move(trajectories));
+}
+
+LinearTracks::LinearTracks(std::vector<Trajectory> trajectories)
+    : trajectories_(std::move(trajectories)), last_turns_(trajectories_.size(), -infinity) {}
+
+std::vector<SceneTurn> LinearTracks::turns() const {
+  std::vector<SceneTurn> turns;
+  for (std::uint32_t body = 0; body < trajectories_.size(); ++body) {
+    const Trajectory& trajectory = trajectories_[body];
+    for (std::size_t k = 1; k < trajectory.size(); ++k)
+      turns.push_back({trajectory[k].begin, body, trajectory[k].velocity});
+  }
+  return turns;
+}
+
+void LinearTracks::require_known(std::uint32_t body, double t) const {
+  if (body >= size() || !std::isfinite(t)) [[unlikely]]
+    refuse_question("state", *this, body, "t", t, {-infinity, infinity});
+}
+
+/// The one that ends at t, unless the turn there has been told.
+const Segment& LinearTracks::segment(std::uint32_t body, double t) const {
+  require_known(body, t);
+  const Trajectory& known = trajectories_[body];
+  const bool turned = t <= last_turns_[body];
+  const auto begins_after = [turned](double time, const Segment& segment) {
+    return turned ? time < segment.begin : time <= segment.begin;
+  };
+  return *(std::upper_bound(known.begin() + 1, known.end(), t, begins_after) - 1);
+}
+
+BodyDefinition LinearTracks::definition(std::uint32_t body, double t) const {
+  const State now = state(body, t);
+  return {.acceleration_limit = 0.0, .position = now.position, .velocity = now.velocity};
+}
+
+State LinearTracks::state(std::uint32_t body, double t) const { return segment(body, t).state_at(t); }
+
+Trajectory LinearTracks::trajectory(std::uint32_t body, double begin, double end) const {
+  require_known(body, begin);
+  if (!std::isfinite(end)) refuse_question("trajectory", *this, body, "end", end, {begin, infinity});
+  if (end < begin) refuse_order("trajectory", body, begin, end);
+  const Trajectory& known = trajectories_[body];
+  const auto begins_after = [](double time, const Segment& segment) { return time < segment.begin; };
+  auto next = std::upper_bound(known.begin() + 1, known.end(), begin, begins_after) - 1;
+  Trajectory result;
+  while (result.empty() || (result.back().end < end && next != known.end())) result.push_back(*next++);
+  // Straight on before the first sample and after the last.
+  if (begin < result.front().begin) {
+    Segment& first = result.front();
+    first.position += (begin - first.begin) * first.velocity;
+    first.begin = begin;
+  }
+  result.back().end = end;
+  return result;
+}
+
+Result<void> LinearTracks::set_velocity(std::uint32_t body, double t, const Vec3& velocity) {
+  if (auto wrong = wrong_body("set_velocity", *this, body)) return *wrong;
+  const Trajectory& known = trajectories_[body];
+  const auto begins_before = [](const Segment& segment, double time) { return segment.begin < time; };
+  const auto turn = std::lower_bound(known.begin() + 1, known.end(), t, begins_before);
+  if (turn == known.end() || turn->begin != t || !(turn->velocity == velocity))
+    return cannot_change("set_velocity", *this, body, "turned but at their samples");
+  last_turns_[body] = t;
+  return {};
+}
+
+std::unique_ptr<Motion> LinearTracks::clone() const { return std::make_unique<LinearTracks>(*this); }
+
+}  // namespace kinesphere
