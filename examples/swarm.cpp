@@ -12,7 +12,7 @@
 using namespace kinesphere;
 
 int main() {
-  const double tick = 0.1, seconds = 20.0, reaction = 0.7, agility = 4.0;
+  const double tick = 0.1, seconds = 4.0, reaction = 0.7, agility = 4.0;
   const Vec3 middle{70, 70, 70};
 
   std::vector<State> start;

@@ -11,8 +11,8 @@
 
 namespace kinesphere::program {
 
-CLI::App* add_bench_options(CLI::App& command, BenchOptions& options, const std::vector<std::string>& names,
-                            const std::string& full_description) {
+void add_bench_options(CLI::App& command, BenchOptions& options, const std::vector<std::string>& names,
+                       const std::string& full_description) {
   command
       .add_option("--output", options.output, "Folder for tables (CSV), figures (SVG) and gnuplot scripts")
       ->type_name("FOLDER")

@@ -19,8 +19,8 @@ struct BenchOptions {
 };
 
 /// --output, --only, --full and --quick. `options` must live until the command line has been parsed.
-CLI::App* add_bench_options(CLI::App& command, BenchOptions& options, const std::vector<std::string>& names,
-                            const std::string& full_description);
+void add_bench_options(CLI::App& command, BenchOptions& options, const std::vector<std::string>& names,
+                       const std::string& full_description);
 
 /// Throws ProgramError when --only names what is not there, or both --full and --quick are given.
 void check_bench_options(const BenchOptions& options, const std::vector<std::string>& names);

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "kinesphere/random.hpp"
-#include "support/read_back.hpp"
 
 namespace kinesphere::box_block_test {
 namespace {
@@ -156,18 +155,6 @@ TEST(BoxBlock, finds_who_stands_in_the_first_places) {
 TEST(BoxBlock, fills_two_cache_lines) {
   EXPECT_EQ(sizeof(BoxBlock), 128u);
   EXPECT_EQ(alignof(BoxBlock), 64u);
-}
-
-TEST(BoxBlock, comes_back_from_an_archive) {
-  BoxBlock block, back;
-  block.put(0, {{65535, 0, 2}, {5, 32767, 3}}, 9);
-  EXPECT_TRUE(read_back(block, back));
-  EXPECT_EQ(back, block);
-  EXPECT_EQ(back.body(0), 9u);
-}
-
-TEST(StepBox, has_an_extent_across_the_end_of_its_numbers) {
-  EXPECT_EQ((StepBox{{0, 65530, 2}, {3, 4, 2}}.extent()), 10);
 }
 
 }  // namespace

@@ -39,16 +39,6 @@ class MirroredGrid {
                                        << testing::PrintToString(expected);
   }
 
-  /// The registrations are as the grid promises.
-  testing::AssertionResult well_registered() const {
-    if (grid_.size() != boxes_.size())
-      return testing::AssertionFailure() << grid_.size() << " bodies instead of " << boxes_.size();
-    for (const auto& [body, box] : boxes_)
-      if (const auto problem = grid_.check(body, box))
-        return testing::AssertionFailure() << "body " << body << " " << *problem;
-    return testing::AssertionSuccess();
-  }
-
   const HashGrid& grid() const { return grid_; }
   const std::map<std::uint32_t, Box>& boxes() const { return boxes_; }
 

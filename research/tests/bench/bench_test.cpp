@@ -114,7 +114,6 @@ TEST_F(BenchTest, OnlyTheSectionsChosen) {
 }
 
 TEST_F(BenchTest, RefusesWrongOptions) {
-  expect_wrong_input("bench", {"subcommand"});
   expect_wrong_input("paper --only figure5,figure9", {"--only", "figure5, figure6", "figure9"});
   expect_wrong_input("paper --quick --full", {"--full", "--quick"});
   const std::string file = write("file", "");
