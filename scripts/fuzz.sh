@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
-# Lets each fuzzer look for failures, each for so many seconds (default 60), starting from their corpora, and adds
-# to those what reaches code that they did not reach. Fails, and keeps the input in build/fuzz/, when one is found.
+# Sets up what is missing, builds the fuzzers and runs each for this many seconds (default 60) from its corpus in
+# tests/fuzz/corpus. Inputs that reach code which the corpus does not reach are added to it. Fails when a fuzzer finds a
+# failure, and keeps that input in build/fuzz/.
 # Usage: fuzz.sh [seconds]
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 seconds=${1:-60}
-# Each target, and the longest input that it is given, in bytes.
+# The length in bytes of the longest input, by target.
 declare -A longest=([operations]=2404 [snapshot]=1024 [mended]=121 [monitor]=4096 [http]=20000)
+scripts/setup.sh test
 cmake --preset fuzz >/dev/null
 cmake --build --preset fuzz --target "${!longest[@]/#/fuzz_}"
 

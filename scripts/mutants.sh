@@ -9,6 +9,7 @@ if [[ $# -gt 0 ]]; then mutants=("$@"); else mutants=(tests/mutants/*.patch rese
 
 copy=build/mutants/source
 build=build/mutants/build
+scripts/setup.sh test
 rm -rf "$copy"
 mkdir -p "$copy"
 git ls-files -z CMakeLists.txt cmake include src simulation research tests | xargs -0 cp --parents -t "$copy"
