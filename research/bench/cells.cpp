@@ -68,7 +68,7 @@ void add_case(Tables& tables, const Case& what, const BenchSettings& settings) {
                       1e-6 * model.expected_rates(factor * chosen).cost, series[k].contacts(),
                       series[k].hash()});
   }
-  const double to_best = ratio(series[own], series[best]);
+  const double to_best = ratio(series[own], series[best]).median;
   tables.choice.row({std::uint64_t{what.bodies}, what.speed, chosen, settings.cell_factors[best] * chosen,
                      to_best, to_best <= good_enough});
   add_rates(tables.rates, what, model.expected_rates(chosen), series[own].runs.front());

@@ -19,6 +19,18 @@ ContactCounts count_contacts(const Scene& scene, const DetectorMaker& make) {
   return counts;
 }
 
+ContactCounts body_contacts(const ContactCounts& counts) {
+  ContactCounts found = counts;
+  std::erase_if(found, [](const auto& entry) { return std::get<2>(entry.first) != Wall::none; });
+  return found;
+}
+
+ContactCounts wall_contacts(const ContactCounts& counts) {
+  ContactCounts found = counts;
+  std::erase_if(found, [](const auto& entry) { return std::get<2>(entry.first) == Wall::none; });
+  return found;
+}
+
 std::uint64_t total(const ContactCounts& counts) {
   std::uint64_t sum = 0;
   for (const auto& [pair, count] : counts) sum += count;

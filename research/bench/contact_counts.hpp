@@ -16,6 +16,9 @@ using ContactCounts = std::map<std::tuple<std::uint32_t, std::uint32_t, Wall>, s
 /// Throws ProgramError.
 ContactCounts count_contacts(const Scene& scene, const DetectorMaker& make);
 
+/// The contacts of two bodies alone, or of a body and a wall alone.
+ContactCounts body_contacts(const ContactCounts& counts);
+ContactCounts wall_contacts(const ContactCounts& counts);
 std::uint64_t total(const ContactCounts& counts);
 /// How many of the contacts in `truth` are not in `seen`.
 std::uint64_t missed(const ContactCounts& truth, const ContactCounts& seen);

@@ -42,13 +42,6 @@ SceneParameters built_in(std::string_view name, std::uint32_t bodies, double sec
   return parameters;
 }
 
-template <class Value>
-double median_of(const std::vector<Run>& runs, Value value) {
-  std::vector<double> values(runs.size());
-  std::transform(runs.begin(), runs.end(), values.begin(), value);
-  return median(std::move(values));
-}
-
 }  // namespace
 
 double cpu_seconds() {
@@ -57,12 +50,23 @@ double cpu_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-double Series::per_simulated_second() const {
-  return median_of(runs, [](const Run& run) { return run.per_simulated_second(); });
+Spread spread(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t quarter = values.size() / 4;
+  return {median(values), values[quarter], values[values.size() - 1 - quarter]};
+}
+
+Spread Series::spread() const {
+  std::vector<double> values(runs.size());
+  std::transform(runs.begin(), runs.end(), values.begin(),
+                 [](const Run& run) { return run.per_simulated_second(); });
+  return program::spread(std::move(values));
 }
 
 double Series::preparing() const {
-  return median_of(runs, [](const Run& run) { return run.preparing; });
+  std::vector<double> values(runs.size());
+  std::transform(runs.begin(), runs.end(), values.begin(), [](const Run& run) { return run.preparing; });
+  return median(std::move(values));
 }
 
 std::uint64_t Series::contacts() const {
@@ -78,11 +82,11 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
-double ratio(const Series& series, const Series& other) {
+Spread ratio(const Series& series, const Series& other) {
   std::vector<double> ratios;
   for (std::size_t k = 0; k < series.runs.size(); ++k)
     ratios.push_back(series.runs[k].simulating / other.runs[k].simulating);
-  return median(std::move(ratios));
+  return spread(std::move(ratios));
 }
 
 std::vector<Series> measure(const std::vector<NamedDetector>& detectors, const std::vector<Scene>& scenes,

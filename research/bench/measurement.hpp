@@ -28,12 +28,20 @@ struct Run {
   }
 };
 
+/// A median with its error bar: the first and the third quartile, of three values the least and the largest.
+struct Spread {
+  double median, low, high;
+};
+/// Expects at least one value.
+Spread spread(std::vector<double> values);
+
 /// What one detector took for the same work as the others.
 struct Series {
   std::vector<Run> runs;
 
-  double per_simulated_second() const;  ///< median of the runs
-  double preparing() const;             ///< median of the runs
+  double per_simulated_second() const { return spread().median; }
+  Spread spread() const;     ///< of the runs (seconds per simulated second)
+  double preparing() const;  ///< median of the runs
   /// Of the first run: of the first scene, that is.
   const SimulationResult& result() const { return runs.front().result; }
   std::uint64_t contacts() const;  ///< of bodies and walls, in the first run
@@ -41,8 +49,8 @@ struct Series {
 };
 
 double median(std::vector<double> values);
-/// How many times as long as `other`: the median over runs that took turns.
-double ratio(const Series& series, const Series& other);
+/// How many times as long as `other`, over runs that took turns.
+Spread ratio(const Series& series, const Series& other);
 
 /// Every detector on every scene, `repetitions` times, in turns, so that a busy machine is as bad for one as
 /// for the others. The answer has one series for each detector. Throws ProgramError.

@@ -13,8 +13,7 @@ namespace kinesphere::program {
 
 void add_bench_options(CLI::App& command, BenchOptions& options, const std::vector<std::string>& names,
                        const std::string& full_description) {
-  command
-      .add_option("--output", options.output, "Folder for tables (CSV), figures (SVG) and gnuplot scripts")
+  command.add_option("--output", options.output, "Folder for tables (CSV), figures and gnuplot scripts")
       ->type_name("FOLDER")
       ->capture_default_str();
   command.add_option("--only", options.only, fmt::format("Some of {}", fmt::join(names, ",")))

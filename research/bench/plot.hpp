@@ -4,12 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "kinesphere/vec3.hpp"
+
 namespace kinesphere::program {
 
 struct Curve {
   std::string column;  ///< of the CSV file
   std::string title;
-  bool line = true;  ///< points alone otherwise
+  bool line = true;         ///< points alone otherwise
+  bool error_bars = false;  ///< from the column with the suffix _low to that with the suffix _high
 };
 
 struct Plot {
@@ -25,6 +28,15 @@ struct Plot {
 
 /// The gnuplot script, to be run in the folder of the CSV file.
 std::string gnuplot_script(const Plot& plot);
+
+/// Spheres in a box, seen from the front along y.
+struct SpherePlot {
+  std::string name;  ///< of its files: NAME.csv with x, y, z and radius (length), far spheres first; NAME.gp,
+                     ///< NAME.svg
+  std::string title;
+  Box box;
+};
+std::string gnuplot_script(const SpherePlot& plot);
 
 bool has_gnuplot();
 /// Runs NAME.gp in the folder. Throws ProgramError when gnuplot fails.

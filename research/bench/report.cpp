@@ -62,6 +62,12 @@ void Report::plot(const Plot& plot) const {
   if (draws_) run_gnuplot(folder_, plot.name);
 }
 
+void Report::plot(const SpherePlot& plot, const ResultTable& spheres) const {
+  save(plot.name, spheres);
+  file(plot.name + ".gp", gnuplot_script(plot));
+  if (draws_) run_gnuplot(folder_, plot.name);
+}
+
 void Report::file(const std::string& name, std::string_view text) const {
   OutputFile file(fmt::format("{}/{}", folder_, name));
   file.write(text);

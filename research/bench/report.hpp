@@ -23,8 +23,9 @@ class Report {
   void table(const std::string& name, const ResultTable& table) const;
   /// Saved alone.
   void save(const std::string& name, const ResultTable& table) const;
-  /// Saved as a script; drawn where gnuplot is installed.
+  /// Saved as a script, and with its table if one is given; drawn where gnuplot is installed.
   void plot(const Plot& plot) const;
+  void plot(const SpherePlot& plot, const ResultTable& spheres) const;
   void file(const std::string& name, std::string_view text) const;
 
  private:

@@ -17,7 +17,7 @@ void bench_trimming(const Report& report, const BenchSettings& settings) {
       const DetectorCounters& c = one.result().counters;
       table.row({std::uint64_t{trial.bodies}, trial.seconds, std::string(trimming ? "on" : "off"),
                  c.event_insertions, c.event_removals, c.largest_queue, 1e3 * one.per_simulated_second(),
-                 ratio(one, series[0]), one.contacts(), one.hash()});
+                 ratio(one, series[0]).median, one.contacts(), one.hash()});
     }
     same = same && series[0].hash() == series[1].hash();
   }
