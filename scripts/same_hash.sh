@@ -4,20 +4,25 @@
 # and go through a recording of that build without diverging. The same again for a user of each of them who compiles its
 # headers in ways that change rounding, without inlining, so that copies of inline functions are left for the linker to
 # choose from.
-# Usage: same_hash.sh <the executable scene_hash> [<name of a build>]
-#   With a name only that build is made, on one core.
+# Usage: same_hash.sh [<the executable scene_hash> [<name of a build>]]
+#   Without an executable that of the preset ci is built. With a name only that build is made, on one core.
 set -euo pipefail
 
-scene_hash=$(realpath "$1")
+if [[ $# -gt 0 ]]; then scene_hash=$(realpath "$1"); fi
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+if [[ $# == 0 ]]; then
+  cmake --preset ci
+  cmake --build --preset ci --target scene_hash
+  scene_hash=$PWD/build/ci/tests/scene_hash
+fi
 
 # Name, compiler and flags of each build; the one given is one more. Both compilers with all that this processor has
 # (-march=native brings in fused multiply-add and wider vectors), once as a shared library; and one without optimisation,
 # with sanitizers.
 configurations=(
   "clang-O0-sanitized clang++ -O0 -fsanitize=address,undefined -fno-sanitize-recover=all"
-  "gcc-O3-native-shared g++ -O3 -DNDEBUG -march=native"
-  "clang-O3-native clang++ -O3 -DNDEBUG -march=native"
+  "gcc-O3-native g++ -O3 -DNDEBUG -march=native"
+  "clang-O3-native-shared clang++ -O3 -DNDEBUG -march=native"
 )
 
 foreign_flags=(-std=c++20 -O2 -fno-inline -ffp-contract=fast)

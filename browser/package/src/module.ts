@@ -230,7 +230,7 @@ export async function load(options: LoadOptions = {}): Promise<void> {
   loaded ??= module;
 }
 
-/** Of the library, such as "0.2.0". */
+/** Of the library, such as "0.3.0". */
 export function version(): string {
   const module = theModule();
   return module.text(module.call("library_version"));
