@@ -25,9 +25,9 @@ function(kinesphere_relocatable target)
   target_compile_options(${target} PRIVATE -fno-semantic-interposition)
 endfunction()
 
-# The sources of a folder are compiled together, as if they were one, which reads headers once. Instead those of all
-# folders of a target can be, which takes least time in all where nothing is built twice, or each file alone: no name may
-# stand for two things in a target.
+# The sources of a folder are compiled together, as if they were one, which reads headers once; with the argument `target`
+# those of all folders, for small targets. KINESPHERE_BATCH chooses for all targets: least time in all, where nothing is
+# built twice, takes `target`, and `file` compiles each alone. No name may stand for two things in a target.
 set(KINESPHERE_BATCH folder CACHE STRING "What is compiled together: each folder, target or file")
 mark_as_advanced(KINESPHERE_BATCH)
 function(kinesphere_batches target)
@@ -42,7 +42,7 @@ function(kinesphere_batches target)
       cmake_path(GET source PARENT_PATH folder)
       cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE group)
       string(MAKE_C_IDENTIFIER "${group}" group)
-      if(KINESPHERE_BATCH STREQUAL "target")
+      if(KINESPHERE_BATCH STREQUAL "target" OR "${ARGV1}" STREQUAL "target")
         set(group all)
       endif()
       set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
