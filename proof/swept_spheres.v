@@ -1,4 +1,4 @@
-(* Capsules, what they hold, and the test of a search in parts with names. *)
+(* Swept spheres, the balls that they hold, and the test of a search in named parts. *)
 From Coq Require Import ZArith Reals Lra Lia Bool Psatz.
 From Flocq Require Import Core BinarySingleNaN.
 From Kinesphere Require Import floats inputs kernels errors direction fitting.
@@ -40,9 +40,9 @@ Definition distance_between (p q : ball_in_motion) (t : R) : R :=
 (* A number, rounded to single precision. *)
 Definition stored (x : single) (X : R) : Prop := finite x /\ Rabs (B x - X) <= u * (Rabs X + low).
 
-(* A capsule holds a ball until the time T, when all lengths that go into a search for it are at most S: it has room
-   of 2^-48 for it, and 2^-18 of its size. One with an infinite radius holds all. *)
-Record holds (c : capsule) (p : ball_in_motion) (S T : R) : Prop := {
+(* A swept sphere holds a ball until the time T, when all lengths that go into a search for it are at most S: it has a
+   margin of 2^-48, and 2^-18 of its size. One with an infinite radius holds all. *)
+Record holds (c : swept_sphere) (p : ball_in_motion) (S T : R) : Prop := {
   holds_x : stored c.(centre_x) (X1 p); holds_y : stored c.(centre_y) (X2 p); holds_z : stored c.(centre_z) (X3 p);
   holds_u : stored c.(motion_x) (V1 p); holds_v : stored c.(motion_y) (V2 p); holds_w : stored c.(motion_z) (V3 p);
   holds_size : Rabs (X1 p) + Rabs (X2 p) + Rabs (X3 p) + (Rabs (V1 p) + Rabs (V2 p) + Rabs (V3 p)) * T <= S;
@@ -54,7 +54,7 @@ Record holds (c : capsule) (p : ball_in_motion) (S T : R) : Prop := {
 
 Section Search.
 
-Variables other one : capsule.
+Variables other one : swept_sphere.
 Variables from to : single.
 
 Definition dx : single := (other.(centre_x) - one.(centre_x))%float.
