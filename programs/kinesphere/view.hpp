@@ -1,4 +1,4 @@
-// `kinesphere view`: shows the viewer in a browser, and in it the files that were given.
+// `kinesphere view`: shows the viewer in a browser, with the given files.
 #pragma once
 
 #include <CLI/App.hpp>

@@ -1,4 +1,4 @@
-// A recording as a scene, in which a contact is an approach.
+// Turns a recording into a scene in which a contact is an approach.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +19,8 @@ struct ApproachQuestion {
   Interpolation interpolation = Interpolation::spline;
 };
 
-/// Where a spline swings out far beyond its samples: by more than the distance of an approach and more than
-/// the two samples it goes between are apart.
+/// Splines that swing out far beyond their samples: by more than the distance of an approach and more than
+/// the distance of the two samples.
 struct Overshoots {
   std::size_t tracks = 0;  ///< how many have one
   std::string id;          ///< of the largest
@@ -33,13 +33,13 @@ struct TrackScene {
   Overshoots overshoots;
 };
 
-/// The smooth curves through the samples, one for each track. Throws ProgramError naming the id for a curve
-/// that overflows.
+/// Returns smooth curves through the samples, one for each track. Throws ProgramError naming the id if a
+/// curve overflows.
 RecordedTracks splines_through(const Recording& recording);
 
-/// Each track is a body of half the distance as radius, which is there from its first sample to its last.
-/// Throws ProgramError naming the option or the id: for a tolerance that does not fit the distance or is too
-/// fine for the recording's extent, and for a curve that overflows.
+/// Returns a scene with a body for each track, with half the distance as radius, present from its first
+/// sample to its last. Throws ProgramError naming the option or the id: for a tolerance that does not fit the
+/// distance or is too fine for the recording's extent, and if a curve overflows.
 TrackScene scene_of(const Recording& recording, const ApproachQuestion& question);
 
 }  // namespace kinesphere::program

@@ -1,4 +1,4 @@
-// A recording of real motion as the JSON that the viewer's page reads.
+// Writes a recording of real motion as JSON for the viewer's page.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace kinesphere::program {
 
-/// Bytes. V8, the engine of Chromium, has no longer strings, and reads JSON from a string.
+/// Bytes: the longest string of V8, Chromium's engine, which parses JSON from a string.
 constexpr std::size_t longest_track_table = (std::size_t{1} << 29) - 24;
 
 /// {"name": ..., "plane": true, "unit": "m", "tracks": [{"id": "12", "times": [...], "positions": [...]},

@@ -1,4 +1,4 @@
-// What came of a stream.
+// Counts of a watch.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct MalformedLine {
 };
 
 struct WatchCounts {
-  // Reports that were not taken.
+  // Reports that were skipped.
   std::uint64_t repeated = 0;  ///< the same place at the same time as before
   std::uint64_t stale = 0;     ///< from before the time at which their track would have been forgotten
   std::uint64_t ahead = 0;     ///< stamped ahead by more than the limit, and not confirmed
@@ -31,7 +31,7 @@ struct WatchCounts {
   std::uint64_t dropped = 0;  ///< tracks, because there were more open pairs than may be
   std::uint64_t alerts = 0;
   std::array<std::uint64_t, 6> events{};  ///< by MonitorEventKind
-  /// Verdicts, by separation: that two turned undecided, within, and apart again.
+  /// Changes of the verdict of a separation: to undecided, to within, and back to apart.
   struct Turns {
     std::uint64_t apart = 0, undecided = 0, within = 0;
   };

@@ -1,4 +1,4 @@
-// What a watch goes by.
+// The settings of a watch.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace kinesphere::program {
 
-/// A bound that holds where the stream has none, and who declares it.
+/// A bound for reports without one in the stream, and its source.
 struct FallbackError {
   std::optional<double> bound{};
   std::string declaration{};
@@ -20,7 +20,7 @@ struct WatchSettings {
   std::vector<NamedSeparation> separations;
   Shard share{};                  ///< others watch the other pairs
   std::optional<int> dimensions;  ///< empty: three if the first report has a height
-  // Promises. Infinite: none.
+  // Limits of tracks; infinite if there is none.
   ErrorBound acceleration = std::numeric_limits<double>::infinity();
   ErrorBound largest_speed = std::numeric_limits<double>::infinity();
   std::string promise;  ///< both, as alerts tell them
@@ -41,7 +41,7 @@ struct WatchSettings {
   std::optional<Origin> origin;  ///< empty: the first position
   double radius = 500e3;
   std::size_t most_malformed = std::numeric_limits<std::size_t>::max();
-  // Memory and alerts are bounded by these, whoever sends reports.
+  // These limit memory and alerts against hostile senders.
   std::size_t most_tracks = 50'000;
   std::size_t most_pairs = 1'000'000;  ///< that are not certainly apart
   std::string source;                  ///< the stream's name, for messages
