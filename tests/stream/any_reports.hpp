@@ -1,4 +1,5 @@
-// Any bytes as a sky: tracks that keep their promises, reports of them, and a monitor that is never wrong.
+// Turns any bytes into a sky: tracks that keep their limits, reports of them, and a monitor that is never
+// wrong.
 #pragma once
 
 #include <cstddef>

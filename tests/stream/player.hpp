@@ -1,4 +1,4 @@
-// Plays a stream of operations on a world, and holds all that it says against the truth.
+// Plays a stream of operations on a world, and compares all results with the truth.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace kinesphere::stream {
 
-/// What no call may be given.
+/// An argument that every call must refuse.
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 class Player {
@@ -40,7 +40,7 @@ class Player {
   static const std::array<Kind, 29> kinds;
   static const Kind& kind_of(std::uint8_t code);
 
-  // The operations. Those without a body to be done to do nothing.
+  // The operations. Operations that need a body do nothing if there is none.
   void advance(const Operation& operation);
   void run(const Operation& operation);
   void advance_to_next(const Operation& operation);

@@ -1,5 +1,4 @@
-// Pass-through scenes on which every detector has to find the same contacts: random ones, and ones made to
-// deceive.
+// Pass-through scenes on which all detectors must find equal contacts: random scenes, and adversarial ones.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +26,7 @@ enum class Family {
 
 std::string_view name_of(Family family);
 
-/// The scene that belongs to this seed.
+/// Returns the scene of this seed.
 Scene differential_scene(Family family, std::uint64_t seed);
 
 }  // namespace kinesphere::scene_tests
