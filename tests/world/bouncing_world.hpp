@@ -1,4 +1,4 @@
-// A world in which bodies bounce, moved by a loop over advance() or by World::run: both have to do the same.
+// A world of bouncing bodies, advanced by a loop over advance() or by World::run, with equal results.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ struct BouncingWorld {
 
   BouncingWorld(OfMotion moved_by, World empty, double bounciness)
       : motion(std::move(moved_by)), world(std::move(empty)), restitution(bounciness) {}
-  /// The next body of the motion.
+  /// Adds the next body of the motion.
   void add(const BodyDefinition& body, double mass) {
     world.add(body).value();
     masses.push_back(mass);
@@ -83,7 +83,7 @@ struct BouncingWorld {
   }
 };
 
-/// The same events, from as many reports and looks.
+/// Expects equal events, from equal numbers of reports and rechecks.
 template <class OfMotion>
 void expect_same_course(const BouncingWorld<OfMotion>& found, const BouncingWorld<OfMotion>& expected) {
   EXPECT_EQ(found.told, expected.told);
