@@ -7,7 +7,7 @@ set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 seconds=${1:-60}
-# The length in bytes of the longest input, by target.
+# Length of the longest input in bytes, by target.
 declare -A longest=([operations]=2404 [snapshot]=1024 [mended]=121 [monitor]=4096 [http]=20000)
 scripts/setup.sh test
 cmake --preset fuzz >/dev/null

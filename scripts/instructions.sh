@@ -20,7 +20,7 @@ flags     $(xargs <<<"$(cached CMAKE_CXX_FLAGS) $(cached "CMAKE_CXX_FLAGS_${buil
 library   $(getconf GNU_LIBC_VERSION) on $(uname -m)
 valgrind  $(valgrind --version)"
 
-# The variants of memcpy and the like that every processor has; nothing from the environment; symbols bound at the start.
+# Uses the variants of memcpy and the like for every processor, no environment, and symbols bound at the start.
 count() {
   local profile counted
   profile=$(mktemp)

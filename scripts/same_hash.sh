@@ -11,8 +11,8 @@ set -euo pipefail
 scene_hash=$(realpath "$1")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-# Name, compiler and flags of each build; the one given is one more. Both compilers with all that this processor has
-# (-march=native brings in fused multiply-add and wider vectors), once as a shared library; and one without optimisation,
+# Name, compiler and flags of each build, besides the given one: both compilers with all features of this processor
+# (-march=native enables fused multiply-add and wider vectors), once as a shared library; and one without optimisation,
 # with sanitizers.
 configurations=(
   "clang-O0-sanitized clang++ -O0 -fsanitize=address,undefined -fno-sanitize-recover=all"
@@ -39,7 +39,7 @@ for configuration in "${configurations[@]}"; do
   read -r name compiler flags <<<"$configuration"
   build=build/hash/$name
   mkdir -p "$build"
-  # All public headers, so that all of their inline functions are there.
+  # All public headers, for all of their inline functions.
   (cd include && find kinesphere -name '*.hpp' | sort | sed 's/.*/#include <&>/') >"$build/every_header.cpp"
   shared=OFF
   if [[ $name == *shared ]]; then shared=ON; fi

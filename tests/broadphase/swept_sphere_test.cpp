@@ -1,4 +1,4 @@
-// A capsule contains the ball of its bound for as long as it says, at all scales, and is hardly larger.
+// A swept sphere contains the ball of its bound until its end, at all scales, and is hardly larger.
 #include "broadphase/swept_sphere.hpp"
 
 #include <gtest/gtest.h>
@@ -11,12 +11,12 @@
 #include "support/bound_cases.hpp"
 #include "support/true_balls.hpp"
 
-namespace kinesphere::capsule_test {
+namespace kinesphere::swept_sphere_test {
 namespace {
 
 constexpr std::uint64_t seed = 4001;
 
-/// A bound reported now, a window that has begun perhaps long before, and a frame for it.
+/// A bound reported now, a window that may have begun long before, and a frame for it.
 struct Case {
   Bound bound;
   double now;
@@ -25,7 +25,7 @@ struct Case {
   SweptSphereFrame frame;
 };
 
-/// The sizes of things, as powers of two of the unit of length of the frame.
+/// The sizes in a case, as powers of two of the unit of length of the frame.
 struct Kind {
   const char* name;
   int offset;  ///< from the base of the frame
@@ -58,7 +58,7 @@ Case draw(Random& random, const Kind& kind) {
              .origin = window.end - std::ldexp(1.0, window.rung),
              .per_length = 1.0 / length,
              .per_time = std::ldexp(1.0, -window.rung)};
-  // Each draw in a statement of its own, so that all compilers draw the same cases.
+  // Each draw in a statement of its own, so that all compilers draw equal cases.
   const auto vector = [&](double largest) {
     const double size = part() * largest;
     return size * random.point_in_ball();
@@ -79,7 +79,7 @@ Case draw(Random& random, const Kind& kind) {
 }
 
 TEST(SweptSphere, ContainsTheBallAllTheTime) {
-  // Where even the squares of such lengths underflow, a search takes everything for near.
+  // If even the squares of such lengths underflow, a search takes everything for near.
   constexpr Extended negligible = 0x1p-120L;
   for (const Kind& kind : kinds) {
     for (std::uint64_t k = 0; k < 2000; ++k) {
@@ -143,4 +143,4 @@ TEST(SweptSphere, IsEverywhereWhereASearchCouldNotComputeWithItsNumbers) {
 }
 
 }  // namespace
-}  // namespace kinesphere::capsule_test
+}  // namespace kinesphere::swept_sphere_test
