@@ -52,7 +52,7 @@ for configuration in "${configurations[@]}"; do
   fi
   hash=$("$build/tests/scene_hash")
   replayed=$("$build/tests/scene_hash" replay "$recording" || true)
-  # g++ can be told to emit every inline function, used or not.
+  # g++ has an option to emit every inline function, used or not.
   keep=()
   if [[ $compiler == g++ ]]; then keep=(-fkeep-inline-functions); fi
   library=("$build"/src/libkinesphere.*)

@@ -1,4 +1,5 @@
-// What all programs do around their commands: parse, print help, turn errors into one line and an exit code.
+// The frame of all programs: parses the command line, prints help, turns errors into one line and an exit
+// code.
 #pragma once
 
 #include <CLI/App.hpp>

@@ -13,7 +13,7 @@ from .errors import InvalidValue
 if TYPE_CHECKING:
     import pandas as pd
 
-# Of the median time between the samples of an id, as in `kinesphere tracks`.
+# Factor on the median time between the samples of an id, as in `kinesphere tracks`.
 _gap_factor = 2.5
 # Coordinates reach to 2**41 tolerances; half of that is reserved for curves that swing out.
 _tolerances_in_extent = 2.0**40

@@ -186,7 +186,7 @@ class Playground {
     return 2.0 * (moved.radius_after(duration) + room) +
            std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) * duration;
   }
-  /// As in the engine: in periodic space no swept sphere is as wide as half a period.
+  /// Like the engine: in periodic space no swept sphere is as wide as half a period.
   Window window_to_start(std::uint32_t number) const {
     if (stands(bounds_[number])) return Window::endless();
     const double speed = norm(bounds_[number].velocity_at(now_)) + bounds_[number].growth_speed;

@@ -201,7 +201,7 @@ TEST(WindowPolicy, StaysWhereNothingIsMuchCheaper) {
   double now = 0.0;
   for (int round = 0; round < 100; ++round) {
     const int before = main_tier(window_policy);
-    // As in a crowd: the number of found bodies grows with the volume of the swept spheres.
+    // The number of found bodies grows with the volume of the swept spheres, like in a crowd.
     const double larger = 0.5 + window_policy.typical_way();
     const auto near = static_cast<std::uint64_t>(20 * larger * larger * larger);
     start_main(window_policy, now,
@@ -290,7 +290,7 @@ TEST(WindowPolicy, GrowsBackBesideSlowBodies) {
   }
 }
 
-/// Also if speeds become known later: all bodies stood still before.
+/// Speeds may become known later: all bodies stood still before.
 TEST(WindowPolicy, FollowsBodiesThatBecomeFaster) {
   WindowPolicy window_policy = chosen();
   double now = 0.0;
@@ -415,7 +415,7 @@ TEST(WindowPolicy, StaysPossibleWhateverTheNumbers) {
   Random random(seed + 2);
   const auto value = [&] { return values[random.bits() % values.size()]; };
   const auto positive = [&] { return std::clamp(value(), 1e-300, 1e300); };
-  // As the limits of a world's tolerance allow.
+  // Range: that of the limits of a world's tolerance.
   const auto longest_way = [&] { return std::clamp(value(), 1e-60, 1e300); };
   const auto count = [&] {
     constexpr std::array<std::uint64_t, 4> counts{0, 1, 1000, std::uint64_t{1} << 62};

@@ -49,7 +49,7 @@ configure_mpi() {
 if [[ $mpi == 1 ]]; then
   configure_mpi || { cat "$work/configure.log"; exit 1; }
   cmake --build "$work/mpi"
-  # As tests/CMakeLists.txt has it: no search for X displays, which takes long where localhost does not resolve.
+  # Without hwloc's search for X displays (see tests/CMakeLists.txt), which takes long if localhost does not resolve.
   HWLOC_COMPONENTS=-gl "$work/mpi/mpi_consumer"
 elif configure_mpi; then
   echo "consumer: the component mpi was found, but not built" >&2
@@ -67,7 +67,7 @@ if pkg-config --cflags kinesphere | tr ' ' '\n' | grep -v -e '^-I' -e '^$'; then
   echo "consumer: compiler flags are forced upon users of pkg-config" >&2
   exit 1
 fi
-# Flags are lists of words.
+# Splits the flags into words.
 read -r -a flags <<<"$flags"
 "$compiler" -std=c++20 "${flags[@]}" "$source/main.cpp" "${link[@]}" -o "$work/consumer"
 "$work/consumer"

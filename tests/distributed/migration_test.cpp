@@ -115,7 +115,8 @@ TEST(Migration, RenewedCopyKeepsHotPairsUnlessTheyAreVoid) {
   EXPECT_TRUE(other.local.main.certifier().is_stale(pair));
 }
 
-/// As when a checkpoint is read: the third body comes later, from another rank, which needs the certificate.
+/// The third body comes later, from another rank, which needs the certificate: the order of a read
+/// checkpoint.
 TEST(Migration, KeepsLoosePairs) {
   Rank one(0);
   Rank other(1);

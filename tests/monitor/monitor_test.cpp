@@ -62,7 +62,7 @@ TEST(Monitor, LosesCertaintyAsTimePassesWithoutReports) {
   Monitor monitor = made(definition(2.0));
   monitor.report(1, at(0.0, {0, 0, 0})).value();
   monitor.report(2, at(0.0, {26, 0, 0})).value();
-  // Both may have come 1/2 2 t^2 nearer: 26 - 2 t^2 = 10.
+  // Each track may have come 1/2 2 t^2 nearer: 26 - 2 t^2 = 10.
   const auto events = all(monitor.events(20.0));
   ASSERT_EQ(events.size(), 1u);
   EXPECT_NEAR(events[0].time, std::sqrt(8.0), 2e-3);

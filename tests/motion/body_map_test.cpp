@@ -1,4 +1,4 @@
-// Worlds whose bodies belong to several motions.
+// Worlds with bodies of several motions.
 #include "kinesphere/body_map.hpp"
 
 #include <gtest/gtest.h>

@@ -145,7 +145,7 @@ TEST(Frames, TrajectoryAndClone) {
 /// The positions that a game computes for one body, frame by frame.
 using Game = std::vector<Vec3>;
 
-/// Returns a body whose true motion has bounded acceleration, sampled once a frame.
+/// Returns a body with a true motion of bounded acceleration, sampled once a frame.
 Game sampled(const Motion& motion, double interval, int frames) {
   Game game;
   for (int k = 0; k < frames; ++k) game.push_back(motion.state(0, k * interval).position);

@@ -162,10 +162,10 @@ struct Played {
 };
 Played play(std::span<const std::uint8_t> bytes);
 
-/// The same failure, or another, by as few operations as leaving them out finds.
+/// Returns a stream with a failure, by as few operations as removing them finds.
 Bytes shrunk(Bytes bytes);
 
-/// What to print of a stream that fails: its operations by name, and its bytes.
+/// Returns text about a failing stream: its operations by name, and its bytes.
 std::string story_of(std::span<const std::uint8_t> bytes);
 
 }  // namespace kinesphere::stream

@@ -32,7 +32,7 @@ bool is_begin(const Event& event) {
   return event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
 }
 
-/// Where a run fails, at one event.
+/// Places in which a run can fail, at one event.
 enum class Fault { nowhere, sink, respond, refused_answer, departure, states, refused_states };
 
 /// Thrown by a callback that fails.

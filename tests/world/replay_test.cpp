@@ -39,7 +39,7 @@ std::uint64_t hash_of(const std::vector<Event>& events) {
 class Recording : public testing::TestWithParam<CrowdKind> {};
 INSTANTIATE_TEST_SUITE_P(Crowds, Recording, crowd_kinds());
 
-/// The replay of a busy crowd. `replay` finds its own world through `itself`, where the pair filter looks.
+/// The replay of a busy crowd. `replay` finds its own world through `itself`, for the pair filter.
 struct Replayed {
   explicit Replayed(const Bytes& bytes)
       : replay(Replay::open(bytes, [this](BodyId a, BodyId b) {

@@ -1,4 +1,4 @@
-// What the page shows: a simulation or a recording, in a form for drawing and numbers.
+// A simulation or a recording on the page, in a form for drawing and numbers.
 import type { BodyId, BodyView, Box, Event, WorldView } from "kinesphere";
 import type { AlarmDistances } from "./scenes/live_scene.ts";
 

@@ -5,7 +5,7 @@ import { before, test } from "node:test";
 import { bodyInSight, browserForTests } from "./page.mjs";
 
 const line = (x, y, count) => Array.from({ length: count }, (_, k) => [x + k, y, 0]).flat();
-/** Two people who pass each other; the second comes later and leaves earlier. */
+/** Two people who pass each other; the second arrives later and leaves earlier. */
 const tracks = {
   name: "people.txt",
   plane: true,

@@ -17,7 +17,7 @@ enum class MissingPolicy {
   split,  ///< nor does its id's track go on over it; a row without a time is skipped
 };
 
-/// What to do with several samples of one id at one time.
+/// How to treat several samples of one id at one time.
 enum class DuplicatePolicy {
   fail,
   first,  ///< the first of the file counts

@@ -16,7 +16,7 @@ std::string json_number(double value);
 /// Returns the time in the stream's form, a number or a text with a date; null for an infinite time.
 std::string json_time(const TimeScale& times, double time);
 
-/// What alerts are written with.
+/// Context for writing alerts.
 struct AlertContext {
   const WatchSettings& settings;
   const TimeScale& times;

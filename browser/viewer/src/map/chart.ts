@@ -202,7 +202,7 @@ export class Chart {
     let fastest = 0;
     for (const { track } of scene.tracks.values())
       for (const { velocity } of track.places) fastest = Math.max(fastest, Math.hypot(velocity[0], velocity[1]));
-    // Where tracks are dense, longer lines would hide them.
+    // Longer lines would hide dense tracks.
     const most = Math.max(10, Math.min(70, this.room));
     this.lookAhead = fastest === 0 ? 0 : lookAheads.find((seconds) => fastest * seconds * view.look.scale <= most) ?? 0;
     if (this.lookAhead === 0) return;

@@ -81,7 +81,7 @@ function earthGrid(bounds: Bounds, scale: number, plane: EarthPlane): GridLine[]
   const across = angleStep(spacing / degree);
   const middle = Math.min(Math.abs(seen.bottom + seen.top) / 2, 85);
   const along = angleStep(spacing / degree / Math.cos(middle * Math.PI / 180));
-  // Steps of three degrees at most look round.
+  // Steps of three degrees at most appear round.
   const parts = Math.max(24, Math.ceil(Math.max(seen.right - seen.left, seen.top - seen.bottom) / 3));
   const line = (at: (part: number) => [number, number]): number[] =>
     Array.from({ length: parts + 1 }, (_, k) => at(k / parts)).flatMap(([longitude, latitude]) => plane.toPlane(longitude, latitude));

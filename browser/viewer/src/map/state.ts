@@ -1,6 +1,6 @@
 // The content of /state.json of `kinesphere watch --serve` (docs/watch.md).
 
-/** As in the stream: a number, or a text with a date. */
+/** A number, or a text with a date, as in the stream. */
 export type StreamTime = number | string;
 
 export interface Place {

@@ -93,7 +93,7 @@ export class View {
     const part = Math.min(Math.max((now - start) / 1000 / seconds, 0), 1);
     const eased = part * part * (3 - 2 * part);
     const scale = from.scale * (to.scale / from.scale) ** eased;
-    // The centre moves in proportion to the visible size, so that the flight looks even at every scale.
+    // The centre moves in proportion to the visible size, so that the flight appears even at every scale.
     const along = Math.abs(to.scale / from.scale - 1) < 1e-3 ? eased : (1 / from.scale - 1 / scale) / (1 / from.scale - 1 / to.scale);
     this.look = part === 1 ? to : { x: from.x + (to.x - from.x) * along, y: from.y + (to.y - from.y) * along, scale };
     if (part === 1) this.flight = null;
