@@ -20,7 +20,7 @@ namespace kinesphere::program {
 struct RunState {
   std::string scene;  ///< all that the world depends on
   double time = 0.0;
-  std::uint64_t parts = 0;              ///< of the world
+  std::uint64_t parts = 0;              ///< number of parts of the world
   std::array<std::uint64_t, 2> hash{};  ///< EventHash::parts(): the second is the number of events
   ContactOutput contacts = ContactOutput::none;
   ContactFiles::Lengths contact_lengths{};

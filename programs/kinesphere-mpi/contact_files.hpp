@@ -15,8 +15,8 @@ namespace kinesphere::program {
 
 enum class ContactOutput {
   none,
-  one_file,       ///< in the order in which one World tells the events
-  file_per_rank,  ///< <path>.<rank>, each with the events whose first body was that rank's
+  one_file,       ///< in the order of the events of one World
+  file_per_rank,  ///< <path>.<rank>, each with the events with a first body of that rank
 };
 
 struct ContactOptions {
@@ -58,8 +58,8 @@ class ContactFiles {
 
   const Ranks& ranks_;
   ContactOutput output_;
-  std::size_t file_count_ = 0;  ///< of all ranks
-  std::vector<File> files_;     ///< of this rank, which writes to the first
+  std::size_t file_count_ = 0;  ///< files of all ranks
+  std::vector<File> files_;     ///< files of this rank, which writes to the first
   std::vector<OrderedEvent> noted_;
 };
 

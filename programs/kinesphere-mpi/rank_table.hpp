@@ -11,7 +11,7 @@ namespace kinesphere::program {
 
 struct RankUse {
   RankFigures figures{};
-  double processor_seconds = 0.0;    ///< of all threads, with those in MPI
+  double processor_seconds = 0.0;    ///< sum over all threads, including those in MPI
   std::uint64_t largest_memory = 0;  ///< resident, in bytes
 };
 

@@ -22,7 +22,7 @@ namespace kinesphere::program {
 struct SceneSource {
   SceneParameters parameters;
   std::string file;                               ///< empty for a built-in scene
-  std::map<std::string, int, std::less<>> lines;  ///< of the fields that the file sets
+  std::map<std::string, int, std::less<>> lines;  ///< line of each field that the file sets
 };
 
 /// Parses the text of a scene. `file` appears in messages only. Throws ProgramError naming file, line and

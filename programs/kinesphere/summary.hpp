@@ -38,8 +38,8 @@ std::string number(double value);
 void add_scene(Summary& summary, const SceneParameters& parameters);
 /// Rows that a summary has even with a count of 0.
 struct EventRows {
-  bool ends = false;        ///< of contacts
-  bool zeno_guard = false;  ///< how often it acted
+  bool ends = false;        ///< row for ends of contacts
+  bool zeno_guard = false;  ///< row for the number of its actions
 };
 /// Adds contacts, walls and errors.
 void add_events(Summary& summary, const SimulationResult& result, const EventRows& rows);

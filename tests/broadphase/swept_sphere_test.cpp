@@ -31,7 +31,7 @@ struct Kind {
   int offset;  ///< from the base of the frame
   int speed;   ///< in units of the frame
   int radius;
-  int origin;  ///< of the base and the clock: how far from zero, in units
+  int origin;  ///< distance of the base and the clock from zero, in units
 };
 
 const std::array kinds{

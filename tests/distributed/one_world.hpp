@@ -21,7 +21,7 @@
 namespace kinesphere {
 
 struct RunOutcome {
-  std::vector<Event> events;  ///< of all ranks, in order
+  std::vector<Event> events;  ///< events of all ranks, in order
   Counters counters{};
   std::uint64_t hash = 0;
 };

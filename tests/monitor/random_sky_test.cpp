@@ -26,7 +26,7 @@ struct Sky {
   double limit = 2.0;
   double error = 0.3;
   double velocity_error = 0.2;
-  double interval = 1.0;  ///< of reports, about
+  double interval = 1.0;  ///< mean time between reports
   double delay = 0.5;     ///< at most
   double window = 1.0;
   std::vector<Separation> levels{Separation::sphere(8.0), Separation::sphere(3.0)};

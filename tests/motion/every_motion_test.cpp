@@ -96,7 +96,7 @@ struct Maker {
   std::string name;
   std::unique_ptr<Motion> (*make)(Random&);
   bool can_be_kicked;
-  double begin;  ///< of the times that may be asked for
+  double begin;  ///< begin of the known times
 };
 
 class EveryMotion : public testing::TestWithParam<Maker> {

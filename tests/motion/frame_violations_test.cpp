@@ -159,7 +159,7 @@ using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
 struct Outcome {
   std::uint64_t approaches = 0;
-  std::uint64_t lost = 0;      ///< of them: the world did not tell that they began when they did
+  std::uint64_t lost = 0;      ///< contacts without a begin event at their time
   std::uint64_t breaches = 0;  ///< bound_violation events
 };
 

@@ -68,7 +68,7 @@ struct Piece {
 struct FiledPlan {
   double from, until;
   TrackReport::Plan plan;
-  bool is_beyond;  ///< the promise of the class
+  bool is_beyond;  ///< beyond the limits of the class
   bool told = false;
 };
 

@@ -11,12 +11,12 @@
 namespace kinesphere::watched_sky {
 
 struct WatchedSky {
-  std::optional<std::string> failure;  ///< what the monitor said or did that it may not
+  std::optional<std::string> failure;  ///< forbidden behaviour of the monitor
   std::size_t reports = 0;
   std::size_t events = 0;
-  std::size_t certain = 0;   ///< verdicts held against the truth that were not `undecided`
-  std::size_t promised = 0;  ///< those that an earlier answer had promised
-  std::size_t plans = 0;     ///< beyond the promise of the class
+  std::size_t certain = 0;   ///< checked verdicts that were not `undecided`
+  std::size_t promised = 0;  ///< verdicts that an earlier answer had certified
+  std::size_t plans = 0;     ///< plans beyond the limits of the class
   std::size_t wrong = 0;     ///< reports that were wrong
 };
 

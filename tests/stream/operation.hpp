@@ -76,10 +76,10 @@ std::vector<Operation> operations_of(std::span<const std::uint8_t> bytes);
 struct WorldKind {
   WorldDefinition definition;
   std::size_t most_bodies;
-  std::size_t first_bodies;  ///< there from the start
+  std::size_t first_bodies;  ///< bodies present from the start
   bool sensors;              ///< some bodies sense others, and some are not solid
-  bool fixed;                ///< there are bodies that never move
-  bool crowd;                ///< hundreds of small bodies, among whom World::run finds islands: none rests
+  bool fixed;                ///< there are static bodies
+  bool crowd;                ///< hundreds of small awake bodies, among which World::run finds clusters
 };
 /// Returns the kind of world that the header of a stream chooses.
 WorldKind kind_of(std::span<const std::uint8_t> bytes);

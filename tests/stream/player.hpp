@@ -139,16 +139,16 @@ class Player {
   Truth truth_;
   ToldContacts told_;
   World world_;
-  std::optional<World> twin_;                      ///< has to go on as the world does
+  std::optional<World> twin_;                      ///< must behave like the world
   bool twin_saves_the_same_ = false;               ///< to the last byte
-  std::array<std::optional<Workers>, 3> workers_;  ///< by their number, less one
+  std::array<std::optional<Workers>, 3> workers_;  ///< indexed by the number of threads, less one
   std::vector<BodyId> removed_;
-  std::set<BodyId> woken_;  ///< at this instant, and not told yet
+  std::set<BodyId> woken_;  ///< woken at this instant, without an event so far
   std::size_t events_ = 0;
   std::optional<Event> last_event_;
-  int rounds_ = 0;        ///< of events in order that may begin at this instant
-  bool crossed_ = false;  ///< in this round; the next distance of the same pair comes in one of its own
-  double asked_at_;       ///< by the last probe
+  int rounds_ = 0;        ///< ordered rounds of events that may begin at this instant
+  bool crossed_ = false;  ///< a crossing came in this round; the pair's next distance has a round of its own
+  double asked_at_;       ///< time of the last probe
 };
 
 struct Failure {

@@ -18,8 +18,8 @@ namespace kinesphere::stream {
 /// A reported contact that a change of one of its bodies may end, in its state before the change.
 struct Before {
   Contact contact;
-  Event end;     ///< what the world has to tell if the change ends it
-  bool is_over;  ///< the truth is already at the separation distance, so that an end may be on its way
+  Event end;     ///< the event that must come if the change ends it
+  bool is_over;  ///< the true gap is at the separation distance, so an end may be pending
 };
 
 class ToldContacts {
@@ -66,7 +66,7 @@ class ToldContacts {
   /// An end that a change has caused, not yet delivered.
   struct End {
     Contact contact;
-    std::vector<Event> candidates;  ///< one for each change that may have been the one
+    std::vector<Event> candidates;  ///< an end for each possible change
     bool certain;
   };
 
@@ -99,7 +99,7 @@ class ToldContacts {
 
   ContactRule rule_;
   Truth& truth_;
-  double rounding_;  ///< of a position or a gap
+  double rounding_;  ///< rounding error of a position or a gap
   double slack_;
   Space space_;
   PairTable<Told> pairs_;

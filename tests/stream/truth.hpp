@@ -32,7 +32,7 @@ inline void require(bool holds, const char* what) {
 /// Two bodies, or a body and a wall; or two bodies and a sensor distance, which is subtracted from their gap.
 struct Contact {
   BodyId first;
-  BodyId second = no_body;  ///< of larger index than `first`
+  BodyId second = no_body;  ///< has a larger index than `first`
   Wall wall = Wall::none;
   std::optional<double> sensed{};
 
@@ -42,16 +42,16 @@ std::string text_of(const Contact& contact);
 
 struct TrueBody {
   BodyId id{};
-  BodyDefinition definition{};  ///< but for the state
+  BodyDefinition definition{};  ///< the state in it is ignored
   Trajectory path{};            ///< one segment, since the last change
   bool alive = false;
   bool enabled = false;
   bool fixed = false;
-  bool resting = false;          ///< stays where it is, without velocity or acceleration
-  double rested_at = 0.0;        ///< the time at which it was told to rest
-  Vec3 on_waking{};              ///< the acceleration that it has when it wakes
-  std::optional<Shape> shape{};  ///< of a fixed body that is no ball
-  double last_contact = -std::numeric_limits<double>::infinity();  ///< as events told
+  bool resting = false;          ///< asleep: in place, without velocity or acceleration
+  double rested_at = 0.0;        ///< time of falling asleep
+  Vec3 on_waking{};              ///< acceleration after waking
+  std::optional<Shape> shape{};  ///< shape of a static body that is no ball
+  double last_contact = -std::numeric_limits<double>::infinity();  ///< according to events
 
   bool present() const { return alive && enabled; }
 };
@@ -141,7 +141,7 @@ class Truth {
   WorldDefinition definition_;
   std::vector<Wall> walls_;
   double time_;
-  std::vector<TrueBody> bodies_;  ///< by index
+  std::vector<TrueBody> bodies_;  ///< indexed by body
   std::set<BodyId> haunted_;
 };
 

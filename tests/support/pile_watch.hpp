@@ -17,7 +17,7 @@ namespace kinesphere::scene_tests {
 struct PileFrame {
   double time;
   double kinetic_energy;  ///< per mass
-  double mean_height;     ///< of the centre of mass
+  double mean_height;     ///< height of the centre of mass
 };
 
 /// Takes the events and frames of simulate(). Paths between events are parabolas with a common acceleration,

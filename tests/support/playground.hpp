@@ -131,7 +131,7 @@ class Playground {
     course.since = world.time();
   }
 
-  std::vector<SeparationForecast> courses_;  ///< by index
+  std::vector<SeparationForecast> courses_;  ///< indexed by body
 };
 
 inline std::vector<Event> of_kind(const std::vector<Event>& events, EventKind kind) {

@@ -21,10 +21,10 @@ struct BouncingWorld {
   OfMotion motion;
   World world;
   double restitution = 1.0;
-  bool passes = false;           ///< nobody answers
-  std::vector<double> masses{};  ///< by index; others are fixed
+  bool passes = false;           ///< no responses
+  std::vector<double> masses{};  ///< indexed by body; others are static
   EventHash hash{};
-  std::uint64_t order = 0;  ///< another hash, of events in the order in which they were told
+  std::uint64_t order = 0;  ///< hash of events that depends on their order
   std::size_t told = 0;
   double last = -std::numeric_limits<double>::infinity();  ///< the time of the last event
 

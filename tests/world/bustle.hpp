@@ -142,7 +142,7 @@ class Bustle : public Crowd {
   }
 
   std::vector<Event> events_;
-  int mischief_ = 0;  ///< how many states from now the probe fails; 0: it does not
+  int mischief_ = 0;  ///< the probe fails after this many states; 0: never
   bool throws_ = false;
 };
 

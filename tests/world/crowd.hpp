@@ -93,7 +93,7 @@ class Crowd : public Playground {
   Random random;
 
  private:
-  Random errors_;  ///< of reports, whose number must not change what happens
+  Random errors_;  ///< errors of reports; a generator of its own, so that the number of reports has no effect
   double noise_;
 };
 

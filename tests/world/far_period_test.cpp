@@ -12,7 +12,7 @@ namespace kinesphere::far_period_test {
 namespace {
 
 constexpr double eps = 1e-6;
-constexpr double half_width = 0.1;  ///< of both bodies
+constexpr double half_width = 0.1;  ///< half the width of each body
 
 struct Place {
   double lower;

@@ -18,14 +18,14 @@ namespace {
 
 struct Kind {
   std::string name;
-  int side = 12;  ///< so many bodies along each axis
+  int side = 12;  ///< bodies along each axis
   double spacing = 2.4;
   double faster = 1.0;  ///< one in a hundred starts so many times as fast
   ContactMode contacts = ContactMode::begin_and_end;
   bool periodic = false;
   bool sensors = false;
   bool fixed = false;
-  bool passes = false;  ///< nobody answers
+  bool passes = false;  ///< no responses
   bool lies = false;    ///< one in three accelerates more than it promises
   double end = 3.0;
 };

@@ -240,7 +240,7 @@ class LocalServer::Serving {
   }
 
   std::string option_;
-  std::string fields_;  ///< of every response
+  std::string fields_;  ///< header fields of every response
   ServedContent content_;
   std::string address_;
   int port_ = 0;

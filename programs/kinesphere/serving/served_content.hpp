@@ -13,7 +13,7 @@ namespace kinesphere::program {
 
 /// The content of one response.
 struct Content {
-  std::string type;                         ///< as in the header Content-Type
+  std::string type;                         ///< value for the header Content-Type
   std::shared_ptr<const std::string> body;  ///< not null
   std::size_t owned_bytes = 0;              ///< memory that goes with `body`; 0 if others keep it anyway
 };

@@ -36,8 +36,8 @@ class ApproachFile {
 struct PairSummary {
   std::string first, second;  ///< ids
   std::uint64_t approaches = 0;
-  double duration = 0.0;      ///< of all together
-  ClosestApproach closest{};  ///< of all
+  double duration = 0.0;      ///< sum of the durations
+  ClosestApproach closest{};  ///< closest of all approaches
 };
 
 /// Returns the pairs, the one with the closest approach first.

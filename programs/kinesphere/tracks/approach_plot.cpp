@@ -15,8 +15,8 @@ namespace {
 /// Colours of the closest approaches, one each; distinct for all kinds of colour vision (Okabe and Ito 2008).
 constexpr std::array<std::string_view, 6> colours{"#d55e00", "#0072b2", "#009e73",
                                                   "#cc79a7", "#e69f00", "#56b4e9"};
-constexpr int curve_points = 200;  ///< of a distance over time
-constexpr int piece_points = 4;    ///< of a piece of a track
+constexpr int curve_points = 200;  ///< points of the curve of a distance
+constexpr int piece_points = 4;    ///< points of a piece of a track
 
 struct Point {
   double x, y;
@@ -25,7 +25,7 @@ struct Point {
 /// A part of the picture with axes. Unit: pixels.
 struct Panel {
   double left, top, width, height;
-  double low_x, high_x, low_y, high_y;  ///< what is shown
+  double low_x, high_x, low_y, high_y;  ///< shown range
 
   double x(double value) const { return left + (value - low_x) / (high_x - low_x) * width; }
   double y(double value) const { return top + height - (value - low_y) / (high_y - low_y) * height; }

@@ -23,7 +23,7 @@ std::optional<double> length_unit_named(std::string_view name);
 
 struct ColumnMeaning {
   Quantity quantity;
-  std::string unit;  ///< as in x/m, "time [ms]", lat_deg; empty when the name has none
+  std::string unit;  ///< unit in the name, like x/m, "time [ms]", lat_deg; empty if there is none
 };
 
 /// Knows the usual names in any case, with or without blanks, - and _ between words; returns nothing for

@@ -37,7 +37,7 @@ class Coordinates {
   std::string description() const { return projection_ ? projection_->description() : ""; }
 
  private:
-  Vec3 origin_{};      ///< as in the file
+  Vec3 origin_{};      ///< in the file's coordinates
   double unit_ = 1.0;  ///< metres, of the file's lengths
   std::optional<UtmZone> zone_;
   std::shared_ptr<const Projection> projection_;

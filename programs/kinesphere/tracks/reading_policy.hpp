@@ -13,7 +13,7 @@ namespace kinesphere::program {
 /// 181 and 91, the unknown position of AIS.
 enum class MissingPolicy {
   fail,
-  skip,   ///< as if the row were not there
+  skip,   ///< drops the row
   split,  ///< nor does its id's track go on over it; a row without a time is skipped
 };
 

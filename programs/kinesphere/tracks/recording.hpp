@@ -13,7 +13,7 @@
 namespace kinesphere::program {
 
 struct RecordedTrack {
-  std::string id;                    ///< as in the file; 3.0 and 3.000000e+00 are 3
+  std::string id;                    ///< spelled like in the file; 3.0 and 3.000000e+00 are 3
   std::vector<TrackSample> samples;  ///< at least 2, by time
 };
 
@@ -26,11 +26,11 @@ struct Tally {
 /// A recording in seconds and lengths from its own origins; `times` and `coordinates` convert them to the
 /// file's.
 struct Recording {
-  std::string format;  ///< what the file was recognised as
+  std::string format;  ///< recognised format
   TimeScale times;
   double frame_rate = 0.0;  ///< frames per second; 0 where no frames are counted
   Coordinates coordinates;
-  bool in_metres = false;             ///< lengths; else nobody has said their unit
+  bool in_metres = false;             ///< unit of lengths; if false, it is unknown
   bool is_plane = false;              ///< nothing leaves the plane z = 0
   std::vector<RecordedTrack> tracks;  ///< without interruption, by the first sample's place in the file
   std::size_t ids = 0;

@@ -11,7 +11,7 @@ namespace kinesphere::program {
 
 /// One row of a table. Its fields are valid until the next row is read.
 struct TableRow {
-  int line = 0;  ///< where it begins, from 1
+  int line = 0;  ///< first line, counted from 1
   std::vector<std::string_view> fields;
 };
 
@@ -66,7 +66,7 @@ class TextTable {
   TableRow first_;
   bool first_is_ahead_ = true;
   std::deque<std::string> unquoted_;        ///< fields of the current row that had doubled quotes
-  std::deque<std::string> first_unquoted_;  ///< the same of the first row, which is kept
+  std::deque<std::string> first_unquoted_;  ///< unquoted fields of the first row, which is kept
 };
 
 }  // namespace kinesphere::program

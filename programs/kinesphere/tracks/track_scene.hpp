@@ -13,19 +13,19 @@
 namespace kinesphere::program {
 
 struct ApproachQuestion {
-  double distance = 0.0;  ///< how close counts as an approach; > 0
+  double distance = 0.0;  ///< largest distance of an approach; > 0
   std::optional<double>
-      tolerance;  ///< of that distance; when empty a millionth of it, or 2^-40 of the extent
+      tolerance;  ///< tolerance of that distance; if empty, a millionth of it, or 2^-40 of the extent
   Interpolation interpolation = Interpolation::spline;
 };
 
 /// Splines that swing out far beyond their samples: by more than the distance of an approach and more than
 /// the distance of the two samples.
 struct Overshoots {
-  std::size_t tracks = 0;  ///< how many have one
-  std::string id;          ///< of the largest
-  double size = 0.0;       ///< how far from the straight line between the two samples
-  double time = 0.0;       ///< of the first of the two samples
+  std::size_t tracks = 0;  ///< number of tracks with an overshoot
+  std::string id;          ///< id of the track with the largest
+  double size = 0.0;       ///< distance from the straight line between the two samples
+  double time = 0.0;       ///< time of the first of the two samples
 };
 
 struct TrackScene {

@@ -11,12 +11,12 @@ namespace kinesphere::program {
 
 struct OpenedFile {
   std::string name;     ///< for a person: without its folder; of several files the first, and how many more
-  std::string content;  ///< what is served
+  std::string content;  ///< served bytes
 };
 
 /// Empty, or a recording, or tables.
 struct OpenedFiles {
-  std::optional<OpenedFile> recording;  ///< of a world; its bytes, unpacked if they were gzipped
+  std::optional<OpenedFile> recording;  ///< recording of a world, unpacked if it was gzipped
   std::optional<OpenedFile> tracks;     ///< tables of positions, as track_table() makes of them
 
   /// {"recording": name or null, "tracks": name or null}

@@ -37,7 +37,7 @@ std::unique_ptr<AlertOutput> make_alert_lines();
 struct ToldBefore {
   AlertsPlace place{};
   bool was_here = false;       ///< in the file of this name
-  bool is_told_again = false;  ///< what came behind that place
+  bool is_told_again = false;  ///< true if alerts behind that place will come again
 };
 /// Writes alerts to a file at once; no other program may write to it meanwhile. Keeps the alerts of an
 /// earlier run up to its snapshot and cuts off the rest, which will be written again. Refuses a file with

@@ -49,7 +49,7 @@ enum class CsvUnit { none, time, length, speed };
 struct CsvKeyName {
   std::string_view name;
   CsvUnit unit = CsvUnit::none;
-  std::array<std::string_view, 4> others{};  ///< what a header may call it: lower case letters and digits
+  std::array<std::string_view, 4> others{};  ///< other names in headers, in lower case letters and digits
 };
 
 /// In the order of CsvKey.

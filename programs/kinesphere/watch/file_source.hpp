@@ -51,7 +51,7 @@ class FileSource final : public ReportSource {
   std::unique_ptr<Inflater> inflater_;
   std::string beginning_;            ///< unpacked
   std::optional<StreamPlace> from_;  ///< until what an earlier run has read is passed over
-  std::uint64_t to_pass_over_ = 0;   ///< of it, bytes
+  std::uint64_t to_pass_over_ = 0;   ///< bytes to skip
 };
 
 }  // namespace kinesphere::program

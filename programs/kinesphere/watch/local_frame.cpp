@@ -27,7 +27,7 @@ class LocalFrame::Projector {
  public:
   struct Point {
     double x = 0, y = 0;
-    double azimuth = 0;           ///< of the way from the origin, where it arrives
+    double azimuth = 0;           ///< azimuth of the way from the origin at its end
     double reciprocal_scale = 0;  ///< m / r
   };
   Point forward(double latitude, double longitude, const Vec3& geographic) const {

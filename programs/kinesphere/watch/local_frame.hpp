@@ -68,7 +68,7 @@ class LocalFrame {
 
   struct Placed {
     State state;
-    double velocity_error = 0.0;  ///< what the transformation of the velocity adds
+    double velocity_error = 0.0;  ///< added by the transformation of the velocity
   };
   /// Degrees east and north, and metres of height (if known) in a Vec3. The velocity may have been measured
   /// up to that distance from the position. Returns nothing for a place beyond the radius.

@@ -10,9 +10,9 @@ namespace kinesphere::program {
 
 struct Record {
   std::string_view text;   ///< valid until the next call; without the end of its line
-  std::size_t line = 0;    ///< where it begins, from 1
+  std::size_t line = 0;    ///< first line, counted from 1
   bool is_whole = true;    ///< otherwise it ends too early, or is longer than what is read
-  std::size_t behind = 0;  ///< so many bytes have been fed since it began
+  std::size_t behind = 0;  ///< bytes fed since its begin
 };
 
 /// Cuts records. In JSON each outermost object is a record; a line end or nothing may separate two. A
@@ -58,9 +58,9 @@ class RecordCutter {
 
   Kind kind_;
   std::string text_;
-  std::size_t begin_ = 0;  ///< of the record
-  std::size_t at_ = 0;     ///< what lies before has been looked at
-  std::size_t line_ = 1;   ///< of begin_
+  std::size_t begin_ = 0;  ///< begin of the record
+  std::size_t at_ = 0;     ///< end of the examined text
+  std::size_t line_ = 1;   ///< line of begin_
   bool skips_line_ = false;
   // Depth of nested braces in a document.
   int depth_ = 0;

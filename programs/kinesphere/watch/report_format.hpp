@@ -55,7 +55,7 @@ struct FormatDefaults {
 FormatDefaults defaults_of(StreamFormat format);
 
 struct FormatChoices {
-  std::string columns;  ///< of csv: id=...,time=...
+  std::string columns;  ///< for csv: id=...,time=...
   enum class Altitude { barometric, geometric } altitude = Altitude::barometric;
   enum class PositionBound {
     containment_radius,

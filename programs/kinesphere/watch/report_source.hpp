@@ -16,7 +16,7 @@ namespace kinesphere::program {
 struct StreamPlace {
   std::string stream;          ///< its name
   std::uint64_t position = 0;  ///< in it: bytes, as they are when unpacked, or messages
-  std::uint32_t check = 0;     ///< of which stream this is, where it can be read again; else 0
+  std::uint32_t check = 0;     ///< identifies a stream that can be read again; else 0
 };
 
 class ReportSource {

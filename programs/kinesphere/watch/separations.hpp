@@ -10,7 +10,7 @@
 namespace kinesphere::program {
 
 struct NamedSeparation {
-  std::string name;  ///< as it was given
+  std::string name;  ///< spelled like in the option
   Separation separation;
 };
 

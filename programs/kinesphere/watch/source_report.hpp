@@ -19,7 +19,7 @@ struct DeclaredError {
 
 /// Lengths and times are in the units of the stream: metres and seconds if it has units.
 struct SourceReport {
-  std::string_view id{};              ///< as the stream spells it; valid during the call
+  std::string_view id{};              ///< the stream's spelling; valid during the call
   FileTime stamp{};                   ///< when it was so, in seconds
   std::optional<FileTime> arrival{};  ///< when it came in, where the stream says so
   TimeKind time_kind = TimeKind::number;
@@ -29,7 +29,7 @@ struct SourceReport {
   bool has_height = false;
   /// x, y, z; if geographic, eastward, northward and upward.
   std::optional<Vec3> velocity{};
-  bool has_climb = false;  ///< whether the velocity's z is known
+  bool has_climb = false;  ///< true if the velocity's z is known
 
   // Error bounds from the stream; options supply the absent ones.
   std::optional<DeclaredError> position_error{};  ///< horizontal; without a height error, in all directions

@@ -19,7 +19,7 @@ class StreamClock {
  public:
   enum class Source {
     stamps,    ///< times of the reports
-    arrivals,  ///< times at which they came in, as one clock tells them
+    arrivals,  ///< arrival times by one clock
   };
 
   /// The complete state.

@@ -22,9 +22,9 @@ struct WatchSnapshot {
   std::string format;
   StreamPlace place;
   RecordCutter::Line line;  ///< at that place
-  nlohmann::json reader;    ///< what the format keeps
+  nlohmann::json reader;    ///< state of the format
   nlohmann::json watcher;
-  std::string alerts;  ///< where they go: the whole path of a file, or an address
+  std::string alerts;  ///< destination: the absolute path of a file, or an address
   AlertsPlace alerts_place{};
 };
 

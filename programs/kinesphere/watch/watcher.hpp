@@ -111,10 +111,10 @@ class Watcher final : public ReportSink {
   bool is_geographic_ = false;
   int dimensions_ = 3;
   TrackNames names_;
-  std::set<TrackId> dropped_;  ///< of which has not been told yet that they leave
+  std::set<TrackId> dropped_;  ///< dropped tracks without an alert so far
   WatchCounts counts_;
   std::size_t line_ = 0;
-  std::set<std::string, std::less<>> declarations_;  ///< of a snapshot
+  std::set<std::string, std::less<>> declarations_;  ///< texts restored from a snapshot
 };
 
 }  // namespace kinesphere::program

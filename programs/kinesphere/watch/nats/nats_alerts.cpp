@@ -81,8 +81,8 @@ class NatsAlerts final : public AlertOutput {
   };
   struct Share {
     std::string subject;
-    Told next{};                      ///< that of the alert that is being told
-    Told last{};                      ///< that of the last one that has been told, by whomever
+    Told next{};                      ///< origin of the alert being sent
+    Told last{};                      ///< origin of the last alert, from any sender
     std::uint64_t last_sequence = 0;  ///< its number in the stream of alerts
   };
 

@@ -259,13 +259,13 @@ class NatsStreamSource final : public ReportSource {
   bool keeps_time_;
   NatsSubscription subscription_;
   natsMsgList fetched_{};
-  std::size_t taken_ = 0;  ///< of them
+  std::size_t taken_ = 0;  ///< number of fetched messages already taken
   MessageText text_;
   FileTime arrival_{};
-  std::int64_t created_ = 0;     ///< when the stream was made
-  std::string waits_for_;        ///< as it was told; empty for the next message alone
+  std::int64_t created_ = 0;     ///< creation time of the stream
+  std::string waits_for_;        ///< last warning about waiting; empty while only the next message is missing
   std::uint64_t position_ = 0;   ///< sequence number of the last message
-  std::uint64_t delivered_ = 0;  ///< by this consumer
+  std::uint64_t delivered_ = 0;  ///< messages delivered by this consumer
   Clock::time_point last_message_ = Clock::now(), last_look_ = Clock::now();
 };
 
