@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Sets up what is missing, builds the fuzzers and runs each for this many seconds (default 60) from its corpus in
-# tests/fuzz/corpus. Inputs that reach code which the corpus does not reach are added to it. Fails when a fuzzer finds a
-# failure, and keeps that input in build/fuzz/.
+# Installs missing packages, builds the fuzzers and runs each for this many seconds (default 60) from its corpus in
+# tests/fuzz/corpus. Adds inputs that reach new code to the corpus. Fails if a fuzzer finds a failure, and keeps that input
+# in build/fuzz/.
 # Usage: fuzz.sh [seconds]
 set -euo pipefail
 

@@ -1,9 +1,8 @@
 #!/usr/bin/env bash
-# Runs one scene with the library built by both compilers, at several optimisation levels and with sanitizers,
-# and fails unless all of them, and the build of tests/same_hash/scene_hash.cpp given, find the same events bit for bit,
-# and go through a recording of that build without diverging. The same again for a user of each of them who compiles its
-# headers in ways that change rounding, without inlining, so that copies of inline functions are left for the linker to
-# choose from.
+# Runs one scene with the library built by both compilers, at several optimisation levels and with sanitizers. Fails unless
+# all of them, and the given build of tests/same_hash/scene_hash.cpp, have equal events bit for bit, and replay a recording
+# of that build without a divergence. Repeats this for a user of each build who compiles the headers in ways that change
+# rounding, without inlining, so that the linker chooses among copies of inline functions.
 # Usage: same_hash.sh <the executable scene_hash> [<name of a build>]
 #   With a name only that build is made, on one core.
 set -euo pipefail

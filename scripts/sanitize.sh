@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the engine's tests with a sanitizer and runs them but for the longest: ten minutes of processor
-# time with the build. All tests: KINESPHERE_PRESET=tsan scripts/test.sh. Further arguments are passed on to ctest.
+# Builds the engine's tests with a sanitizer and runs all but the longest: ten minutes of processor time with the build.
+# For all tests: KINESPHERE_PRESET=tsan scripts/test.sh. Further arguments are passed on to ctest.
 # Usage: sanitize.sh asan | tsan [arguments of ctest]
 set -euo pipefail
 

@@ -1,8 +1,7 @@
-// Checkpoints of a distributed run: a folder with a numbered folder for each, in which there are
-//   part-<rank>   what DistributedWorld::save() has given on that rank
-//   run.json      what else is needed to go on, with a checksum
-// One that is being written is called <number>.tmp, and one from which no world could be restored
-// <number>.refused.
+// Checkpoints of a distributed run: a folder with a numbered folder for each, which contains
+//   part-<rank>   the bytes of DistributedWorld::save() on that rank
+//   run.json      the rest of the run's state, with a checksum
+// An incomplete checkpoint is called <number>.tmp, and one that could not be restored <number>.refused.
 #pragma once
 
 #include <array>

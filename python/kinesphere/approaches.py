@@ -73,7 +73,7 @@ def tracks(
     """Finds every time that two bodies of a recording were closer to each other than `distance` (length).
 
     t, x, y, z: shape (n,), a sample in each row, in any order; z is None for motion in a plane. id: shape
-    (n,), whole numbers or texts, says whose sample it is. Times and coordinates may be large (Unix times,
+    (n,), whole numbers or texts, identifies the body of each sample. Times and coordinates may be large (Unix times,
     UTM): they are calculated from origins near them.
 
     interpolate: between two samples a body goes along a natural cubic spline, or straight on ("linear").

@@ -1,10 +1,9 @@
 #!/usr/bin/env bash
-# Installs a build of the library into a temporary folder, moves it, and builds the project beside this
-# script against it: through find_package, and through pkg-config. Whatever flags its user compiles with, none is
-# forced upon it and the library's results are the same as those of this build. What is installed of headers is those of
-# include/ and the version. Without options the library alone would be built, with nothing but a compiler and Google Highway.
-# Where the component mpi was built, the project in mpi/ is built against it and run as one rank; where it was not, whoever
-# asks for it is told so, and its headers are not installed.
+# Installs a build of the library into a temporary folder, moves it, and builds the project next to this script against it:
+# through find_package, and through pkg-config. For all compiler flags of the user, the library adds none, and its results
+# equal those of this build. Only the headers of include/ and the version are installed. Without options the library alone
+# is built, with nothing but a compiler and Google Highway. If the component mpi was built, the project in mpi/ is built
+# against it and run as one rank; otherwise find_package reports that it is missing, and its headers are not installed.
 # Usage: run.sh <build folder> <library folder under the prefix> <compiler> <compiler flags> <executable scene_hash>
 #   <1 with the component mpi, 0 without>
 set -euo pipefail

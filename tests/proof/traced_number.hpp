@@ -1,9 +1,8 @@
-// A number that records what is done with it, so that a function of the library can be written down as a
-// term.
+// A number that records its operations, so that a function of the library can be written down as a term.
 //
-// Operations make nodes of a graph; equal ones are one node. A comparison has to be decided: term_of() runs
-// the function once for each way through it, so that the term has all of them, as `if ... then ... else`.
-// What the compiler makes of the order in which operands are computed does not show.
+// Operations make nodes of a graph; equal ones are one node. A comparison needs a decision: term_of() runs
+// the function once for each way through it, so that the term has all of them, as `if ... then ... else`. The
+// order in which the compiler evaluates operands has no effect.
 #pragma once
 
 #include <cctype>

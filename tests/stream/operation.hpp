@@ -1,8 +1,8 @@
-// Bytes to operations on a world: any bytes are a stream, so that a fuzzer may write them.
+// Turns bytes into operations on a world: any bytes are a stream, so that a fuzzer may write them.
 //
 // A stream is a header of 5 bytes, which chooses the kind of world, and records of 12 bytes, one for each
-// operation; what is missing of the last is zero. As all records are of one size, leaving one out leaves the
-// others what they are.
+// operation; missing bytes of the last are zero. All records have one size, so removing one leaves the others
+// unchanged.
 #pragma once
 
 #include <array>

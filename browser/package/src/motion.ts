@@ -254,9 +254,9 @@ export interface FrameViolation {
  *     // each frame, after the game has moved its bodies:
  *     frames.push(positions);
  *     for (const event of world.events(frames.latestTime, frames)) ...
- *     positions.set(frames.latest());  // where changes at events have left the bodies
+ *     positions.set(frames.latest());  // includes changes at events
  *
- * A velocity that is changed at an event is told to both: frames.setVelocity(body, event.time, velocity) and
+ * To change a velocity at an event, call frames.setVelocity(body, event.time, velocity) and
  * world.setVelocity(body, velocity).
  */
 export class Frames extends Motion {

@@ -1,6 +1,5 @@
-// What the page looks like, held coarsely against pictures that were looked at: pictures.json has the mean colours of
-// the squares of a grid. KINESPHERE_PICTURES=FOLDER writes the pictures there, and pictures.json anew: look at them
-// before it is committed.
+// Compares pictures of the page coarsely with checked ones: pictures.json has the mean colours of the squares of a grid.
+// KINESPHERE_PICTURES=FOLDER writes the pictures there, and a new pictures.json: look at them before it is committed.
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";

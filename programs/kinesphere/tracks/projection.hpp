@@ -30,15 +30,15 @@ enum class ProjectionChoice {
   earth,
 };
 
-/// A projection around the middle of these points.
+/// Returns a projection around the middle of these points.
 ///
 /// Plane: azimuthal equidistant. Distances from the middle are true; no other is too short, and none is too
 /// long by more than description() says. Heights are kept as z.
 /// Earth: the Earth's space, turned so that z goes up in the middle. Distances are true, in a straight line
 /// (through the ground, which makes 10 km a millimetre shorter). Motion is 3D.
 ///
-/// `has_heights` says whether points have heights above the ground, which make `automatic` choose earth.
-/// Throws ProgramError without GeographicLib, and when a plane is asked for points around the whole Earth.
+/// `has_heights`: the points have heights above the ground; `automatic` then chooses earth. Throws
+/// ProgramError without GeographicLib, and for a plane with points around the whole Earth.
 std::shared_ptr<const Projection> project(std::span<const Vec3> geographic, bool has_heights,
                                           ProjectionChoice choice);
 

@@ -263,7 +263,7 @@ class NatsStreamSource final : public ReportSource {
   MessageText text_;
   FileTime arrival_{};
   std::int64_t created_ = 0;     ///< creation time of the stream
-  std::string waits_for_;        ///< last warning about waiting; empty while only the next message is missing
+  std::string waits_for_;        ///< last warning shown; empty after a message
   std::uint64_t position_ = 0;   ///< sequence number of the last message
   std::uint64_t delivered_ = 0;  ///< messages delivered by this consumer
   Clock::time_point last_message_ = Clock::now(), last_look_ = Clock::now();
