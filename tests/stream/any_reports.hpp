@@ -22,8 +22,8 @@ struct WatchedSky {
 
 /// The bytes choose a definition, the true motion of up to six tracks, and a course: reports that are noisy,
 /// late, early, repeated, without velocities or wrong, with plans and with inexact timestamps; times to
-/// advance to, with and without a poll; snapshots taken and restored. Cost: about a millisecond for a thousand
-/// bytes.
+/// advance to, with and without a poll; snapshots taken and restored. Cost: about a millisecond for a
+/// thousand bytes.
 WatchedSky watch_sky(std::span<const std::uint8_t> bytes);
 
 }  // namespace kinesphere::watched_sky
