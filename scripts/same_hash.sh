@@ -3,20 +3,25 @@
 # all of them, and the given build of tests/same_hash/scene_hash.cpp, have equal events bit for bit, and replay a recording
 # of that build without a divergence. Repeats this for a user of each build who compiles the headers in ways that change
 # rounding, without inlining, so that the linker chooses among copies of inline functions.
-# Usage: same_hash.sh <the executable scene_hash> [<name of a build>]
-#   With a name only that build is made, on one core.
+# Usage: same_hash.sh [<the executable scene_hash> [<name of a build>]]
+#   Without an executable, builds the one of the preset ci. With a name, makes that build only, on one core.
 set -euo pipefail
 
-scene_hash=$(realpath "$1")
+if [[ $# -gt 0 ]]; then scene_hash=$(realpath "$1"); fi
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+if [[ $# == 0 ]]; then
+  cmake --preset ci
+  cmake --build --preset ci --target scene_hash
+  scene_hash=$PWD/build/ci/tests/scene_hash
+fi
 
 # Name, compiler and flags of each build, besides the given one: both compilers with all features of this processor
 # (-march=native enables fused multiply-add and wider vectors), once as a shared library; and one without optimisation,
 # with sanitizers.
 configurations=(
   "clang-O0-sanitized clang++ -O0 -fsanitize=address,undefined -fno-sanitize-recover=all"
-  "gcc-O3-native-shared g++ -O3 -DNDEBUG -march=native"
-  "clang-O3-native clang++ -O3 -DNDEBUG -march=native"
+  "gcc-O3-native g++ -O3 -DNDEBUG -march=native"
+  "clang-O3-native-shared clang++ -O3 -DNDEBUG -march=native"
 )
 
 foreign_flags=(-std=c++20 -O2 -fno-inline -ffp-contract=fast)

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <string>
 
-#include "research/rivals/detector_table.hpp"
 #include "simulation/scene/make_scene.hpp"
 
 namespace kinesphere::scene_tests::pile_test {

@@ -231,7 +231,7 @@ export async function load(options: LoadOptions = {}): Promise<void> {
   loaded ??= module;
 }
 
-/** Returns the library's version, such as "0.2.0". */
+/** Returns the library's version, such as "0.3.0". */
 export function version(): string {
   const module = theModule();
   return module.text(module.call("library_version"));
